@@ -18,8 +18,8 @@ use crate::support::derivatives::derivatives;
 use crate::support::jointed::{holds, turns};
 use crate::support::{cams, config};
 use crate::{
-    ball_screw, disc_cam, four_bar, geneva, hoist, inverted_slider_crank, parallel_shafts,
-    planetary, rack, scotch_yoke, six_link, toggle_press,
+    ball_screw, disc_cam, four_bar, geneva, hoist, indexing_cam, inverted_slider_crank,
+    parallel_shafts, planetary, rack, scotch_yoke, six_link, toggle_press,
 };
 
 /// The tests of one mechanism: its machines, ranges of φ, ω and α, number of cases and seed, and the places of a turn in
@@ -72,6 +72,10 @@ conforms!(
     // One angle anywhere, one in or close to the engagement.
     prop_oneof![-60.0..60.0_f64, (-10..10_i32, -1.3..1.3_f64).prop_map(|(turn, near)| near + TAU * f64::from(turn))],
     -15.0..15.0_f64, -100.0..100.0_f64, 400 from 43, 2000
+);
+conforms!(
+    indexers: indexing_cam::machines(),
+    -60.0..60.0_f64, -15.0..15.0_f64, -100.0..100.0_f64, 400 from 49, 2000
 );
 conforms!(
     six_links: six_link::spec().prop_map(|spec| spec.machine()),

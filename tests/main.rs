@@ -30,6 +30,7 @@ mod image;
 mod image_damage;
 mod image_refused;
 mod image_slices;
+mod indexing_cam;
 mod inverted_slider_crank;
 mod layers;
 mod layouts;

@@ -1,6 +1,8 @@
 //! Motion laws and moves: ends, continuity, derivatives, and the coefficients of VDI 2143.
 
 use crate::support::{assert_near, budget, config, derivative, largest};
+use std::f64::consts::PI;
+
 use jred::machine::motion::{Law, Move};
 use proptest::prelude::*;
 
@@ -13,8 +15,15 @@ const QUADRATIC: Law = Law::Trapezoid {
     accelerate: 0.5,
     decelerate: 0.5,
 };
-const LAWS: [Law; 8] = [
+/// Sine and cosine of different lengths with a constant part and constant speed.
+const SCCA: Law = Law::SineConstantCosine {
+    sine: 0.2,
+    constant: 0.3,
+    cosine: 0.4,
+};
+const LAWS: [Law; 9] = [
     TRAPEZOID,
+    SCCA,
     Law::Polynomial345,
     Law::Cycloidal,
     Law::ModifiedSine,
@@ -244,11 +253,114 @@ fn coefficients_of_vdi_2143() {
     }
 }
 
+/// Members of the family of sine, constant and cosine acceleration: the traditional laws, value by value, and the figures printed
+/// for others: <http://mechdesigner.support/mt-motion-cam-law-sine-constant-cosine-cv.htm>.
+#[test]
+fn sine_constant_and_cosine_make_the_traditional_laws() {
+    let scca = |sine, constant, cosine| Law::SineConstantCosine {
+        sine,
+        constant,
+        cosine,
+    };
+    for (member, law) in [
+        (scca(0.25, 0.5, 0.25), Law::ModifiedTrapezoid),
+        (scca(0.25, 0.0, 0.75), Law::ModifiedSine),
+        (scca(0.5, 0.0, 0.5), Law::Cycloidal),
+        (scca(0.0, 0.0, 1.0), Law::SimpleSine),
+        (scca(0.0, 1.0, 0.0), QUADRATIC),
+        (
+            scca(0.0, 0.5, 0.0),
+            Law::Trapezoid {
+                accelerate: 0.25,
+                decelerate: 0.25,
+            },
+        ),
+    ] {
+        member.check().unwrap();
+        for z in places(997) {
+            let jumps = law.breaks().into_iter().flatten();
+            if jumps.chain([0.0, 1.0]).any(|b| (z - b).abs() < 1e-9) {
+                continue;
+            }
+            for ((a, b), size) in member.at(z).into_iter().zip(law.at(z)).zip([1.0, 2.0, 9.0]) {
+                assert_near("the same law", a, b, size * budget::LAW_END);
+            }
+            assert_near("jerk", member.jerk(z), law.jerk(z), 90.0 * budget::LAW_END);
+        }
+        let [a, b] = [member, law].map(Law::characteristic);
+        assert_near(
+            "C_v",
+            a.velocity,
+            b.velocity,
+            budget::CLOSED_FORM * b.velocity,
+        );
+        let size = budget::CLOSED_FORM * b.acceleration;
+        assert_near("C_a", a.acceleration, b.acceleration, size);
+        let size = budget::CLOSED_FORM * b.dynamic_torque;
+        assert_near("C_Mdyn", a.dynamic_torque, b.dynamic_torque, size);
+        assert_eq!(a.jerk.is_some(), b.jerk.is_some());
+        let [a, b] = [a, b].map(|found| found.jerk.unwrap_or(0.0));
+        assert_near("C_j", a, b, budget::CLOSED_FORM * b);
+    }
+    for (law, [velocity, acceleration]) in [
+        (scca(0.2, 0.0, 0.6), [1.528, 5.999]),
+        (scca(1.0 / 6.0, 0.0, 0.5), [1.404, 6.616]),
+        (scca(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0), [2.0, 4.89]),
+    ] {
+        let found = law.characteristic();
+        assert_near("C_v", found.velocity, velocity, 5e-4);
+        assert_near("C_a", found.acceleration, acceleration, budget::PRINTED);
+    }
+    for (law, words) in [
+        (scca(-0.1, 0.5, 0.5), "sine is -0.1, outside 0 to 1"),
+        (
+            scca(0.5, 0.5, 0.5),
+            "sine + constant + cosine is 1.5, outside 0.01 to 1",
+        ),
+        (
+            scca(0.0, 0.0, 0.0),
+            "sine + constant + cosine is 0, outside 0.01 to 1",
+        ),
+        (scca(0.0, f64::NAN, 0.0), "constant is NaN"),
+    ] {
+        let error = law.check().unwrap_err().to_string();
+        assert!(error.starts_with(words), "{error}");
+    }
+}
+
 proptest! {
     #![proptest_config(config(256, 0x0006))]
 
+    /// Any shares: the extremes of the law are its figures, and it is smooth but at its breaks.
     #[test]
-    fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..8) {
+    fn sine_constant_and_cosine_of_any_shares(parts in [0.02f64..1.0, 0.0f64..1.0, 0.02f64..1.0, 0.0f64..1.0]) {
+        let sum: f64 = parts.iter().sum();
+        let [sine, constant, cosine, _] = parts.map(|part| part / sum);
+        let law = Law::SineConstantCosine { sine, constant, cosine };
+        law.check().unwrap();
+        let at = |z: f64| law.at(z);
+        assert_near("half way", at(0.5)[0], 0.5, budget::LAW_END);
+        let found = law.characteristic();
+        let most = |f: &dyn Fn(f64) -> f64| largest(places(4000).map(f));
+        // Half a step of 1/4000 from the extreme, on a parabola of the law's sharpest curvature.
+        let curved = (PI / sine.min(cosine)).powi(2) / 3.2e7;
+        let share = |what: &str, found: f64, closed: f64| assert_near(what, found / closed, 1.0, curved.max(1e-9));
+        share("C_v", most(&|z| at(z)[1]), found.velocity);
+        share("C_a", most(&|z| at(z)[2]), found.acceleration);
+        share("C_Mdyn", most(&|z| at(z)[1] * at(z)[2]), found.dynamic_torque);
+        let breaks: Vec<f64> = law.breaks().into_iter().flatten().collect();
+        prop_assert!(breaks.is_sorted());
+        for z in breaks {
+            let [before, after] = [at(z - 1e-10), at(z + 1e-10)];
+            let jerk = found.jerk.unwrap();
+            for (k, slope) in [found.velocity, found.acceleration, jerk].into_iter().enumerate() {
+                assert_near("no jump", before[k], after[k], 3e-10 * slope);
+            }
+        }
+    }
+
+    #[test]
+    fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..9) {
         let law = LAWS[which];
         let [single, double] = [law.cast::<f32>().at(z).map(f64::from), law.at(f64::from(z))];
         for (s, d) in single.iter().zip(double) {
@@ -282,7 +394,7 @@ proptest! {
 
     #[test]
     fn moves_scale_their_law(
-        which in 0usize..8, start in -9.0..9.0, distance in -9.0..9.0, duration in 0.1f64..9.0, z in 0f64..1.0,
+        which in 0usize..9, start in -9.0..9.0, distance in -9.0..9.0, duration in 0.1f64..9.0, z in 0f64..1.0,
     ) {
         let law = LAWS[which];
         let travel = Move::<f64>::new(law, start, distance, duration).unwrap();

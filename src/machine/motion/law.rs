@@ -1,6 +1,7 @@
 //! Normalised motion laws for a rise from 0 to 1 in the time 0 to 1 (VDI 2143 Blatt 1, *Bewegungsgesetze für
 //! Kurvengetriebe*, 1980; R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 3).
 
+use super::sine_constant_cosine as scca;
 use crate::math::Real;
 use crate::number::error::RangeError;
 
@@ -37,6 +38,17 @@ pub enum Law<R = f64> {
     /// z − 15/(32π)·sin 2πz − 1/(96π)·sin 6πz (Gutman, first and third harmonic): largest speed 2, largest acceleration
     /// 2π·√(2/3) = 5.130; it excites with two frequencies only.
     Gutman,
+    /// Sine, constant and cosine acceleration (SCCA): shares of the time, in both halves together, in which the acceleration goes up
+    /// by a quarter of a sine, is constant, and comes down by a quarter of a cosine; over the rest, around the middle, the speed is
+    /// constant. Each in [0, 1], together 0.01 to 1. Without a sine or without a cosine the acceleration jumps.
+    SineConstantCosine {
+        /// Share of the sine.
+        sine: R,
+        /// Share of constant acceleration.
+        constant: R,
+        /// Share of the cosine.
+        cosine: R,
+    },
 }
 
 /// The characteristic values of a motion law: a rise h in the time T has at most the speed C_v·h/T, the acceleration
@@ -84,21 +96,40 @@ impl<R: Real> Law<R> {
             Self::Polynomial4567 => Law::Polynomial4567,
             Self::ModifiedTrapezoid => Law::ModifiedTrapezoid,
             Self::Gutman => Law::Gutman,
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => {
+                let [sine, constant, cosine] =
+                    [sine, constant, cosine].map(|share| S::from_f64(share.to_f64()));
+                Law::SineConstantCosine {
+                    sine,
+                    constant,
+                    cosine,
+                }
+            }
         }
     }
 
-    /// Checks the shares of a trapezoid.
+    /// Checks the shares of a law that has them.
     ///
     /// # Errors
-    /// A share outside (0, 1], or the two together above 1.
+    /// A trapezoid with a share outside (0, 1], or the two together above 1; sine, constant part and cosine with a share outside [0, 1],
+    /// or together outside 0.01 to 1.
     #[inline] // so that a law without shares brings no double precision into single-precision firmware
     pub fn check(self) -> Result<(), RangeError> {
-        let Self::Trapezoid {
-            accelerate,
-            decelerate,
-        } = self
-        else {
-            return Ok(());
+        let (accelerate, decelerate) = match self {
+            Self::Trapezoid {
+                accelerate,
+                decelerate,
+            } => (accelerate, decelerate),
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => return scca::check([sine, constant, cosine].map(Real::to_f64)),
+            _ => return Ok(()),
         };
         for (what, share) in [("accelerate", accelerate), ("decelerate", decelerate)] {
             crate::number::error::positive(what, share.to_f64())?;
@@ -118,22 +149,31 @@ impl<R: Real> Law<R> {
 
     /// The places in (0, 1) where a derivative of the law jumps.
     #[must_use]
-    pub fn breaks(self) -> [Option<f64>; 4] {
+    pub fn breaks(self) -> [Option<f64>; 6] {
         match self {
             Self::Trapezoid {
                 accelerate,
                 decelerate,
             } => {
                 let end = R::from_f64(1.0) - decelerate;
-                [Some(accelerate.to_f64()), Some(end.to_f64()), None, None]
+                let [first, last] = [accelerate, end].map(Real::to_f64);
+                [Some(first), Some(last), None, None, None, None]
             }
-            Self::ModifiedSine => [Some(0.125), Some(0.875), None, None],
-            Self::ModifiedTrapezoid => [Some(0.125), Some(0.375), Some(0.625), Some(0.875)],
+            Self::ModifiedSine => [Some(0.125), Some(0.875), None, None, None, None],
+            Self::ModifiedTrapezoid => {
+                let [a, b, c, d] = [0.125, 0.375, 0.625, 0.875].map(Some);
+                [a, b, c, d, None, None]
+            }
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => scca::breaks([sine, constant, cosine].map(Real::to_f64)),
             Self::Polynomial345
             | Self::Polynomial4567
             | Self::Cycloidal
             | Self::SimpleSine
-            | Self::Gutman => [None; 4],
+            | Self::Gutman => [None; 6],
         }
     }
 
@@ -193,6 +233,11 @@ impl<R: Real> Law<R> {
                 Some(6.0 * PI * PI),
                 8.124_857_839_101_943,
             ),
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => return scca::characteristic([sine, constant, cosine].map(Real::to_f64)),
         };
         Characteristic {
             velocity,
@@ -239,6 +284,14 @@ impl<R: Real> Law<R> {
             }),
             Self::Polynomial4567 => mirrored(z, polynomial_4567),
             Self::ModifiedTrapezoid => mirrored(z, modified_trapezoid),
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => {
+                let half = scca::Half::new([sine, constant, cosine]);
+                mirrored(z, |z| half.at(z))
+            }
             Self::Gutman => mirrored(z, |z| {
                 use core::f64::consts::PI;
                 // sin 3x = sin x·(3 − 4·sin² x), cos 3x = cos x·(4·cos² x − 3).
@@ -290,6 +343,11 @@ impl<R: Real> Law<R> {
                     c(0.0)
                 }
             }
+            Self::SineConstantCosine {
+                sine,
+                constant,
+                cosine,
+            } => scca::Half::new([sine, constant, cosine]).jerk(z),
             Self::Gutman => {
                 let (sin, cos) = (c(2.0 * PI) * z).sin_cos();
                 c(3.0 * PI * PI) * cos * (c(2.0) - c(3.0) * sin * sin)
@@ -300,7 +358,7 @@ impl<R: Real> Law<R> {
 
 /// 1 − cos x and sin x, by the half angle: near a rest 1 − cos x itself would be rounded to zero, and a machine that moves a
 /// little would count as one that stands, without friction.
-fn versine<R: Real>(x: R) -> [R; 2] {
+pub(super) fn versine<R: Real>(x: R) -> [R; 2] {
     let c = R::from_f64;
     let (sin, cos) = (c(0.5) * x).sin_cos();
     [c(2.0) * sin * sin, c(2.0) * sin * cos]

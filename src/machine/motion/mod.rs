@@ -2,6 +2,7 @@
 
 mod law;
 mod polynomial;
+mod sine_constant_cosine;
 
 pub use law::{Characteristic, Law};
 pub use polynomial::{End, Polynomial};

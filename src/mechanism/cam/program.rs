@@ -158,10 +158,7 @@ impl Program {
     /// The pieces of the turn over which s is smooth, in order.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + Clone + '_ {
         self.segments.iter().flat_map(|placed| {
-            let breaks = match placed.segment.shape {
-                Shape::Law(law) => law.breaks(),
-                Shape::Dwell | Shape::Polynomial { .. } => [None; 4],
-            };
+            let breaks = placed.segment.breaks();
             let at = move |z: f64| placed.from + z * placed.segment.angle;
             let ends = breaks.into_iter().flatten().chain(core::iter::once(1.0));
             ends.scan(0.0, move |from, to| {

@@ -102,6 +102,14 @@ impl Segment {
         }
     }
 
+    /// The shares of its angle at which a derivative jumps, but its ends.
+    pub(in crate::mechanism) fn breaks(&self) -> [Option<f64>; 6] {
+        match self.shape {
+            Shape::Law(law) => law.breaks(),
+            Shape::Dwell | Shape::Polynomial { .. } => [None; 6],
+        }
+    }
+
     /// s′ at the start and at the end.
     pub(super) const fn end_speeds(&self) -> [f64; 2] {
         match self.shape {
@@ -111,7 +119,7 @@ impl Segment {
     }
 
     /// The displacement from the segment's start at the share z (0 to 1) of its angle.
-    pub(super) fn at(&self, z: f64) -> Transfer {
+    pub(in crate::mechanism) fn at(&self, z: f64) -> Transfer {
         let (angle, rise) = (self.angle, self.rise);
         let [s, v, a, j] = match self.shape {
             Shape::Dwell => return Transfer::constant(0.0),

@@ -26,6 +26,7 @@ fn a_drive_is_found() {
         "four-bar.toml",
         "geneva.toml",
         "hoist.toml",
+        "indexing-cam.toml",
         "parallel-shafts.toml",
         "planetary.toml",
         "rack.toml",

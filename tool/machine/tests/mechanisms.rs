@@ -6,6 +6,7 @@ mod disc_cam;
 mod four_bar;
 mod geneva;
 mod hoist;
+mod indexing_cam;
 mod inverted_slider_crank;
 mod parallel_shafts;
 mod planetary;

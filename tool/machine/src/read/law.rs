@@ -3,12 +3,13 @@
 use jred::machine::motion::Law;
 
 use crate::number::rounding::figure;
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::SHARE;
 
 /// The motion laws, as machine files write them.
-pub(super) const LAWS: [&str; 9] = [
+pub(super) const LAWS: [&str; 10] = [
     "trapezoid",
     "polynomial-345",
     "cycloidal",
@@ -18,6 +19,7 @@ pub(super) const LAWS: [&str; 9] = [
     "simple-sine",
     "parabola",
     "gutman",
+    "sine-constant-cosine",
 ];
 
 /// The law of a segment, with the shares of a trapezoid.
@@ -64,6 +66,39 @@ pub(super) fn read(section: &Section) -> Result<Law> {
             accelerate: 0.5,
             decelerate: 0.5,
         },
-        _ => Law::Gutman,
+        8 => Law::Gutman,
+        _ => sine_constant_cosine(section, &law)?,
     })
+}
+
+/// The shares of sine, constant part and cosine; none if not given.
+fn sine_constant_cosine(section: &Section, law: &Item) -> Result<Law> {
+    let (mut shares, mut place) = ([0.0; 3], law.span());
+    for (key, share) in ["sine", "constant", "cosine"].into_iter().zip(&mut shares) {
+        if let Some(value) = section.optional(key, &SHARE)? {
+            place = value.span();
+            *share = if value.si > 0.0 {
+                value.up_to(1.0)?
+            } else {
+                value.not_negative()?
+            };
+        }
+    }
+    let [sine, constant, cosine] = shares;
+    let made = Law::SineConstantCosine {
+        sine,
+        constant,
+        cosine,
+    };
+    if made.check().is_ok() {
+        return Ok(made);
+    }
+    let sum = shares.iter().sum::<f64>() * 100.0;
+    Err(Problem::new(format!(
+        "`sine`, `constant` and `cosine` in {} add up to {} % of the duration",
+        section.title(),
+        figure(sum)
+    ))
+    .at(place, if sum > 50.0 { "too large" } else { "too small" })
+    .help("write shares that add up to 1 % to 100 %, such as sine = \"25 %\", constant = \"50 %\", cosine = \"25 %\"; over the rest the speed is constant"))
 }

@@ -7,7 +7,12 @@ use crate::reading::machine;
 
 #[test]
 fn segments_have_the_values_of_their_laws() {
-    let laws: [(&str, Law); 7] = [
+    let scca = Law::SineConstantCosine {
+        sine: 0.2,
+        constant: 0.1,
+        cosine: 0.6,
+    };
+    let laws: [(&str, Law); 8] = [
         ("polynomial-345", Law::Polynomial345),
         ("polynomial-4567", Law::Polynomial4567),
         ("cycloidal", Law::Cycloidal),
@@ -15,6 +20,10 @@ fn segments_have_the_values_of_their_laws() {
         ("modified-trapezoid", Law::ModifiedTrapezoid),
         ("simple-sine", Law::SimpleSine),
         ("gutman", Law::Gutman),
+        (
+            "sine-constant-cosine\"; sine = \"20 %\"; constant = 0.1; cosine = \"60 %",
+            scca,
+        ),
     ];
     for (name, law) in laws {
         let segment = format!("law = \"{name}\"; move = \"-120 deg\"; duration = \"0.35 s\"");

@@ -6,6 +6,7 @@ mod four_bar;
 mod friction_drive;
 mod geneva;
 mod hoist;
+mod indexing_cam;
 mod inverted_slider_crank;
 mod linkage;
 mod parallel_shafts;
@@ -42,6 +43,7 @@ const SCOTCH_YOKE: &str = "scotch-yoke";
 const INVERTED_SLIDER_CRANK: &str = "inverted-slider-crank";
 const FRICTION_DRIVE: &str = "friction-drive";
 const GENEVA: &str = "geneva";
+const INDEXING_CAM: &str = "indexing-cam";
 const DISC_CAM: &str = "disc-cam";
 const FOUR_BAR: &str = "four-bar";
 const SIX_LINK: &str = "six-link";
@@ -65,7 +67,7 @@ type Reader = fn(&Section) -> Result<AnyMechanism>;
 type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
 /// Every type with all its keys besides those of every type, where they do not depend on others, and its reader.
-const TYPES: [(&str, &[&str], Reader); 22] = [
+const TYPES: [(&str, &[&str], Reader); 23] = [
     (
         SLIDER_CRANK,
         &["branch", "offset", "crank", "rod", "slider"],
@@ -155,6 +157,7 @@ const TYPES: [(&str, &[&str], Reader); 22] = [
         traction::read_feed_roll,
     ),
     (ROTARY_TABLE, &["table", "parts"], rotary_table::read),
+    (INDEXING_CAM, &[], indexing_cam::read),
     (WINDER, &["core", "web", "full_diameter"], winder::read),
 ];
 

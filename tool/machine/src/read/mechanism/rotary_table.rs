@@ -15,6 +15,17 @@ use crate::units::kind::{INERTIA, LENGTH, MASS};
 const MOST_PARTS: u32 = 1000;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let mechanism = DriveLinkAlone::new(Domain::Turn, false, read_table(section)?);
+    Ok(AnyMechanism::new(
+        super::ROTARY_TABLE,
+        mechanism,
+        ["table"],
+        ["table bearing"],
+    ))
+}
+
+/// A table with its parts, balanced.
+pub(super) fn read_table(section: &Section) -> Result<Link> {
     let table = section.section("table")?;
     let mut mass = parts::mass(&table)?;
     let mut inertia = match (table.get("diameter"), table.get("inertia")) {
@@ -45,14 +56,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         inertia,
         com: [0.0, 0.0],
     };
-    let link = Link::new(properties).map_err(|error| core(section, error))?;
-    let mechanism = DriveLinkAlone::new(Domain::Turn, false, link);
-    Ok(AnyMechanism::new(
-        super::ROTARY_TABLE,
-        mechanism,
-        ["table"],
-        ["table bearing"],
-    ))
+    Link::new(properties).map_err(|error| core(section, error))
 }
 
 /// Mass (kg) and moment of inertia about the table's axis (kg·m²) of equal parts, spread evenly over a pitch circle.

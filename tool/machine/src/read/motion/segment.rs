@@ -188,6 +188,9 @@ fn explain(key: &str, limited: bool) -> Option<&'static str> {
             Some("shares of a duration are for a trapezoid whose duration is given")
         }
         "accelerate" | "decelerate" => Some("only the law \"trapezoid\" uses these shares"),
+        "sine" | "constant" | "cosine" => {
+            Some("only the law \"sine-constant-cosine\" uses these shares")
+        }
         "duration" if limited => Some("the duration follows from the limits"),
         "speed" => Some("a speed is for the law \"constant-speed\""),
         "start_speed" | "end_speed" => Some(

@@ -118,6 +118,9 @@ fn segment<'a>(
     };
     section.finish_with(|key| match key {
         "accelerate" | "decelerate" => Some("only the law \"trapezoid\" uses these shares"),
+        "sine" | "constant" | "cosine" => {
+            Some("only the law \"sine-constant-cosine\" uses these shares")
+        }
         "start_velocity" | "end_velocity" | "start_acceleration" | "end_acceleration" => {
             Some("only the law \"polynomial-5\" uses these end values")
         }
