@@ -1,6 +1,7 @@
 //! The one test program of the package.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
+mod benchmarks;
 mod brute;
 mod bus;
 mod catalogue;
