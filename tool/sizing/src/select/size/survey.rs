@@ -5,6 +5,9 @@ use super::order::Certainty;
 use crate::judge::Outcome;
 use jred_machine::model::rule::Rule;
 
+/// Drives that there is room for at once.
+const AT_ONCE: usize = 192;
+
 /// Counts of drives that fit, kept while drives are checked.
 #[derive(Clone, Debug)]
 pub(super) struct Survey<'c> {
@@ -99,6 +102,10 @@ impl<'c> Class<'c> {
             self.smallest.clear();
         }
         if self.least == Some(size) {
+            // As many as the gearboxes that a motor has in most catalogues, at once.
+            if self.smallest.capacity() == 0 {
+                self.smallest.reserve(AT_ONCE.max(drives.len()));
+            }
             self.smallest.extend_from_slice(drives);
         }
     }
