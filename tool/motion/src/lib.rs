@@ -3,7 +3,11 @@
 //! Between `jred-sizing`, which knows what a drive can do, and `jred-report`. `jred-machine` says what a *given* motion asks of
 //! the drive; here the motion itself is what is sought. Results are data; nothing is printed.
 //!
-//! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion.
+//! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion;
+//! 2. [`moves`]: what a prescribed motion is made of, moves and pauses;
+//! 3. [`trace`]: a motion that was made, and the files that it becomes.
 #![forbid(unsafe_code)]
 
+pub mod moves;
+pub mod trace;
 pub mod way;

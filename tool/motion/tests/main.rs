@@ -1,6 +1,8 @@
 //! The one test program of the package.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
+mod moves;
 #[path = "../../support/mod.rs"]
 mod support;
+mod trace;
 mod way;
