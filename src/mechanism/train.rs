@@ -123,6 +123,11 @@ impl Stage {
     pub const fn efficiency(&self) -> f64 {
         self.efficiency
     }
+
+    /// Inertias of the driver's and of the driven side (kg·m²).
+    pub const fn inertias(&self) -> [f64; 2] {
+        [self.driver, self.driven]
+    }
 }
 
 /// A chain of stages, from the drive link (shaft 0) to the output shaft. An empty train is a direct coupling.

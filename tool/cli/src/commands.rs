@@ -2,6 +2,7 @@
 
 pub mod bus;
 mod core_error;
+pub mod fastest;
 pub mod ratio;
 pub mod sensitivity;
 pub mod size;
@@ -72,6 +73,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Bus(options) => bus::run(options),
         options::Command::Simulate(options) => run_simulate(options),
         options::Command::Steady(options) => steady::steady(options),
+        options::Command::Fastest(options) => fastest::fastest(options),
         options::Command::Export(options) => run_export(options),
         options::Command::Rules(options) => print(&list::rule_list::show(
             options.set.as_deref(),
@@ -96,6 +98,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Bus(_) => "following the DC bus",
         Command::Simulate(_) => "following the motion",
         Command::Steady(_) => "seeking the steady cycle",
+        Command::Fastest(_) => "seeking the fastest motion",
         Command::Export(_) => "seeking the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",

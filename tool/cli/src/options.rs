@@ -2,6 +2,7 @@
 
 pub mod bus;
 pub mod catalogue;
+pub mod fastest;
 pub mod search;
 mod word;
 
@@ -58,6 +59,8 @@ pub enum Command {
     Simulate(Simulate),
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
     Steady(Steady),
+    /// Find the fastest motion within the limits of a drive: moves in minimum time.
+    Fastest(fastest::Fastest),
     /// Write the smallest firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.

@@ -5,9 +5,11 @@
 //!
 //! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion;
 //! 2. [`moves`]: what a prescribed motion is made of, moves and pauses;
-//! 3. [`trace`]: a motion that was made, and the files that it becomes.
+//! 3. [`fastest`]: minimum time;
+//! 4. [`trace`]: a motion that was made, and the files that it becomes.
 #![forbid(unsafe_code)]
 
+pub mod fastest;
 pub mod moves;
 pub mod trace;
 pub mod way;

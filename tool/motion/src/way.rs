@@ -16,7 +16,6 @@ use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::numerics::newton;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -58,7 +57,17 @@ pub struct Way<'a> {
     pub actuator: Actuator,
     /// +1 where φ grows, −1 where it falls.
     pub direction: f64,
+    /// Signed ratio of the drive train.
+    ratio: f64,
+    /// Whether no stage of the drive train has losses.
+    lossless: bool,
 }
+
+/// The torque of the gearbox output as a linear form in the loads there.
+const GEARBOX_OUTPUT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+
+/// Steps after which the acceleration of a torque is found: each leaves a straight line that it does not come back to.
+const MOST_LINES: u32 = 50;
 
 /// The machine at a place, worked out once for all speeds.
 #[derive(Clone, Copy, Debug)]
@@ -89,11 +98,14 @@ pub struct Demand {
 
 impl<'a> Way<'a> {
     /// The way of a machine under a drive; `direction` is +1 or −1.
-    pub const fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
+    pub fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
+        let stages = file.drive_train.stages();
         Self {
             file,
             actuator,
             direction,
+            ratio: file.drive_train.ratio(),
+            lossless: stages.iter().all(|stage| stage.efficiency() >= 1.0),
         }
     }
 
@@ -120,21 +132,68 @@ impl<'a> Way<'a> {
 
     /// The speed of the motor (rad/s) at a speed of the drive link.
     pub fn motor_speed(&self, speed: f64) -> f64 {
-        speed * self.file.drive_train.ratio().abs() * self.actuator.ratio
+        speed * self.ratio.abs() * self.actuator.ratio
     }
 
     /// The motor torque that a place, a speed (not negative) and an acceleration ask for. At rest, friction is that of a motion
     /// that begins.
     pub fn demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
-        let train = &self.file.drive_train;
-        let ratio = train.ratio();
-        let sense = ratio.signum();
-        let resisting = 0.5 * place.inertia_slope * speed * speed
+        self.form(&self.actuator.coefficients, place, speed, acceleration)
+    }
+
+    /// Through which stages power flows back to the motor, a bit for each stage of the drive train and one for the gearbox: where one
+    /// changes, the demand bends.
+    pub fn backward_stages(&self, place: &Place, speed: f64, acceleration: f64) -> u32 {
+        if self.is_linear(&self.actuator.coefficients) {
+            return 0;
+        }
+        let mut torque = place.inertia * acceleration + self.resisting(place, speed);
+        let (mut alpha, mut sense) = (acceleration, 1.0);
+        let mut bits = 0;
+        for stage in self.file.drive_train.stages().iter().rev() {
+            let [driver, driven] = stage.inertias();
+            let delivered = torque + driven * alpha;
+            let back = delivered * sense < 0.0;
+            bits = bits << 1 | u32::from(back);
+            let efficiency = stage.efficiency();
+            let loss = if back { efficiency } else { 1.0 / efficiency };
+            sense *= stage.ratio();
+            alpha *= stage.ratio();
+            torque = delivered / stage.ratio() * loss + driver * alpha;
+        }
+        bits << 1 | u32::from(torque * sense < 0.0)
+    }
+
+    /// What resists the motion at a speed without an acceleration (N·m).
+    fn resisting(&self, place: &Place, speed: f64) -> f64 {
+        0.5 * place.inertia_slope * speed * speed
             + place.load
             + place.viscous * speed
-            + place.coulomb;
+            + place.coulomb
+    }
+
+    /// The motor torque that holds the machine at rest, without friction; positive against the way back.
+    pub fn holding(&self, place: &Place) -> f64 {
+        let input = self.file.drive_train.input(&TrainOutput {
+            torque: place.load,
+            ..TrainOutput::default()
+        });
+        let torque = input.torque * self.ratio.signum();
+        self.actuator
+            .coefficients
+            .torque(&[0.0, torque, 0.0, 0.0, 0.0])
+    }
+
+    /// The torque at the gearbox output, the input of the drive train, that they ask for; positive where it drives.
+    pub fn gearbox_demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
+        self.form(&GEARBOX_OUTPUT, place, speed, acceleration)
+    }
+
+    fn form(&self, c: &Coefficients, place: &Place, speed: f64, acceleration: f64) -> Demand {
+        let train = &self.file.drive_train;
+        let sense = self.ratio.signum();
         let input = train.input(&TrainOutput {
-            torque: place.inertia * acceleration + resisting,
+            torque: place.inertia * acceleration + self.resisting(place, speed),
             torque_per_alpha: place.inertia,
             omega: speed,
             alpha: acceleration,
@@ -147,9 +206,8 @@ impl<'a> Way<'a> {
         } else {
             ([torque, 0.0], 1)
         };
-        let c = &self.actuator.coefficients;
         let [driving, back] = torque_loads;
-        let ratio = ratio.abs();
+        let ratio = self.ratio.abs();
         Demand {
             torque: c.torque(&[ratio * acceleration, driving, back, ratio * speed, 1.0]),
             per_acceleration: c.0[0] * ratio + c.0[share] * slope,
@@ -158,10 +216,40 @@ impl<'a> Way<'a> {
 
     /// The acceleration that a motor torque gives: the inverse of [`demand`](Self::demand).
     pub fn acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
-        newton(|a| {
-            let demand = self.demand(place, speed, a);
-            [demand.torque - torque, demand.per_acceleration]
-        })
+        self.inverse(&self.actuator.coefficients, place, speed, torque)
+    }
+
+    /// The acceleration that a torque at the gearbox output gives.
+    pub fn gearbox_acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
+        self.inverse(&GEARBOX_OUTPUT, place, speed, torque)
+    }
+
+    /// From one straight line to the next by Newton's steps; on the right one the step is exact.
+    fn inverse(&self, c: &Coefficients, place: &Place, speed: f64, torque: f64) -> f64 {
+        let mut line = self.form(c, place, speed, 0.0);
+        let mut acceleration = (torque - line.torque) / line.per_acceleration;
+        if self.is_linear(c) {
+            return acceleration;
+        }
+        for _ in 0..MOST_LINES {
+            let next = self.form(c, place, speed, acceleration);
+            if next
+                .per_acceleration
+                .total_cmp(&line.per_acceleration)
+                .is_eq()
+            {
+                break;
+            }
+            acceleration += (torque - next.torque) / next.per_acceleration;
+            line = next;
+        }
+        acceleration
+    }
+
+    /// Whether the torque is one straight line in the acceleration.
+    fn is_linear(&self, c: &Coefficients) -> bool {
+        let [_, driving, back, ..] = c.0;
+        self.lossless && driving.total_cmp(&back).is_eq()
     }
 
     /// Least and largest acceleration that the motor can give at a place and speed; infinite where no limit is known.

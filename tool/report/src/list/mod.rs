@@ -3,6 +3,7 @@
 pub mod alternatives;
 pub mod bus_json;
 pub mod bus_text;
+pub mod fastest;
 pub mod front;
 pub mod inspection;
 pub mod listing;

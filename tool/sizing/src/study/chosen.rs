@@ -46,7 +46,8 @@ impl ChosenDrive {
         Ok(Self::of(&first.drive))
     }
 
-    fn of(drive: &Drive) -> Self {
+    /// A drive of a catalogue, to be kept without it.
+    pub fn of(drive: &Drive) -> Self {
         Self {
             motor: drive.motor.clone(),
             gearbox: drive.gearbox.cloned(),

@@ -104,63 +104,12 @@ impl Study {
         crate::study::header::digest(&(self.document.text(), &self.nominal))
     }
 
-    /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
-    /// the first that goes with the motor).
+    /// The drive that a text names: see [`named`].
     ///
     /// # Errors
     /// A drive that the catalogue does not have.
     pub fn drive(&self, text: &str) -> Result<(DriveId, Drive<'_>)> {
-        let (rest, amplifier) = match text.split_once(" on ") {
-            Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
-            None => (text, None),
-        };
-        let (motor, gearbox) = match rest.split_once('+') {
-            Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim())),
-            None => (rest.trim(), None),
-        };
-        let wanted = |drive: &Drive| {
-            drive.motor.key == motor
-                && drive.gearbox.map(|g| g.key.as_str()) == gearbox
-                && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
-        };
-        if let Some(found) = self.catalogue.drives().find(|(_, drive)| wanted(drive)) {
-            return Ok(found);
-        }
-        let motors: Vec<&str> = self
-            .catalogue
-            .motors
-            .iter()
-            .map(|m| m.key.as_str())
-            .collect();
-        let gearboxes: Vec<&str> = self
-            .catalogue
-            .gearboxes
-            .iter()
-            .map(|g| g.key.as_str())
-            .collect();
-        let amplifiers: Vec<&str> = self
-            .catalogue
-            .amplifiers
-            .iter()
-            .map(|a| a.key.as_str())
-            .collect();
-        let (word, keys) = match (gearbox, amplifier) {
-            _ if !motors.contains(&motor) => (motor, motors),
-            (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
-            (_, Some(amplifier)) => (amplifier, amplifiers),
-            (Some(gearbox), None) => (gearbox, gearboxes),
-            (None, None) => (motor, motors),
-        };
-        let near = closest(word, &keys).map_or_else(
-            || "`jred size FILE --refused` lists every drive".to_owned(),
-            |near| format!("did you mean \"{near}\"?"),
-        );
-        Err(miette!(
-            help = near,
-            "the catalogue has no {} for the drive {}",
-            plain::quoted(word),
-            plain::quoted(text)
-        ))
+        named(&self.catalogue, text)
     }
 
     /// The machine with some of its quantities changed.
@@ -196,6 +145,54 @@ impl Study {
         let quantity = self.document.quantities().get(quantity);
         quantity.is_some_and(|q| AROUND.iter().any(|section| q.path.starts_with(section)))
     }
+}
+
+/// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
+/// the first that goes with the motor).
+///
+/// # Errors
+/// A drive that the catalogue does not have.
+pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive<'c>)> {
+    let (rest, amplifier) = match text.split_once(" on ") {
+        Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
+        None => (text, None),
+    };
+    let (motor, gearbox) = match rest.split_once('+') {
+        Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim())),
+        None => (rest.trim(), None),
+    };
+    let wanted = |drive: &Drive| {
+        drive.motor.key == motor
+            && drive.gearbox.map(|g| g.key.as_str()) == gearbox
+            && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
+    };
+    if let Some(found) = catalogue.drives().find(|(_, drive)| wanted(drive)) {
+        return Ok(found);
+    }
+    let motors: Vec<&str> = catalogue.motors.iter().map(|m| m.key.as_str()).collect();
+    let gearboxes: Vec<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
+    let amplifiers: Vec<&str> = catalogue
+        .amplifiers
+        .iter()
+        .map(|a| a.key.as_str())
+        .collect();
+    let (word, keys) = match (gearbox, amplifier) {
+        _ if !motors.contains(&motor) => (motor, motors),
+        (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
+        (_, Some(amplifier)) => (amplifier, amplifiers),
+        (Some(gearbox), None) => (gearbox, gearboxes),
+        (None, None) => (motor, motors),
+    };
+    let near = closest(word, &keys).map_or_else(
+        || "`jred size FILE --refused` lists every drive".to_owned(),
+        |near| format!("did you mean \"{near}\"?"),
+    );
+    Err(miette!(
+        help = near,
+        "the catalogue has no {} for the drive {}",
+        plain::quoted(word),
+        plain::quoted(text)
+    ))
 }
 
 /// The prepared duty of a machine.

@@ -1,0 +1,259 @@
+//! `jred fastest`: moves in minimum time.
+
+use miette::{Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::vary::{catalogue, study};
+use crate::commands::{Done, print};
+use crate::options::fastest::Fastest as Options;
+use crate::output;
+use crate::output::print_parts;
+use jred::Reducible as _;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_motion::fastest::cycle::{Cycle, cycle, single};
+use jred_motion::fastest::{Limits, NoMotion, Task};
+use jred_motion::moves::{NoMoves, parts};
+use jred_motion::way::Actuator;
+use jred_report::list;
+use jred_report::table::output::Format;
+use jred_sizing::catalogue::{Drive, Motor, MotorKind};
+use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::select::filter::Filter;
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::study::chosen::ChosenDrive;
+use jred_sizing::study::common::named;
+
+/// What moves the machine, by name, and what its gearbox limits.
+struct Chosen {
+    name: String,
+    actuator: Actuator,
+    limits: Limits,
+}
+
+/// Runs `jred fastest`.
+///
+/// # Errors
+/// Bad input, or no motion within the limits.
+pub fn fastest(options: &Options) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
+    variator::refuse(&file, "fastest")?;
+    let task = task(options, &file)?;
+    let chosen = chosen(options, &file)?;
+    let limits = limits(options, &file, chosen.limits)?;
+    let cycle = match task {
+        Some(task) => {
+            let task = Task { limits, ..task };
+            single(&file, &chosen.actuator, task).map_err(|why| no_motion(&why, None))?
+        }
+        None => of_motion(&file, &chosen.actuator, limits)?,
+    };
+    if let Some(path) = &options.profile {
+        let text = cycle.trace.profile(options.rows as usize);
+        output::write(path, text.as_bytes())?;
+    }
+    if let Some(path) = &options.cam {
+        let text = cycle.trace.cam(options.rows as usize);
+        output::write(path, text.as_bytes())?;
+    }
+    let answer = list::fastest::Answer {
+        file: &file,
+        drive: &chosen.name,
+        actuator: &chosen.actuator,
+        cycle: &cycle,
+        instants: options.instants as usize,
+    };
+    print_parts(answer.write(options.format).map_err(core_report)?)?;
+    if options.format == Format::Table {
+        for (what, path) in [("profile", &options.profile), ("cam table", &options.cam)] {
+            if let Some(path) = path {
+                print(&format!("{what} written to {}\n", plain::path(path)))?;
+            }
+        }
+    }
+    Ok(Done::Holds)
+}
+
+/// The moves of the file's motion.
+fn of_motion(file: &MachineFile, actuator: &Actuator, limits: Limits) -> Result<Cycle> {
+    let motion = file.motion_or("give --from and --to, or ")?;
+    let parts = parts(motion).map_err(|why| match why {
+        NoMoves::Still => miette!(
+            help = "give --from and --to, or a [motion] with a move",
+            "nothing moves in the motion of {}",
+            file.name
+        ),
+        NoMoves::NotAtRest { speed, at_end } => {
+            let end = if at_end { "ends" } else { "begins" };
+            let unit = file.machine.mechanism().coordinate().speed_unit();
+            miette!(
+                help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
+                "the motion of {} {end} with {} {unit}, so its moves are not known",
+                file.name,
+                jred_machine::number::rounding::short(speed)
+            )
+        }
+    })?;
+    let moves = parts.len();
+    cycle(file, actuator, limits, &parts).map_err(|(index, why)| {
+        let which = (moves > 1).then_some(index + 1);
+        no_motion(&why, which)
+    })
+}
+
+fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {
+    let which = number.map_or_else(String::new, |number| format!("move {number}: "));
+    miette!(help = why.cure(), "{which}{why}")
+}
+
+/// The move of the command line.
+fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
+    let (Some(from), Some(to)) = (&options.from, &options.to) else {
+        return Ok(None);
+    };
+    let domain = file.machine.domain();
+    let coordinate = file.machine.mechanism().coordinate();
+    let position = |name: &str, text: &str| {
+        let refused =
+            |why: String| miette!("--{name} {} cannot be used: {why}", plain::quoted(text));
+        let found = read::drive_positions(text, domain, coordinate).map_err(refused)?;
+        match found.as_slice() {
+            [one] => Ok(*one),
+            _ => Err(refused("it must be one position".to_owned())),
+        }
+    };
+    let speed = |name: &str, text: &Option<String>| {
+        let speed = quantity(name, text, read::drive_speed, coordinate)?.unwrap_or(0.0);
+        if speed < 0.0 {
+            return Err(miette!(
+                help = "speeds count in the direction of the move",
+                "--{name} must not be negative"
+            ));
+        }
+        Ok(speed)
+    };
+    Ok(Some(Task {
+        from: position("from", from)?,
+        to: position("to", to)?,
+        speeds: [
+            speed("from-speed", &options.from_speed)?,
+            speed("to-speed", &options.to_speed)?,
+        ],
+        limits: Limits::default(),
+    }))
+}
+
+fn quantity(
+    name: &str,
+    text: &Option<String>,
+    read: read::Reader,
+    coordinate: Coordinate,
+) -> Result<Option<f64>> {
+    let value = text.as_deref().map(|text| {
+        read(text, coordinate)
+            .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
+    });
+    value.transpose()
+}
+
+/// The limits of the command line, and those of the gearbox.
+fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limits> {
+    let coordinate = file.machine.mechanism().coordinate();
+    let read = |name: &str, text: &Option<String>, read: read::Reader| {
+        quantity(name, text, read, coordinate)
+    };
+    let acceleration = read(
+        "max-acceleration",
+        &options.max_acceleration,
+        read::largest_acceleration,
+    )?;
+    let deceleration = read(
+        "max-deceleration",
+        &options.max_deceleration,
+        read::largest_acceleration,
+    )?;
+    Ok(Limits {
+        speed: read("max-speed", &options.max_speed, read::largest_speed)?,
+        acceleration,
+        deceleration: deceleration.or(acceleration),
+        ..gearbox
+    })
+}
+
+/// The drive of the command line, or the best one.
+fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
+    if let Some(torque) = &options.torque {
+        return plain_motor(options, file, torque);
+    }
+    let filter = Filter::default();
+    let drive = match &options.drive {
+        Some(name) => {
+            let mut catalogue = catalogue(&options.supply, &filter)?;
+            fit_input(&mut catalogue, file)?;
+            ChosenDrive::of(&named(&catalogue, name)?.1)
+        }
+        None => {
+            file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
+            let study = study(&options.file, &options.supply, &filter)?;
+            ChosenDrive::choose(&study, None, &filter, None)?
+        }
+    };
+    let drive = drive.drive();
+    let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+    for assumption in envelope.assumptions() {
+        output::say(&format!("warning: {assumption}"));
+    }
+    Ok(Chosen {
+        name: drive.name(),
+        actuator: Actuator::new(&drive, envelope),
+        limits: Limits {
+            gearbox_torque: drive.gearbox.and_then(|gearbox| gearbox.peak_torque),
+            gearbox_speed: drive.gearbox.and_then(|gearbox| gearbox.max_speed),
+            ..Limits::default()
+        },
+    })
+}
+
+/// A motor with the same torque at every speed.
+fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
+    let kind = jred_sizing::select::fit::input_kind(file);
+    let coordinate = match kind {
+        MotorKind::Rotary => Coordinate::Angle,
+        MotorKind::Linear => Coordinate::Length,
+    };
+    let effort = quantity("torque", &options.torque, read::drive_effort, coordinate)?;
+    let speed = quantity(
+        "motor-speed",
+        &options.motor_speed,
+        read::largest_speed,
+        coordinate,
+    )?;
+    let motor = Motor {
+        kind,
+        peak_torque: effort,
+        peak_curve: effort
+            .zip(speed)
+            .map(|(t, n)| [[0.0, t], [n, t]])
+            .into_iter()
+            .flatten()
+            .collect(),
+        max_speed: speed,
+        rotor_inertia: options.rotor_inertia.unwrap_or(0.0),
+        ..Motor::default()
+    };
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let speed = options.motor_speed.as_deref().unwrap_or_default();
+    Ok(Chosen {
+        name: format!("{torque} up to {speed}"),
+        actuator: Actuator::new(&drive, Envelope::of(&motor)),
+        limits: Limits::default(),
+    })
+}

@@ -1,0 +1,70 @@
+//! `jred fastest`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::search::SizingOptions;
+use super::word::word;
+use jred_report::table::output::Format;
+
+/// `jred fastest`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 done; 2 bad input, or there is no motion within the limits.\ndocs/motion-synthesis.md says what is found, and why it is the fastest."
+)]
+pub struct Fastest {
+    /// Machine file. The moves are those of its `[motion]`, whose pauses are kept, unless --from and --to are given.
+    pub file: PathBuf,
+    /// Position at which one move begins, e.g. "180 deg" ("20 mm" for a sliding link).
+    #[arg(long, allow_hyphen_values = true, requires = "to")]
+    pub from: Option<String>,
+    /// Position at which it ends.
+    #[arg(long, allow_hyphen_values = true, requires = "from")]
+    pub to: Option<String>,
+    /// Speed at its beginning, in the direction of the move; at rest if not given.
+    #[arg(long, value_name = "SPEED", requires = "from")]
+    pub from_speed: Option<String>,
+    /// Speed at its end.
+    #[arg(long, value_name = "SPEED", requires = "from")]
+    pub to_speed: Option<String>,
+    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the best drive in the catalogue for the motion.
+    #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with = "torque")]
+    pub drive: Option<String>,
+    /// Instead of a drive: largest torque at the input of the drive train, e.g. "20 N m" ("500 N" for a linear motor).
+    #[arg(long, requires = "motor_speed")]
+    pub torque: Option<String>,
+    /// Largest speed of that motor, e.g. "3000 rpm" ("2 m/s").
+    #[arg(long, value_name = "SPEED", requires = "torque")]
+    pub motor_speed: Option<String>,
+    /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
+    #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
+    pub rotor_inertia: Option<f64>,
+    /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
+    #[arg(long, value_name = "SPEED")]
+    pub max_speed: Option<String>,
+    /// Largest acceleration of the drive link while its speed grows, e.g. "120 rad/s^2" ("3 m/s^2").
+    #[arg(long, value_name = "ACCELERATION")]
+    pub max_acceleration: Option<String>,
+    /// Largest deceleration; that of --max-acceleration if not given.
+    #[arg(long, value_name = "ACCELERATION")]
+    pub max_deceleration: Option<String>,
+    /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
+    #[arg(long, value_name = "CSV", value_parser = super::output_file())]
+    pub profile: Option<PathBuf>,
+    /// Write the motion as an electronic cam's table over a master that turns once in the length of the motion.
+    #[arg(long, value_name = "CSV", value_parser = super::output_file())]
+    pub cam: Option<PathBuf>,
+    /// Number of rows of these files.
+    #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
+    pub rows: u32,
+    /// Number of instants in the list of CSV and JSON.
+    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub instants: u32,
+    /// Catalogue.
+    #[command(flatten)]
+    pub supply: SizingOptions,
+    /// Output format.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+}

@@ -1,0 +1,248 @@
+//! All moves of a motion made as fast as possible, its pauses kept.
+
+use jred::Error;
+use jred_machine::model::machine::MachineFile;
+
+use super::field::{Binding, Limits};
+use super::{Fastest, NoMotion, Task, solve};
+use crate::moves::Part;
+use crate::trace::Trace;
+use crate::way::{Actuator, Way};
+
+/// Share by which torque and speed of the motor are raised to see what they are worth.
+pub const MORE: f64 = 0.1;
+
+/// Gauss and Legendre's rule with two points on 0 to 1.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// A move made as fast as possible.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// What was asked.
+    pub task: Task,
+    /// How long the move takes in the motion that was given (s); `None`: it was not part of one.
+    pub before: Option<f64>,
+    /// The fastest motion.
+    pub fastest: Fastest,
+    /// What each limit that it reaches costs.
+    pub costs: Vec<Cost>,
+}
+
+/// What a limit costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// The limit.
+    pub limit: Binding,
+    /// The time (s) without it; of the motor's own limits, with a tenth more torque (driving and braking), or with a torque-speed curve
+    /// that reaches to a tenth more speed.
+    pub time: f64,
+}
+
+/// A motion whose moves are as fast as possible.
+#[derive(Clone, Debug)]
+pub struct Cycle {
+    /// The moves.
+    pub moves: Vec<Made>,
+    /// All of it.
+    pub trace: Trace,
+    /// Length of the motion that was given (s).
+    pub before: Option<f64>,
+    /// Time at rest (s).
+    pub dwells: f64,
+    /// What the motor does.
+    pub load: MotorLoad,
+}
+
+/// What a motor does in a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorLoad {
+    /// RMS torque (N·m) over the motion, pauses with the torque that holds the machine.
+    pub rms: f64,
+    /// Largest torque (N·m) and speed (rad/s), as magnitudes.
+    pub peaks: [f64; 2],
+    /// Mean of the speed's magnitude (rad/s).
+    pub mean_speed: f64,
+    /// Torque at rest at the end (N·m), as a magnitude.
+    pub holding: f64,
+    /// S1 torque (N·m) at the mean speed; infinite: not known.
+    pub continuous: f64,
+    /// Pause (s) that must be added for the RMS torque to be no larger than that S1 torque; `None`: not even holding is possible.
+    pub pause: Option<f64>,
+}
+
+/// Makes every move of a motion as fast as possible.
+///
+/// # Errors
+/// A move, counted from 0, that cannot be made.
+pub fn cycle(
+    file: &MachineFile,
+    actuator: &Actuator,
+    limits: Limits,
+    parts: &[Part],
+) -> Result<Cycle, (usize, NoMotion)> {
+    let start = parts.first().map_or(0.0, |part| match part {
+        Part::Move(step) => step.from,
+        Part::Dwell { at, .. } => *at,
+    });
+    let coordinate = Way::new(file, actuator.clone(), 1.0).coordinate();
+    let mut trace = Trace::from_rest(coordinate, start);
+    let mut moves = Vec::new();
+    let mut dwells = 0.0;
+    for part in parts {
+        match part {
+            Part::Dwell { duration, .. } => {
+                trace.dwell(*duration);
+                dwells += duration;
+            }
+            Part::Move(step) => {
+                let task = Task {
+                    from: step.from,
+                    to: step.to,
+                    speeds: [0.0; 2],
+                    limits,
+                };
+                let made = make(file, actuator, task, Some(step.duration))
+                    .map_err(|why| (moves.len(), why))?;
+                trace.then(made.fastest.trace.nodes());
+                moves.push(made);
+            }
+        }
+    }
+    let load = load(file, actuator, &trace).map_err(|error| (0, error.into()))?;
+    Ok(Cycle {
+        moves,
+        trace,
+        before: Some(parts.iter().map(Part::duration).sum()),
+        dwells,
+        load,
+    })
+}
+
+/// One move, which need not begin or end at rest.
+///
+/// # Errors
+/// It cannot be made.
+pub fn single(file: &MachineFile, actuator: &Actuator, task: Task) -> Result<Cycle, NoMotion> {
+    let made = make(file, actuator, task, None)?;
+    let trace = made.fastest.trace.clone();
+    Ok(Cycle {
+        load: load(file, actuator, &trace)?,
+        moves: vec![made],
+        trace,
+        before: None,
+        dwells: 0.0,
+    })
+}
+
+fn make(
+    file: &MachineFile,
+    actuator: &Actuator,
+    task: Task,
+    before: Option<f64>,
+) -> Result<Made, NoMotion> {
+    let fastest = solve(file, actuator, &task)?;
+    let mut met: Vec<Binding> = Vec::new();
+    for phase in &fastest.phases {
+        // Driving and braking are one motor.
+        let limit = match phase.limit {
+            Binding::Braking => Binding::Driving,
+            other => other,
+        };
+        if !met.contains(&limit) {
+            met.push(limit);
+        }
+    }
+    let cost = |limit: Binding| {
+        let (actuator, limits) = without(actuator, task.limits, limit);
+        let eased = Task { limits, ..task };
+        // Where no motion is found the limit is not what it costs time.
+        let time = solve(file, &actuator, &eased).ok()?.time;
+        Some(Cost { limit, time })
+    };
+    Ok(Made {
+        costs: met.into_iter().filter_map(cost).collect(),
+        task,
+        before,
+        fastest,
+    })
+}
+
+/// The same without a limit, or with more of the motor's own.
+fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Limits) {
+    let mut actuator = actuator.clone();
+    let mut limits = limits;
+    match limit {
+        Binding::Driving | Binding::Braking => {
+            // A tenth more torque moves a machine that asks for a tenth less.
+            for c in &mut actuator.coefficients.0 {
+                *c /= 1.0 + MORE;
+            }
+        }
+        Binding::MotorSpeed => actuator.ratio /= 1.0 + MORE,
+        Binding::GearboxTorque => limits.gearbox_torque = None,
+        Binding::GearboxSpeed => limits.gearbox_speed = None,
+        Binding::Speed => limits.speed = None,
+        Binding::Acceleration => limits.acceleration = None,
+        Binding::Deceleration => limits.deceleration = None,
+    }
+    (actuator, limits)
+}
+
+/// What the motor does in a motion.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere.
+pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<MotorLoad, Error> {
+    let ways = [1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction));
+    let [forwards, _] = &ways;
+    let torque = |phi: f64, omega: f64, alpha: f64| -> Result<f64, Error> {
+        let way = &ways[usize::from(omega < 0.0)];
+        let place = way.place(phi)?;
+        Ok(if omega == 0.0 {
+            way.holding(&place)
+        } else {
+            way.demand(&place, omega.abs(), alpha * way.direction)
+                .torque
+        })
+    };
+    let (mut squares, mut turns) = (0.0, 0.0);
+    let mut peaks = [0.0_f64; 2];
+    for pair in trace.nodes().windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let step = b.t - a.t;
+        if step <= 0.0 {
+            continue;
+        }
+        for share in GAUSS {
+            let state = trace.at(a.t + share * step);
+            let motor = torque(state.phi, state.omega, state.alpha)?;
+            squares += 0.5 * step * motor * motor;
+        }
+        turns += (b.phi - a.phi).abs();
+        for (node, alpha) in [(a, a.alpha[1]), (b, b.alpha[0])] {
+            let motor = torque(node.phi, node.omega, alpha)?;
+            peaks[0] = peaks[0].max(motor.abs());
+            peaks[1] = peaks[1].max(forwards.motor_speed(node.omega.abs()));
+        }
+    }
+    let duration = trace.duration();
+    let end = trace.nodes().last().map_or(0.0, |node| node.phi);
+    let holding = forwards.holding(&forwards.place(end)?).abs();
+    let mean_speed = forwards.motor_speed(turns) / duration;
+    let continuous = actuator.envelope.continuous_torque(mean_speed);
+    let excess = squares - continuous * continuous * duration;
+    let relief = continuous * continuous - holding * holding;
+    let pause = if excess <= 0.0 || !continuous.is_finite() {
+        Some(0.0)
+    } else {
+        (relief > 0.0).then(|| excess / relief)
+    };
+    Ok(MotorLoad {
+        rms: (squares / duration).sqrt(),
+        peaks,
+        mean_speed,
+        holding,
+        continuous,
+        pause,
+    })
+}

@@ -1,0 +1,196 @@
+//! Which accelerations every limit leaves at a place and speed, and which limit is the nearest.
+
+use crate::way::{Place, Way};
+
+/// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Largest speed (rad/s, or m/s).
+    pub speed: Option<f64>,
+    /// Largest acceleration while the speed grows (rad/s², or m/s²).
+    pub acceleration: Option<f64>,
+    /// Largest while it falls.
+    pub deceleration: Option<f64>,
+    /// Largest torque of the gearbox output, in both directions (N·m).
+    pub gearbox_torque: Option<f64>,
+    /// Largest speed of the gearbox input (rad/s).
+    pub gearbox_speed: Option<f64>,
+}
+
+/// A limit that a motion can be at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Binding {
+    /// The motor's largest driving torque at its speed.
+    Driving,
+    /// Its largest braking torque.
+    Braking,
+    /// Its largest speed.
+    MotorSpeed,
+    /// The largest torque of the gearbox.
+    GearboxTorque,
+    /// The largest speed of its input.
+    GearboxSpeed,
+    /// The largest speed of the drive link.
+    Speed,
+    /// The largest acceleration.
+    Acceleration,
+    /// The largest deceleration.
+    Deceleration,
+}
+
+/// The accelerations that limits leave.
+#[derive(Clone, Debug)]
+pub struct Field<'w, 'a> {
+    /// Machine and drive.
+    pub way: &'w Way<'a>,
+    /// What else is kept.
+    pub limits: Limits,
+}
+
+/// The speed at z = ½·v².
+pub fn speed(z: f64) -> f64 {
+    (2.0 * z).max(0.0).sqrt()
+}
+
+impl Field<'_, '_> {
+    /// Whether a place and a speed may leave no acceleration: two limits of different kinds.
+    pub const fn may_be_empty(&self) -> bool {
+        let Limits {
+            acceleration,
+            deceleration,
+            gearbox_torque,
+            ..
+        } = &self.limits;
+        acceleration.is_some() || deceleration.is_some() || gearbox_torque.is_some()
+    }
+
+    /// The speeds that are not exceeded, in the order in which they are named where two are the same.
+    pub fn speeds(&self) -> impl Iterator<Item = (f64, Binding)> {
+        let per_speed = self.way.motor_speed(1.0);
+        let limits = &self.limits;
+        [
+            (Some(self.motor_end() / per_speed), Binding::MotorSpeed),
+            (
+                limits.gearbox_speed.map(|speed| speed / per_speed),
+                Binding::GearboxSpeed,
+            ),
+            (limits.speed, Binding::Speed),
+        ]
+        .into_iter()
+        .filter_map(|(speed, which)| Some((speed?, which)))
+    }
+
+    /// The least of them, and which it is.
+    pub fn top(&self) -> (f64, Binding) {
+        let first = (f64::INFINITY, Binding::MotorSpeed);
+        self.speeds().fold(
+            first,
+            |least, own| if own.0 < least.0 { own } else { least },
+        )
+    }
+
+    fn motor_end(&self) -> f64 {
+        let envelope = &self.way.actuator.envelope;
+        let ends = [false, true].map(|braking| envelope.limit(braking).end());
+        envelope.max_speed().min(ends[0]).min(ends[1])
+    }
+
+    /// The motor's torque at a speed of the drive link; at its largest speed rounding must not step beyond.
+    fn motor_torque(&self, v: f64, braking: bool) -> f64 {
+        let limit = self.way.actuator.envelope.limit(braking);
+        let torque = limit.torque(self.way.motor_speed(v).min(limit.end()));
+        if braking { -torque } else { torque }
+    }
+
+    /// Least and largest torque of the motor at a speed of the drive link: −braking, driving.
+    pub fn motor_torques(&self, v: f64) -> [f64; 2] {
+        [true, false].map(|braking| self.motor_torque(v, braking))
+    }
+
+    /// At rest, in a motion that begins: the torque that keeps the machine moving, and what the limit gives, both at the shaft of the
+    /// limit.
+    pub fn needed_and_given(&self, place: &Place, limit: Binding, braking: bool) -> [f64; 2] {
+        if limit == Binding::GearboxTorque {
+            let given = self.limits.gearbox_torque.unwrap_or(f64::INFINITY);
+            let needed = self.way.gearbox_demand(place, 0.0, 0.0).torque;
+            return [needed, if braking { -given } else { given }];
+        }
+        let needed = self.way.demand(place, 0.0, 0.0).torque;
+        [needed, self.motor_torque(0.0, braking)]
+    }
+
+    /// The largest acceleration at a place and z = ½·v².
+    pub fn most(&self, place: &Place, z: f64) -> f64 {
+        self.most_by(place, z).0
+    }
+
+    /// The same, with the limit that it is.
+    pub fn most_by(&self, place: &Place, z: f64) -> (f64, Binding) {
+        let v = speed(z);
+        let torque = self.motor_torque(v, false);
+        let mut most = (self.way.acceleration(place, v, torque), Binding::Driving);
+        if let Some(torque) = self.limits.gearbox_torque {
+            let a = self.way.gearbox_acceleration(place, v, torque);
+            most = lower(most, (a, Binding::GearboxTorque));
+        }
+        if let Some(a) = self.limits.acceleration {
+            most = lower(most, (a, Binding::Acceleration));
+        }
+        most
+    }
+
+    /// The least acceleration.
+    pub fn least(&self, place: &Place, z: f64) -> f64 {
+        self.least_by(place, z).0
+    }
+
+    /// The same, with the limit that it is.
+    pub fn least_by(&self, place: &Place, z: f64) -> (f64, Binding) {
+        let v = speed(z);
+        let torque = self.motor_torque(v, true);
+        let mut least = (self.way.acceleration(place, v, torque), Binding::Braking);
+        if let Some(torque) = self.limits.gearbox_torque {
+            let a = self.way.gearbox_acceleration(place, v, -torque);
+            least = higher(least, (a, Binding::GearboxTorque));
+        }
+        if let Some(a) = self.limits.deceleration {
+            least = higher(least, (-a, Binding::Deceleration));
+        }
+        least
+    }
+
+    /// Which smooth part of the largest acceleration a place and z lie in: the limit, the piece of the torque-speed limit, and which way
+    /// power flows through the drive train.
+    pub fn most_part(&self, place: &Place, z: f64) -> u32 {
+        let (a, limit) = self.most_by(place, z);
+        self.part(place, z, a, limit, false)
+    }
+
+    /// The same of the least acceleration.
+    pub fn least_part(&self, place: &Place, z: f64) -> u32 {
+        let (a, limit) = self.least_by(place, z);
+        self.part(place, z, a, limit, true)
+    }
+
+    fn part(&self, place: &Place, z: f64, a: f64, limit: Binding, braking: bool) -> u32 {
+        let v = speed(z);
+        let speed = self.way.motor_speed(v);
+        let pieces = self.way.actuator.envelope.limit(braking).pieces();
+        let piece = match limit {
+            Binding::Driving | Binding::Braking if pieces.len() > 1 => {
+                pieces.iter().take_while(|piece| piece.to < speed).count()
+            }
+            _ => 0,
+        };
+        let back = self.way.backward_stages(place, v, a);
+        limit as u32 | (piece as u32 & 0xff) << 3 | back << 11
+    }
+}
+
+fn lower(one: (f64, Binding), other: (f64, Binding)) -> (f64, Binding) {
+    if other.0 < one.0 { other } else { one }
+}
+
+fn higher(one: (f64, Binding), other: (f64, Binding)) -> (f64, Binding) {
+    if other.0 > one.0 { other } else { one }
+}

@@ -1,0 +1,281 @@
+//! One field of accelerations followed through a cell.
+
+use super::field::speed;
+use super::track::Cell;
+use crate::way::Place;
+
+/// Error of a step as a share of z, by the difference of orders 4 and 3; what is left after it is much smaller.
+const TOLERANCE: f64 = 1e-10;
+
+/// Largest change of z in a step over the way, as a share; a larger one is made over the time, which is smooth at rest.
+const STEEP: f64 = 0.05;
+
+/// Halvings after which a step is taken as it is: the field jumps there.
+const DEEPEST: u32 = 14;
+
+/// Halvings after which a motion that does not come on has stopped.
+const STOPPED: u32 = 48;
+
+/// Halvings that find where a part of the field ends.
+const PART_HALVINGS: u32 = 44;
+
+/// Newton's steps for the time of a step.
+const MOST_TRIALS: u32 = 12;
+
+/// Share of the way by which they may miss its end.
+const CLOSE: f64 = 1e-14;
+
+/// Gauss and Legendre's rule with three points on 0 to 1.
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// A step, in the direction of the motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Shares of the cell at which it begins and ends, rising.
+    pub u: [f64; 2],
+    /// z = ½·v² there.
+    pub z: [f64; 2],
+    /// Its slopes, the accelerations.
+    pub a: [f64; 2],
+    /// How long it takes (s), where it was made over the time.
+    pub time: Option<f64>,
+}
+
+impl Step {
+    /// How long it takes (s) in a cell of this length.
+    pub fn time(&self, length: f64) -> f64 {
+        self.time.unwrap_or_else(|| {
+            let [v0, v1] = self.z.map(speed);
+            let way = (self.u[1] - self.u[0]) * length;
+            let (sum, rise) = (v0 + v1, v1 - v0);
+            // Over the places of constant acceleration, where dx/v is constant.
+            let part = |(s, weight): (f64, f64)| {
+                let place = s * (2.0 * v0 + rise * s) / sum;
+                weight * (v0 + rise * s) / speed(self.hermite(place, way))
+            };
+            2.0 * way / sum * GAUSS.into_iter().map(part).sum::<f64>()
+        })
+    }
+
+    /// z at a share of the step: the cubic through both ends and slopes.
+    pub fn hermite(&self, s: f64, way: f64) -> f64 {
+        let [z0, z1] = self.z;
+        let [a0, a1] = self.a.map(|a| a * way);
+        let rise = z1 - z0;
+        z0 + s * (a0 + s * (3.0 * rise - 2.0 * a0 - a1 + s * (a0 + a1 - 2.0 * rise)))
+    }
+}
+
+/// The motion comes to rest at this share of the cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Stalled(pub f64);
+
+/// A point of a leg: share of the cell, z, slope.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Share of the cell.
+    pub u: f64,
+    /// z = ½·v².
+    pub z: f64,
+    /// Its slope.
+    pub a: f64,
+    /// Which smooth part of the field it lies in.
+    pub part: u32,
+}
+
+/// What a step arrives at: z, its slope, the error, and the time where that was found.
+type Made = (f64, f64, f64, Option<f64>);
+
+/// A step from a point.
+#[derive(Clone, Copy)]
+struct One {
+    to: f64,
+    z: f64,
+    a: f64,
+    part: u32,
+    time: Option<f64>,
+}
+
+impl One {
+    fn end(&self, u: f64) -> Point {
+        Point {
+            u,
+            z: self.z,
+            a: self.a,
+            part: self.part,
+        }
+    }
+
+    /// In the direction of the motion.
+    fn step(&self, from: Point) -> Step {
+        let end = self.end(self.to);
+        let [first, last] = if end.u > from.u {
+            [from, end]
+        } else {
+            [end, from]
+        };
+        Step {
+            u: [first.u, last.u],
+            z: [first.z, last.z],
+            a: [first.a, last.a],
+            time: self.time,
+        }
+    }
+}
+
+/// A field in a cell.
+pub struct Leg<'c, F, P> {
+    /// The field: acceleration at a place and z.
+    pub field: F,
+    /// Which smooth part of it a place and z lie in.
+    pub part: P,
+    /// Where.
+    pub cell: &'c Cell,
+}
+
+impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
+    /// The point at a share of the cell with this z.
+    pub fn point(&self, u: f64, z: f64) -> Point {
+        let place = self.cell.place(u);
+        Point {
+            u,
+            z,
+            a: (self.field)(&place, z),
+            part: (self.part)(&place, z),
+        }
+    }
+
+    /// From a point to a share of the cell, forwards or backwards; the steps are added to `steps` in the order in which they are made.
+    pub fn go(&self, from: Point, to: f64, steps: &mut Vec<Step>) -> Result<Point, Stalled> {
+        self.halved(from, to, 0, steps)
+    }
+
+    fn halved(
+        &self,
+        from: Point,
+        to: f64,
+        depth: u32,
+        steps: &mut Vec<Step>,
+    ) -> Result<Point, Stalled> {
+        if let Some((step, error)) = self.one(from, to) {
+            let end = step.end(to);
+            if error <= TOLERANCE * from.z.max(end.z) || depth >= DEEPEST {
+                if end.part != from.part
+                    && depth < DEEPEST
+                    && let Some(crossing) = self.other_part(from, to)
+                {
+                    steps.push(crossing.step(from));
+                    return self.halved(crossing.end(crossing.to), to, depth + 1, steps);
+                }
+                steps.push(step.step(from));
+                return Ok(end);
+            }
+        } else if depth >= STOPPED {
+            return Err(Stalled(from.u));
+        }
+        let middle = from.u.midpoint(to);
+        let between = self.halved(from, middle, depth + 1, steps)?;
+        self.halved(between, to, depth + 1, steps)
+    }
+
+    /// One step, over the way where z changes little, else over the time; with its error.
+    fn one(&self, from: Point, to: f64) -> Option<(One, f64)> {
+        let (z, a, error, time) = self
+            .over_way(from, to)
+            .or_else(|| self.over_time(from, to))?;
+        let part = (self.part)(&self.cell.place(to), z);
+        let one = One {
+            to,
+            z,
+            a,
+            part,
+            time,
+        };
+        Some((one, error))
+    }
+
+    /// The step to the nearest place found in another part of the field: where the field bends, a step ends.
+    fn other_part(&self, from: Point, to: f64) -> Option<One> {
+        let (mut near, mut far) = (from.u, to);
+        let mut found = None;
+        for _ in 0..PART_HALVINGS {
+            let middle = near.midpoint(far);
+            let (one, _) = self.one(from, middle)?;
+            if one.part == from.part {
+                near = middle;
+            } else {
+                far = middle;
+                found = Some(one);
+            }
+        }
+        found
+    }
+
+    /// The classical Runge-Kutta step with the way as the variable; none where z changes much.
+    fn over_way(&self, from: Point, to: f64) -> Option<Made> {
+        let h = (to - from.u) * self.cell.length;
+        if (from.a * h).abs() > STEEP * from.z {
+            return None;
+        }
+        let [middle, end] = [from.u.midpoint(to), to].map(|u| self.cell.place(u));
+        let f = &self.field;
+        let k1 = from.a;
+        let k2 = f(&middle, from.z + 0.5 * h * k1);
+        let k3 = f(&middle, from.z + 0.5 * h * k2);
+        let k4 = f(&end, from.z + h * k3);
+        let z = from.z + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+        if (z - from.z).abs() > 2.0 * STEEP * from.z {
+            return None;
+        }
+        let a = f(&end, z);
+        Some((z, a, (h / 6.0 * (k4 - a)).abs(), None))
+    }
+
+    /// The same with the time as the variable: how long it takes is sought as well. None where the motion stops before.
+    fn over_time(&self, from: Point, to: f64) -> Option<Made> {
+        let length = self.cell.length;
+        let heading = (to - from.u).signum();
+        let way = (to - from.u).abs() * length;
+        let start = speed(from.z);
+        let a0 = heading * from.a;
+        let square = start * start + 2.0 * a0 * way;
+        if square <= 0.0 {
+            return None;
+        }
+        let at = |x: f64, v: f64| {
+            let place = self.cell.place(from.u + heading * x / length);
+            heading * (self.field)(&place, 0.5 * v * v)
+        };
+        let mut t = 2.0 * way / (start + square.sqrt());
+        for _ in 0..MOST_TRIALS {
+            let half = 0.5 * t;
+            let v2 = start + half * a0;
+            let a2 = at(half * start, v2.max(0.0));
+            let v3 = start + half * a2;
+            let a3 = at(half * v2, v3.max(0.0));
+            let v4 = start + t * a3;
+            let a4 = at(t * v3, v4.max(0.0));
+            let x = t / 6.0 * (start + 2.0 * (v2 + v3) + v4);
+            let v = start + t / 6.0 * (a0 + 2.0 * (a2 + a3) + a4);
+            if v <= 0.0 {
+                return None;
+            }
+            let missing = way - x;
+            if missing.abs() <= CLOSE * way {
+                let z = 0.5 * v * v;
+                let a = (self.field)(&self.cell.place(to), z);
+                let error = (t / 6.0 * (a4 - heading * a)).abs() * v;
+                return Some((z, a, error, Some(t)));
+            }
+            t += missing / v;
+            if t <= 0.0 {
+                return None;
+            }
+        }
+        None
+    }
+}

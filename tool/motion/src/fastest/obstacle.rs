@@ -1,0 +1,298 @@
+//! Why there is no motion, and where.
+
+use std::fmt;
+
+use jred::Error;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::number::rounding::short;
+
+use super::field::{Binding, Field, speed};
+use super::sweep::Obstacle;
+use super::track::Track;
+
+/// Why there is no motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoMotion {
+    /// The mechanism cannot be placed somewhere.
+    Machine(Error),
+    /// Start and end are one, or not numbers.
+    NoWay,
+    /// The motor's peak torque is not known.
+    NoTorqueLimit,
+    /// The gearbox does not turn when its output drives.
+    SelfLocking,
+    /// Even with the largest acceleration the machine stops on the way, or does not start.
+    Stops {
+        /// Position (rad, or m).
+        phi: f64,
+        /// Whether it is the start.
+        at_start: bool,
+        /// What limits the acceleration there.
+        limit: Binding,
+        /// Torque that keeps the machine moving there (N·m), and that the limit gives.
+        torques: [f64; 2],
+        /// Their unit: N of a motor that slides.
+        unit: &'static str,
+        /// What the drive link is.
+        coordinate: Coordinate,
+    },
+    /// Even with the largest deceleration the machine is too fast.
+    RunsAway {
+        /// Position (rad, or m).
+        phi: f64,
+        /// Whether it is the end.
+        at_end: bool,
+        /// What limits the deceleration there.
+        limit: Binding,
+        /// Torque that would hold the speed there (N·m), and that the limit gives; both negative: they brake.
+        torques: [f64; 2],
+        /// Their unit: N of a motor that slides.
+        unit: &'static str,
+        /// What the drive link is.
+        coordinate: Coordinate,
+    },
+    /// The start is faster than the way allows: the speed, and the largest one (rad/s, or m/s).
+    StartTooFast {
+        /// Largest speed at the start.
+        most: f64,
+        /// What the drive link is.
+        coordinate: Coordinate,
+    },
+    /// The end is faster than can be reached.
+    EndTooFast {
+        /// Largest speed at the end.
+        most: f64,
+        /// What the drive link is.
+        coordinate: Coordinate,
+    },
+    /// No acceleration is left.
+    Empty {
+        /// Position (rad, or m).
+        phi: f64,
+        /// Speed (rad/s, or m/s).
+        speed: f64,
+        /// The least acceleration and its limit.
+        least: (f64, Binding),
+        /// The largest acceleration, which is smaller, and its limit.
+        most: (f64, Binding),
+    },
+}
+
+impl From<Error> for NoMotion {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
+    }
+}
+
+impl NoMotion {
+    pub(super) fn at(field: &Field, track: &Track, obstacle: Obstacle) -> Self {
+        let coordinate = field.way.coordinate();
+        let stages = field.way.file.drive_train.stages();
+        let unit = if stages.is_empty() {
+            coordinate.effort_unit()
+        } else {
+            Coordinate::Angle.effort_unit()
+        };
+        let place = |index: usize, u: f64| track.cells[index].place(u);
+        match obstacle {
+            Obstacle::Stops(index, u) => {
+                let place = place(index, u);
+                let (_, limit) = field.most_by(&place, 0.0);
+                Self::Stops {
+                    phi: place.phi,
+                    at_start: index == 0 && u == 0.0,
+                    limit,
+                    torques: field.needed_and_given(&place, limit, false),
+                    unit,
+                    coordinate,
+                }
+            }
+            Obstacle::RunsAway(index, u) => {
+                let place = place(index, u);
+                let (_, limit) = field.least_by(&place, 0.0);
+                Self::RunsAway {
+                    phi: place.phi,
+                    at_end: index + 1 == track.cells.len() && u >= 1.0,
+                    limit,
+                    torques: field.needed_and_given(&place, limit, true),
+                    unit,
+                    coordinate,
+                }
+            }
+            Obstacle::StartTooFast(z) => Self::StartTooFast {
+                most: speed(z),
+                coordinate,
+            },
+            Obstacle::EndTooFast(z) => Self::EndTooFast {
+                most: speed(z),
+                coordinate,
+            },
+        }
+    }
+
+    /// What to do about it.
+    pub fn cure(&self) -> String {
+        match self {
+            Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
+            Self::NoWay => "give two different positions".to_owned(),
+            Self::NoTorqueLimit => {
+                "take a motor with a peak torque, or give --torque".to_owned()
+            }
+            Self::SelfLocking => "take another gearbox".to_owned(),
+            Self::Stops {
+                limit,
+                torques,
+                unit,
+                ..
+            } => {
+                let missing = short(torques[0] - torques[1]);
+                match limit {
+                    Binding::GearboxTorque => format!(
+                        "take a gearbox with {missing} {unit} more at its output, or start with more speed"
+                    ),
+                    Binding::Acceleration | Binding::Deceleration => {
+                        "allow a larger deceleration".to_owned()
+                    }
+                    _ => format!(
+                        "take a motor with {missing} {unit} more at low speed, a larger gear ratio, or start with more speed"
+                    ),
+                }
+            }
+            Self::RunsAway { limit, .. } => match limit {
+                Binding::Deceleration => "allow a larger deceleration".to_owned(),
+                Binding::GearboxTorque => {
+                    "take a gearbox with more torque, or balance the weight".to_owned()
+                }
+                _ => "take a motor with more torque where it brakes, a larger gear ratio, or balance the weight"
+                    .to_owned(),
+            },
+            Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
+            Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
+            Self::Empty { .. } => {
+                "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
+            }
+        }
+    }
+}
+
+/// A limit in words.
+pub(super) const fn name(limit: Binding) -> &'static str {
+    match limit {
+        Binding::Driving => "motor torque, driving",
+        Binding::Braking => "motor torque, braking",
+        Binding::MotorSpeed => "motor speed",
+        Binding::GearboxTorque => "gearbox torque",
+        Binding::GearboxSpeed => "gearbox speed",
+        Binding::Speed => "speed limit",
+        Binding::Acceleration => "acceleration limit",
+        Binding::Deceleration => "deceleration limit",
+    }
+}
+
+impl Binding {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        name(self)
+    }
+}
+
+impl fmt::Display for NoMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
+            Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
+            Self::NoTorqueLimit => write!(
+                f,
+                "the motor's peak torque is not known, so nothing limits the acceleration"
+            ),
+            Self::SelfLocking => write!(
+                f,
+                "the gearbox is self-locking: its load cannot be braked by the motor, and the motion under it is not determined"
+            ),
+            Self::Stops {
+                phi,
+                at_start,
+                limit,
+                torques: [needed, given],
+                unit,
+                coordinate,
+            } => {
+                let place = coordinate.place(*phi);
+                let [needed, given] = [needed, given].map(|torque| short(*torque));
+                let what = if *at_start {
+                    "the machine cannot start at"
+                } else {
+                    "with the largest acceleration all the way, the machine still stops at"
+                };
+                match limit {
+                    Binding::Acceleration | Binding::Deceleration => {
+                        write!(f, "{what} {place}: the {} is in the way", name(*limit))
+                    }
+                    Binding::GearboxTorque => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the gearbox output to keep moving, its limit is {given} {unit}"
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the motor to keep moving, it gives {given} {unit}"
+                    ),
+                }
+            }
+            Self::RunsAway {
+                phi,
+                at_end,
+                limit,
+                torques: [needed, given],
+                unit,
+                coordinate,
+            } => {
+                let place = coordinate.place(*phi);
+                let [needed, given] = [needed, given].map(|torque| short(torque.abs()));
+                let what = if *at_end {
+                    "the machine cannot be stopped at"
+                } else {
+                    "the machine cannot be braked in time: it runs away at"
+                };
+                match limit {
+                    Binding::Deceleration | Binding::Acceleration => write!(
+                        f,
+                        "{what} {place}: its loads brake harder than the {} allows",
+                        name(*limit)
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {} is {given} {unit}",
+                        name(*limit)
+                    ),
+                }
+            }
+            Self::StartTooFast { most, coordinate } => write!(
+                f,
+                "the start is too fast: the end and the limits on the way can be met from at most {} {}",
+                short(*most),
+                coordinate.speed_unit()
+            ),
+            Self::EndTooFast { most, coordinate } => write!(
+                f,
+                "the speed of the end cannot be reached: at most {} {}",
+                short(*most),
+                coordinate.speed_unit()
+            ),
+            Self::Empty {
+                phi,
+                speed,
+                least,
+                most,
+            } => write!(
+                f,
+                "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
+                short(*phi),
+                short(*speed),
+                name(least.1),
+                short(least.0),
+                name(most.1),
+                short(most.0)
+            ),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Which limit a motion follows, from where to where.
+
+use std::convert::Infallible;
+
+use jred_machine::number::numerics::edge;
+
+use super::field::{Binding, Field, speed};
+use super::sweep::{Along, Piece};
+use super::track::{Ends, Track};
+
+/// A part of the motion that follows one limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Phase {
+    /// The limit.
+    pub limit: Binding,
+    /// Positions of its beginning and end (rad, or m).
+    pub phi: [f64; 2],
+    /// Times (s).
+    pub t: [f64; 2],
+    /// Speeds along the way (rad/s, or m/s).
+    pub speed: [f64; 2],
+}
+
+/// The phases of a motion.
+pub(super) fn phases(
+    field: &Field,
+    ends: &Ends,
+    track: &Track,
+    pieces: &[Piece],
+    times: &[f64],
+) -> Vec<Phase> {
+    let mut phases: Vec<Phase> = Vec::new();
+    let mut t = 0.0;
+    let (_, top) = field.top();
+    for (piece, time) in pieces.iter().zip(times) {
+        let cell = &track.cells[piece.cell];
+        let step = &piece.step;
+        let width = step.u[1] - step.u[0];
+        let z = |s: f64| step.hermite(s, width * cell.length);
+        let binding = |s: f64| {
+            let place = cell.place(step.u[0] + s * width);
+            match piece.along {
+                Along::Most => field.most_by(&place, z(s)).1,
+                Along::Least => field.least_by(&place, z(s)).1,
+                Along::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
+                    field.most_by(&place, z(s)).1
+                }
+                Along::Cap => top,
+            }
+        };
+        // Inside its ends, where two limits may be the same.
+        let [first, last] = [binding(0.01), binding(0.99)];
+        let mut add = |limit: Binding, from: f64, to: f64| {
+            let phi = |s: f64| {
+                let x = cell.x + (step.u[0] + s * width) * cell.length;
+                ends.from + field.way.direction * x
+            };
+            let end = (phi(to), t + to * time, speed(z(to)));
+            if let Some(phase) = phases.last_mut().filter(|phase| phase.limit == limit) {
+                (phase.phi[1], phase.t[1], phase.speed[1]) = end;
+                return;
+            }
+            phases.push(Phase {
+                limit,
+                phi: [phi(from), end.0],
+                t: [t + from * time, end.1],
+                speed: [speed(z(from)), end.2],
+            });
+        };
+        if first == last {
+            add(first, 0.0, 1.0);
+        } else {
+            let Ok(change) = edge(|s| Ok::<_, Infallible>(binding(s) == first), 0.0, 1.0);
+            add(first, 0.0, change);
+            add(last, change, 1.0);
+        }
+        t += time;
+    }
+    phases
+}

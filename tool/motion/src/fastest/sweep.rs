@@ -1,0 +1,374 @@
+//! The two sweeps: backwards for the speeds from which the end can still be met, forwards for the fastest motion below them.
+//!
+//! With z = ½·v² a motion is a curve z(x) whose slope is its acceleration, between the least and the largest one that the limits
+//! leave. Two curves of one field do not cross. So a motion that keeps the limits and meets the end stays below
+//!
+//! - *upper*: the limit of the speed, and where that falls faster than the motor can brake, or at the end of the way, the curve of least
+//!   acceleration that leads there, followed backwards;
+//! - the curve of largest acceleration from the start.
+//!
+//! The lower of both is itself such a motion, so it is the fastest. If it comes to rest on the way, every other motion does, too.
+
+use std::convert::Infallible;
+
+use jred_machine::number::numerics::zero;
+
+use super::field::Field;
+use super::leg::{Leg, Stalled, Step};
+use super::track::{Cell, Track};
+use crate::way::Place;
+
+/// Share of z within which a curve lies on another.
+const ON: f64 = 1e-12;
+
+/// Share of its place to which a crossing is found.
+const CROSSING: f64 = 1e-15;
+
+/// Changes of the state within a cell; more are rounding where two curves touch.
+const MOST_CHANGES: u32 = 16;
+
+/// What a piece of the motion follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// The largest acceleration.
+    Most,
+    /// The least acceleration.
+    Least,
+    /// The limit of the speed.
+    Cap,
+}
+
+/// A step of a curve in a cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// Index of the cell.
+    pub cell: usize,
+    /// The step.
+    pub step: Step,
+    /// What it follows.
+    pub along: Along,
+}
+
+/// Where no motion goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// Even the largest acceleration comes to rest at this share of a cell.
+    Stops(usize, f64),
+    /// Even the least acceleration is too large here for the end, or the limit of the speed, to be met.
+    RunsAway(usize, f64),
+    /// The speed at the start is larger than this z.
+    StartTooFast(f64),
+    /// The end is reached with this z at most.
+    EndTooFast(f64),
+}
+
+/// The fastest motion from z to z.
+///
+/// # Errors
+/// No motion exists: where.
+pub fn fastest(field: &Field, track: &Track, ends: [f64; 2]) -> Result<Vec<Piece>, Obstacle> {
+    let upper = upper(field, track, ends[1])?;
+    let first = upper.last().map_or(0.0, |piece| piece.step.z[0]);
+    if ends[0] > first * (1.0 + ON) {
+        return Err(Obstacle::StartTooFast(first));
+    }
+    forwards(field, track, &upper, ends)
+}
+
+fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
+    let sure = |u: f64| Ok::<_, Infallible>(f(u));
+    let Ok(u) = zero(sure, between, values, CROSSING);
+    u
+}
+
+/// A piece along the limit of the speed.
+fn along_cap(cell: &Cell, index: usize, u: [f64; 2]) -> Piece {
+    Piece {
+        cell: index,
+        step: Step {
+            u,
+            z: u.map(|u| cell.cap(u)),
+            a: u.map(|u| cell.cap_slope(u)),
+            time: None,
+        },
+        along: Along::Cap,
+    }
+}
+
+/// Where `f` becomes positive on the way from `from` to `to`: at the start, inside, or nowhere.
+fn first_positive(f: impl Fn(f64) -> f64, from: f64, to: f64) -> Option<f64> {
+    let mut last = (from, f(from));
+    if last.1 > 0.0 {
+        return Some(from);
+    }
+    for u in [from.midpoint(to), to] {
+        let value = f(u);
+        if value > 0.0 {
+            return Some(zero_of(&f, [last.0, u], [last.1, value]));
+        }
+        last = (u, value);
+    }
+    None
+}
+
+/// The largest speeds from which limits and the end can be met: pieces from the end to the start.
+fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle> {
+    let mut pieces = Vec::with_capacity(track.cells.len() + 64);
+    let mut steps = Vec::new();
+    let mut z = end;
+    for (index, cell) in track.cells.iter().enumerate().rev() {
+        let leg = Leg {
+            field: |place: &Place, z: f64| field.least(place, z),
+            part: |place: &Place, z: f64| field.least_part(place, z),
+            cell,
+        };
+        let mut u = 1.0;
+        let mut on_cap = z >= cell.caps[2];
+        if on_cap {
+            z = cell.caps[2];
+        }
+        let mut changes = 0;
+        while u > 0.0 {
+            changes += 1;
+            if on_cap {
+                let falls = |u: f64| (leg.field)(&cell.place(u), cell.cap(u)) - cell.cap_slope(u);
+                let to = if changes > MOST_CHANGES {
+                    0.0
+                } else {
+                    first_positive(falls, u, 0.0).unwrap_or(0.0)
+                };
+                if to < u {
+                    pieces.push(along_cap(cell, index, [to, u]));
+                }
+                (u, z, on_cap) = (to, cell.cap(to), false);
+                continue;
+            }
+            steps.clear();
+            let from = leg.point(u, z);
+            let reached = leg.go(from, 0.0, &mut steps);
+            if changes <= MOST_CHANGES
+                && let Some((k, crossing)) = above_cap(cell, &leg, &steps)
+            {
+                push(&mut pieces, index, steps.drain(..k), Along::Least);
+                let step = steps[0];
+                let right = leg.point(step.u[1], step.z[1]);
+                let mut part = Vec::new();
+                if crossing < step.u[1] && leg.go(right, crossing, &mut part).is_ok() {
+                    push(&mut pieces, index, part.drain(..), Along::Least);
+                }
+                (u, z, on_cap) = (crossing, cell.cap(crossing), true);
+                continue;
+            }
+            let Ok(point) = reached else {
+                let Err(Stalled(at)) = reached else { continue };
+                return Err(Obstacle::RunsAway(index, at));
+            };
+            push(&mut pieces, index, steps.drain(..), Along::Least);
+            (u, z) = (0.0, point.z);
+        }
+    }
+    Ok(pieces)
+}
+
+fn push(pieces: &mut Vec<Piece>, cell: usize, steps: impl Iterator<Item = Step>, along: Along) {
+    pieces.extend(steps.map(|step| Piece { cell, step, along }));
+}
+
+/// The first step (backwards) that rises above the limit of the speed, and where it does.
+fn above_cap<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
+    cell: &Cell,
+    leg: &Leg<F, P>,
+    steps: &[Step],
+) -> Option<(usize, f64)> {
+    let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + ON);
+    let k = steps
+        .iter()
+        .position(|step| is_above(step.u[0], step.z[0]))?;
+    let step = steps[k];
+    let right = leg.point(step.u[1], step.z[1]);
+    let above = |u: f64| follow(leg, right, u) - cell.cap(u);
+    let ends = [step.u[1], step.u[0]];
+    let values = [
+        step.z[1] - cell.cap(step.u[1]),
+        step.z[0] - cell.cap(step.u[0]),
+    ];
+    if values[0] >= 0.0 {
+        return Some((k, step.u[1]));
+    }
+    Some((k, zero_of(above, ends, values)))
+}
+
+/// z of the curve through a point at another share of the cell.
+fn follow<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
+    leg: &Leg<F, P>,
+    from: super::leg::Point,
+    to: f64,
+) -> f64 {
+    if (to - from.u).abs() <= 0.0 {
+        return from.z;
+    }
+    let mut steps = Vec::new();
+    leg.go(from, to, &mut steps).map_or(0.0, |point| point.z)
+}
+
+/// The fastest motion below `upper`.
+fn forwards(
+    field: &Field,
+    track: &Track,
+    upper: &[Piece],
+    ends: [f64; 2],
+) -> Result<Vec<Piece>, Obstacle> {
+    let mut pieces = Vec::with_capacity(upper.len() + 64);
+    let mut rest = upper;
+    let mut z = ends[0];
+    let mut steps = Vec::new();
+    for (index, cell) in track.cells.iter().enumerate() {
+        let count = rest
+            .iter()
+            .rev()
+            .take_while(|piece| piece.cell == index)
+            .count();
+        let (before, own) = rest.split_at(rest.len() - count);
+        rest = before;
+        let above = Upper { field, cell, own };
+        let leg = Leg {
+            field: |place: &Place, z: f64| field.most(place, z),
+            part: |place: &Place, z: f64| field.most_part(place, z),
+            cell,
+        };
+        let mut u = 0.0;
+        let mut on_upper = z >= above.z(0.0) * (1.0 - ON);
+        let mut changes = 0;
+        while u < 1.0 {
+            changes += 1;
+            if on_upper {
+                let (to, stays) = above.along(u, &leg, changes <= MOST_CHANGES, index, &mut pieces);
+                (u, z, on_upper) = (to, above.z(to), stays);
+                continue;
+            }
+            steps.clear();
+            let from = leg.point(u, z);
+            let reached = leg.go(from, 1.0, &mut steps);
+            if changes <= MOST_CHANGES
+                && let Some((k, crossing)) = above.crossed(&leg, &steps)
+            {
+                push(&mut pieces, index, steps.drain(..k), Along::Most);
+                let step = steps[0];
+                let left = leg.point(step.u[0], step.z[0]);
+                let mut part = Vec::new();
+                if crossing > step.u[0] && leg.go(left, crossing, &mut part).is_ok() {
+                    push(&mut pieces, index, part.drain(..), Along::Most);
+                }
+                (u, on_upper) = (crossing, true);
+                continue;
+            }
+            let Ok(point) = reached else {
+                let Err(Stalled(at)) = reached else { continue };
+                return Err(Obstacle::Stops(index, at));
+            };
+            push(&mut pieces, index, steps.drain(..), Along::Most);
+            (u, z) = (1.0, point.z);
+        }
+    }
+    // What is left below the speed of the end is rounding, or the way is too short to reach it.
+    if z < ends[1] * (1.0 - 1e-9) {
+        return Err(Obstacle::EndTooFast(z));
+    }
+    Ok(pieces)
+}
+
+/// The upper curve in a cell: its pieces from the end to the beginning.
+struct Upper<'u, 'f, 'w, 'a> {
+    field: &'f Field<'w, 'a>,
+    cell: &'u Cell,
+    own: &'u [Piece],
+}
+
+impl Upper<'_, '_, '_, '_> {
+    /// The piece over a share of the cell, the later one where two meet.
+    fn piece(&self, u: f64) -> Option<&Piece> {
+        let covers = |piece: &&Piece| piece.step.u[0] <= u;
+        self.own.iter().find(covers).or(self.own.last())
+    }
+
+    fn leg(&self) -> Leg<'_, impl Fn(&Place, f64) -> f64, impl Fn(&Place, f64) -> u32> {
+        Leg {
+            field: |place: &Place, z: f64| self.field.least(place, z),
+            part: |place: &Place, z: f64| self.field.least_part(place, z),
+            cell: self.cell,
+        }
+    }
+
+    /// z at a share of the cell.
+    fn z(&self, u: f64) -> f64 {
+        let Some(Piece { step, along, .. }) = self.piece(u) else {
+            return 0.0;
+        };
+        if *along == Along::Cap {
+            return self.cell.cap(u);
+        }
+        if u <= step.u[0] {
+            return step.z[0];
+        }
+        let leg = self.leg();
+        follow(&leg, leg.point(step.u[1], step.z[1]), u)
+    }
+
+    /// The first step that rises above it, and where.
+    fn crossed<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
+        &self,
+        leg: &Leg<F, P>,
+        steps: &[Step],
+    ) -> Option<(usize, f64)> {
+        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + ON);
+        let k = steps.iter().position(is_above)?;
+        let step = steps[k];
+        let left = leg.point(step.u[0], step.z[0]);
+        let values = [0, 1].map(|end| step.z[end] - self.z(step.u[end]));
+        if values[0] >= 0.0 {
+            return Some((k, step.u[0]));
+        }
+        let above = |u: f64| follow(leg, left, u) - self.z(u);
+        Some((k, zero_of(above, step.u, values)))
+    }
+
+    /// Follows it from a share of the cell on: how far, and whether it is still followed there.
+    fn along<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
+        &self,
+        from: f64,
+        most: &Leg<F, P>,
+        may_leave: bool,
+        index: usize,
+        pieces: &mut Vec<Piece>,
+    ) -> (f64, bool) {
+        let Some(piece) = self.piece(from) else {
+            return (1.0, true);
+        };
+        let end = piece.step.u[1];
+        match piece.along {
+            Along::Cap => {
+                let cell = self.cell;
+                let falls = |u: f64| cell.cap_slope(u) - (most.field)(&cell.place(u), cell.cap(u));
+                let leaves = first_positive(falls, from, end).filter(|_| may_leave);
+                let to = leaves.unwrap_or(end);
+                if to > from {
+                    pieces.push(along_cap(cell, index, [from, to]));
+                }
+                (to, leaves.is_none())
+            }
+            _ if from <= piece.step.u[0] => {
+                pieces.push(*piece);
+                (end, true)
+            }
+            _ => {
+                let leg = self.leg();
+                let mut part = Vec::new();
+                let right = leg.point(end, piece.step.z[1]);
+                if leg.go(right, from, &mut part).is_ok() {
+                    push(pieces, index, part.into_iter().rev(), Along::Least);
+                }
+                (end, true)
+            }
+        }
+    }
+}

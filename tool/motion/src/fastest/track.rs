@@ -1,0 +1,204 @@
+//! The way cut into cells: the machine and the largest speed at three places of each.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use jred::Error;
+
+use super::field::Field;
+use crate::way::Place;
+
+/// Speeds at which it is looked whether limits leave an acceleration.
+const LOOKS: u32 = 24;
+
+/// Share of a cell by which a place at a corner lies inside it: what jumps there has the value of its own side.
+const INSIDE: f64 = 1e-9;
+
+/// Places closer than this share of the way are one.
+const SAME: f64 = 1e-12;
+
+/// A cell of the way. Between its three places every quantity is the parabola through them.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Distance of its beginning from the start of the way (rad, or m).
+    pub x: f64,
+    /// Its length.
+    pub length: f64,
+    /// The machine at its beginning, middle and end.
+    pub places: [Place; 3],
+    /// The largest z = ½·v² at the same places; infinite: no limit.
+    pub caps: [f64; 3],
+}
+
+impl Cell {
+    /// The machine at a share of the cell, 0 to 1.
+    pub fn place(&self, u: f64) -> Place {
+        let [a, b, c] = &self.places;
+        if (u - 0.5).abs() < f64::EPSILON {
+            return *b;
+        }
+        if u <= 0.0 {
+            return *a;
+        }
+        if u >= 1.0 {
+            return *c;
+        }
+        let w = weights(u);
+        let mix = |of: fn(&Place) -> f64| w[0] * of(a) + w[1] * of(b) + w[2] * of(c);
+        Place {
+            phi: mix(|p| p.phi),
+            inertia: mix(|p| p.inertia),
+            inertia_slope: mix(|p| p.inertia_slope),
+            load: mix(|p| p.load),
+            viscous: mix(|p| p.viscous),
+            coulomb: mix(|p| p.coulomb),
+        }
+    }
+
+    /// The largest z at a share of the cell.
+    pub fn cap(&self, u: f64) -> f64 {
+        let [a, b, c] = self.caps;
+        if self.is_level() {
+            return a;
+        }
+        let w = weights(u);
+        w[0] * a + w[1] * b + w[2] * c
+    }
+
+    /// Its slope by the way.
+    pub fn cap_slope(&self, u: f64) -> f64 {
+        if self.is_level() {
+            return 0.0;
+        }
+        let [a, b, c] = self.caps;
+        ((4.0 * u - 3.0) * a + (4.0 - 8.0 * u) * b + (4.0 * u - 1.0) * c) / self.length
+    }
+
+    fn is_level(&self) -> bool {
+        let [a, b, c] = self.caps;
+        a.total_cmp(&b).is_eq() && b.total_cmp(&c).is_eq()
+    }
+}
+
+fn weights(u: f64) -> [f64; 3] {
+    [
+        (1.0 - u) * (1.0 - 2.0 * u),
+        4.0 * u * (1.0 - u),
+        u * (2.0 * u - 1.0),
+    ]
+}
+
+/// The cells of a way.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// One after another.
+    pub cells: Vec<Cell>,
+}
+
+/// From where to where.
+#[derive(Clone, Debug)]
+pub struct Ends {
+    /// Position of the start (rad, or m).
+    pub from: f64,
+    /// Length of the way.
+    pub length: f64,
+    /// Speeds at the start and at the end, along the way.
+    pub speeds: [f64; 2],
+    /// Distances from the start at which the machine is not smooth, inside the way.
+    pub corners: Vec<f64>,
+}
+
+impl Track {
+    /// About `count` cells, finer towards an end at rest, none across a corner of the machine.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere on the way.
+    pub fn new(field: &Field, ends: &Ends, count: usize) -> Result<Self, Error> {
+        let (nodes, is_edge) = nodes(ends, count);
+        let direction = field.way.direction;
+        let top = 0.5 * field.top().0.powi(2);
+        let at = |x: f64| field.way.place(ends.from + direction * x);
+        let cap = |place: &Place| ceiling(field, place, top);
+        let with_cap = |x: f64| at(x).map(|place| (place, cap(&place)));
+        let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
+        for (k, pair) in nodes.windows(2).enumerate() {
+            let &[x, end] = pair else { continue };
+            let length = end - x;
+            let first = match cells.last() {
+                Some(last) if !is_edge[k] => (last.places[2], last.caps[2]),
+                _ if is_edge[k] => with_cap(x + INSIDE * length)?,
+                _ => with_cap(x)?,
+            };
+            let middle = with_cap(x + 0.5 * length)?;
+            let last = if is_edge[k + 1] {
+                with_cap(end - INSIDE * length)?
+            } else {
+                with_cap(end)?
+            };
+            cells.push(Cell {
+                x,
+                length,
+                places: [first.0, middle.0, last.0],
+                caps: [first.1, middle.1, last.1],
+            });
+        }
+        Ok(Self { cells })
+    }
+}
+
+/// Distances from the start at which cells meet, and whether each is a corner of the machine.
+fn nodes(ends: &Ends, count: usize) -> (Vec<f64>, Vec<bool>) {
+    let rest = ends.speeds.map(|speed| speed == 0.0);
+    let share = |s: f64| match rest {
+        [true, true] => 0.5 * (1.0 - (PI * s).cos()),
+        [true, false] => 1.0 - (FRAC_PI_2 * s).cos(),
+        [false, true] => (FRAC_PI_2 * s).sin(),
+        [false, false] => s,
+    };
+    let count = count.max(2);
+    let inner = (1..count).map(|k| (ends.length * share(k as f64 / count as f64), false));
+    let mut all: Vec<(f64, bool)> = inner.collect();
+    all.extend(ends.corners.iter().map(|x| (*x, true)));
+    all.push((0.0, true));
+    all.push((ends.length, true));
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let near = SAME * ends.length;
+    all.dedup_by(|b, a| {
+        let same = b.0 - a.0 <= near;
+        a.1 |= same && b.1;
+        same
+    });
+    if let Some(last) = all.last_mut() {
+        *last = (ends.length, true);
+    }
+    all.into_iter().unzip()
+}
+
+/// The largest z up to `top` at which limits leave an acceleration, from the first one on at which they do.
+fn ceiling(field: &Field, place: &Place, top: f64) -> f64 {
+    if !field.may_be_empty() {
+        return top;
+    }
+    let open = |z: f64| field.least(place, z) <= field.most(place, z);
+    // Without a limit of the speed the looks go on as long as torques could matter.
+    let highest = if top.is_finite() { top } else { return top };
+    let z = |k: u32| highest * (f64::from(k) / f64::from(LOOKS)).powi(2);
+    let Some(first) = (0..=LOOKS).find(|k| open(z(*k))) else {
+        return 0.0;
+    };
+    let Some(closed) = (first..=LOOKS).find(|k| !open(z(*k))) else {
+        return top;
+    };
+    let (mut low, mut high) = (z(closed - 1), z(closed));
+    while {
+        let middle = low.midpoint(high);
+        low < middle && middle < high
+    } {
+        let middle = low.midpoint(high);
+        if open(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}

@@ -1,0 +1,70 @@
+//! Minimum time against closed forms, quadratures and a dynamic programme.
+
+mod closed_form;
+mod programme;
+mod refusals;
+mod scales;
+mod varying;
+
+use std::collections::BTreeMap;
+
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_motion::fastest::{Fastest, Limits, Task, solve};
+use jred_motion::way::Actuator;
+use jred_sizing::catalogue::Motor;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+
+/// A table with this inertia (kg·m²) and loads.
+fn table(inertia: f64, loads: &str) -> MachineFile {
+    machine(&format!(
+        "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"{inertia} kg m^2\"\n{loads}"
+    ))
+}
+
+fn machine(text: &str) -> MachineFile {
+    read::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
+}
+
+/// A motor without rotor, friction and gearbox, whose torque falls in a straight line from rest to its largest speed.
+fn motor(torques: [f64; 2], speed: f64) -> Actuator {
+    let motor = Motor {
+        peak_curve: vec![[0.0, torques[0]], [speed, torques[1]]],
+        ..Motor::default()
+    };
+    Actuator {
+        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
+        ratio: 1.0,
+        envelope: Envelope::of(&motor),
+    }
+}
+
+fn task(from: f64, to: f64) -> Task {
+    Task {
+        from,
+        to,
+        speeds: [0.0; 2],
+        limits: Limits::default(),
+    }
+}
+
+fn fastest(file: &MachineFile, motor: &Actuator, task: &Task) -> Fastest {
+    let found = solve(file, motor, task).unwrap_or_else(|why| panic!("{why}"));
+    assert!(found.excess <= 1e-9, "exceeded by {:e}", found.excess);
+    let nodes = found.trace.nodes();
+    let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+    assert!((first.phi - task.from).abs() <= 1e-15 * task.from.abs());
+    assert!((last.phi - task.to).abs() <= 1e-15 * task.to.abs());
+    let way = (task.to - task.from).signum();
+    for (node, speed) in [first, last].iter().zip(task.speeds) {
+        assert!((node.omega * way - speed).abs() <= 1e-9 * speed, "{node:?}");
+    }
+    assert!((found.trace.duration() - found.time).abs() <= 1e-12 * found.time);
+    found
+}
+
+fn close(found: f64, expected: f64, share: f64) {
+    let error = (found - expected).abs() / expected.abs();
+    assert!(error <= share, "{found}, not {expected}: {error:e}");
+}

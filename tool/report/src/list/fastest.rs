@@ -1,0 +1,318 @@
+//! The fastest motion, for reading, as CSV and as JSON.
+
+use std::fmt::Write as _;
+
+use serde_json::{Map, Value, json};
+
+use crate::table::output::{Format, json_parts, parts};
+use crate::table::sheet::Reading;
+use jred::Error;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::columns::{Column, Columns, Quantity};
+use jred_machine::number::rounding::{percent, short, shown};
+use jred_machine::number::words::counted;
+use jred_motion::fastest::cycle::{Cost, Cycle, MORE, Made};
+use jred_motion::fastest::{Binding, Phase};
+use jred_motion::way::{Actuator, Way};
+use jred_sizing::study::cell::Cell;
+
+/// Name and version of the form in JSON.
+const SCHEMA: &str = "jred-fastest/1";
+
+/// The fastest motion of a machine with a drive.
+pub struct Answer<'a> {
+    /// The machine.
+    pub file: &'a MachineFile,
+    /// Name of the drive.
+    pub drive: &'a str,
+    /// What moves the machine.
+    pub actuator: &'a Actuator,
+    /// The motion.
+    pub cycle: &'a Cycle,
+    /// Instants of the course.
+    pub instants: usize,
+}
+
+impl Answer<'_> {
+    /// In one of the formats, part by part; CSV is the course alone, a table has no course.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub fn write(&self, format: Format) -> Result<Box<dyn Iterator<Item = String>>, Error> {
+        if format == Format::Table {
+            return Ok(Box::new(std::iter::once(self.text())));
+        }
+        let course = self.course()?;
+        let text: Vec<String> = match format {
+            Format::Csv => parts(&course, Format::Csv, "").collect(),
+            Format::Table | Format::Json => json_parts(&course, self.json(), Map::new()).collect(),
+        };
+        Ok(Box::new(text.into_iter()))
+    }
+
+    fn coordinate(&self) -> Coordinate {
+        self.cycle.trace.coordinate
+    }
+
+    /// The motion over the time, with the torque and speed of the motor.
+    fn course(&self) -> Result<Columns, Error> {
+        let coordinate = self.coordinate();
+        let [speed, acceleration] = coordinate.rates();
+        let [effort, motor_speed] = self.motor_units();
+        let mut columns = Columns::new([
+            Column::new(Quantity::Time, "t", "s"),
+            coordinate.column(),
+            speed,
+            acceleration,
+            Column::new(Quantity::MotorEffort, "motor torque", effort),
+            Column::other("motor speed", motor_speed),
+        ]);
+        let ways = [1.0, -1.0].map(|sign| Way::new(self.file, self.actuator.clone(), sign));
+        let trace = &self.cycle.trace;
+        let last = self.instants.max(2) - 1;
+        for k in 0..=last {
+            let t = trace.duration() * k as f64 / last as f64;
+            let state = trace.at(t);
+            let way = &ways[usize::from(state.omega < 0.0)];
+            let place = way.place(state.phi)?;
+            let torque = if state.omega == 0.0 && state.alpha == 0.0 {
+                way.holding(&place)
+            } else {
+                let sign = way.direction;
+                way.demand(&place, state.omega.abs(), state.alpha * sign)
+                    .torque
+                    * sign
+            };
+            columns.push([
+                t,
+                coordinate.shown(state.phi),
+                state.omega,
+                state.alpha,
+                torque,
+                way.motor_speed(state.omega),
+            ]);
+        }
+        Ok(columns)
+    }
+
+    /// Units of effort and speed of the motor.
+    fn motor_units(&self) -> [&'static str; 2] {
+        let direct = self.file.drive_train.stages().is_empty();
+        let linear = self.coordinate() == Coordinate::Length && direct;
+        if linear {
+            ["N", "m/s"]
+        } else {
+            ["N m", "rad/s"]
+        }
+    }
+
+    fn text(&self) -> String {
+        let cycle = self.cycle;
+        let mut text = format!(
+            "{}: fastest motion with {}\n\n",
+            self.file.title, self.drive
+        );
+        let whole = cycle.trace.duration();
+        let moves = counted(cycle.moves.len(), "move", "moves");
+        let moving: f64 = cycle.moves.iter().map(|made| made.fastest.time).sum();
+        let mut says = format!("{} s: {moves} in {} s", short(whole), short(moving));
+        if cycle.dwells > 0.0 {
+            let _ = write!(says, ", {} s at rest", short(cycle.dwells));
+        }
+        if let Some(before) = cycle.before {
+            let _ = write!(
+                says,
+                "; {} s in the file, {} {}",
+                short(before),
+                percent((1.0 - whole / before).abs()),
+                if whole <= before { "less" } else { "more" }
+            );
+        }
+        line(&mut text, "duration", &says);
+        let [effort, speed_unit] = self.motor_units();
+        let load = &cycle.load;
+        let continuous = if load.continuous.is_finite() {
+            format!(
+                ", S1 torque {} {effort} at the mean speed",
+                short(load.continuous)
+            )
+        } else {
+            String::new()
+        };
+        line(
+            &mut text,
+            "motor torque",
+            &format!(
+                "RMS {} {effort}{continuous}; peak {} {effort}; {} {effort} to hold the end",
+                short(load.rms),
+                short(load.peaks[0]),
+                shown(load.holding, load.peaks[0])
+            ),
+        );
+        line(
+            &mut text,
+            "motor speed",
+            &format!(
+                "peak {} {speed_unit}, mean {} {speed_unit}",
+                short(load.peaks[1]),
+                short(load.mean_speed)
+            ),
+        );
+        match load.pause {
+            Some(0.0) => {}
+            Some(pause) => line(
+                &mut text,
+                "warning",
+                &format!(
+                    "the RMS torque exceeds the S1 torque: repeated, the motion needs {} s more at rest each time",
+                    short(pause)
+                ),
+            ),
+            None => line(
+                &mut text,
+                "warning",
+                "the RMS torque exceeds the S1 torque, and no pause helps: holding the machine alone takes more than that",
+            ),
+        }
+        let worst = cycle.moves.iter().map(|made| made.fastest.excess);
+        let error = cycle.moves.iter().map(|made| made.fastest.error);
+        line(
+            &mut text,
+            "accuracy",
+            &format!(
+                "duration within {:.0e} s; limits satisfied within {:.0e} between the nodes",
+                error.sum::<f64>().max(1e-16),
+                worst.fold(1e-16, f64::max)
+            ),
+        );
+        for (k, made) in cycle.moves.iter().enumerate() {
+            text.push('\n');
+            text += &self.one_move(k + 1, made);
+        }
+        text
+    }
+
+    fn one_move(&self, number: usize, made: &Made) -> String {
+        let coordinate = self.coordinate();
+        let unit = coordinate.unit();
+        let position = |phi: f64| short(coordinate.shown(phi));
+        let mut text = format!(
+            "move {number}: {} {unit} to {} {unit} in {} s",
+            position(made.task.from),
+            position(made.task.to),
+            short(made.fastest.time)
+        );
+        if let Some(before) = made.before {
+            let _ = write!(text, " ({} s in the file)", short(before));
+        }
+        text.push('\n');
+        let columns = [
+            "at its limit".to_owned(),
+            format!("from {} [{unit}]", coordinate.symbol()),
+            "to".to_owned(),
+            "from t [s]".to_owned(),
+            "to".to_owned(),
+            format!("speed from [{}]", coordinate.speed_unit()),
+            "to".to_owned(),
+        ];
+        let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
+        let fastest = speeds.fold(0.0, f64::max);
+        let row = |phase: &Phase| -> Vec<Cell> {
+            let mut cells = vec![Cell::from(phase.limit.name())];
+            let positions = phase.phi.map(|phi| short(coordinate.shown(phi)));
+            let times = phase.t.map(|t| shown(t, made.fastest.time));
+            let speeds = phase.speed.map(|v| shown(v, fastest));
+            let texts = positions.into_iter().chain(times).chain(speeds);
+            cells.extend(texts.map(|text| Cell::from(text.as_str())));
+            cells
+        };
+        let rows: Vec<Vec<Cell>> = made.fastest.phases.iter().map(row).collect();
+        text += &Reading::table(&columns, &rows, 7);
+        for cost in &made.costs {
+            let saved = made.fastest.time - cost.time;
+            let _ = writeln!(
+                text,
+                "{}: {} s, {} s less",
+                eased(cost),
+                short(cost.time),
+                short(saved.max(0.0))
+            );
+        }
+        text
+    }
+
+    fn json(&self) -> Map<String, Value> {
+        let cycle = self.cycle;
+        let load = &cycle.load;
+        let mut map = Map::new();
+        map.insert("schema".into(), SCHEMA.into());
+        map.insert("title".into(), self.file.title.clone().into());
+        map.insert("drive".into(), self.drive.into());
+        map.insert("duration".into(), cycle.trace.duration().into());
+        map.insert("duration_before".into(), json!(cycle.before));
+        map.insert("at_rest".into(), cycle.dwells.into());
+        let known = Some(load.continuous).filter(|torque| torque.is_finite());
+        map.insert(
+            "motor".into(),
+            json!({
+                "rms_torque": load.rms,
+                "peak_torque": load.peaks[0],
+                "peak_speed": load.peaks[1],
+                "mean_speed": load.mean_speed,
+                "holding_torque": load.holding,
+                "s1_torque": known,
+                "pause_needed": load.pause,
+            }),
+        );
+        let moves: Vec<Value> = cycle.moves.iter().map(move_json).collect();
+        map.insert("moves".into(), moves.into());
+        map
+    }
+}
+
+/// A line: its name, and what it says.
+fn line(text: &mut String, name: &str, says: &str) {
+    let _ = writeln!(text, "  {name:<13} {says}");
+}
+
+/// Without a limit, or with more of the motor's own.
+fn eased(cost: &Cost) -> String {
+    match cost.limit {
+        Binding::Driving | Binding::Braking => {
+            format!("with {} more motor torque", percent(MORE))
+        }
+        Binding::MotorSpeed => format!("with {} more motor speed", percent(MORE)),
+        limit => format!("without the {}", limit.name()),
+    }
+}
+
+fn move_json(made: &Made) -> Value {
+    let phases = made.fastest.phases.iter().map(|phase| {
+        json!({
+            "limit": phase.limit.name(),
+            "from": phase.phi[0],
+            "to": phase.phi[1],
+            "from_time": phase.t[0],
+            "to_time": phase.t[1],
+            "from_speed": phase.speed[0],
+            "to_speed": phase.speed[1],
+        })
+    });
+    let costs = made
+        .costs
+        .iter()
+        .map(|cost| json!({ "limit": cost.limit.name(), "eased": eased(cost), "time": cost.time }));
+    json!({
+        "from": made.task.from,
+        "to": made.task.to,
+        "from_speed": made.task.speeds[0],
+        "to_speed": made.task.speeds[1],
+        "time": made.fastest.time,
+        "time_before": made.before,
+        "error": made.fastest.error,
+        "excess": made.fastest.excess,
+        "phases": phases.collect::<Vec<_>>(),
+        "costs": costs.collect::<Vec<_>>(),
+    })
+}
