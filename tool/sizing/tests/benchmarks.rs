@@ -79,14 +79,15 @@ dwell = "{} s"
 rms_torque = "100 %"
 peak_torque = "100 %"
 speed = "100 %"
-inertia_ratio = {}
+inertia_ratio = {ratio}
+inertia_ratio_warning = {ratio}
 "#,
             self.load_inertia,
             self.load_torque,
             TOP * (self.accelerate + STEADY),
             TOP / self.accelerate,
             CYCLE - STEADY - 2.0 * self.accelerate,
-            self.ratio
+            ratio = self.ratio
         )
     }
 
@@ -102,8 +103,7 @@ inertia_ratio = {}
             self.rated, self.peak, self.rotor
         );
         let path = folder.file("motors.csv", format!("{header}\n{row}\n"));
-        let none = folder.file("gearboxes.csv", "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],rated_input_speed [rpm],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],source\n");
-        let catalogue = Catalogue::load(Some(&path), Some(&none)).unwrap();
+        let catalogue = Catalogue::load(Some(&path), None).unwrap();
         let prepared = catalogue.prepare(&file.site);
         let cycle = Cycle::new(&duty);
         let drive = Drive {

@@ -48,7 +48,7 @@ fn files() {
                 "--delta",
                 "0.1",
             ],
-            &["steady", "press.toml", "--delta", "2 %"],
+            &["steady", "press.toml", "--delta", "2 percent"],
             &["steady", "press.toml", "--delta", "7"],
             &["steady", "variator-press.toml"],
             &["steady", "linear-gripper.toml", "--torque", "3 N m"],
