@@ -9,6 +9,7 @@ mod gearbox;
 mod holding;
 mod inertia;
 mod moves;
+mod overload;
 mod rigidity;
 mod voltage;
 

@@ -5,6 +5,7 @@
 mod drives;
 mod duty_types;
 mod mean;
+mod relative;
 
 use crate::brute;
 use crate::support::{budget, near, within};

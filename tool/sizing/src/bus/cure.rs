@@ -205,7 +205,6 @@ impl Answer {
         let known = self.data.capacitance.filter(|c| *c > 0.0)?;
         let bare = Bus {
             resistor: None,
-            regenerative: false,
             ..*self.shared.bus()
         };
         let highest = match (&self.power, self.data.resistor) {

@@ -644,3 +644,53 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
             .contains("but the chopper requires at least")
     );
 }
+
+/// Two equal axes half a period apart do nothing to the bus, in step everything: what is judged is the worst of all phases, or what they do in step.
+#[test]
+fn the_worst_phases_are_judged() {
+    let brakes = PowerCurve::new(
+        [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
+        2.0,
+    );
+    let supply = Supply {
+        capacitance: Some(1e-5),
+        chopper_voltage: Some(700.0),
+        max_voltage: Some(800.0),
+        brake_resistor: Some(BrakeResistor {
+            power: 1e4,
+            ..RESISTOR
+        }),
+        ..NOTHING
+    };
+    let stored = 0.5 * 1e-5 * (700.0f64.powi(2) - 560.0f64.powi(2));
+    let apart = [brakes.clone(), brakes.shifted(1.0)];
+    for (curves, in_step, burns) in [
+        (&apart, true, false),
+        (&apart, false, true),
+        (&[brakes.clone(), brakes], true, true),
+    ] {
+        let found = answer(curves, &supply, in_step);
+        let [voltage, mean, peak, pulse] = found.judged();
+        let expected = if burns {
+            [700.0, 0.5 * (1400.0 - stored), 1400.0, 1400.0 - stored]
+        } else {
+            [560.0, 0.0, 0.0, 0.0]
+        };
+        for (found, expected) in [voltage, mean, peak, pulse].into_iter().zip(expected) {
+            crate::support::within("judged", found, expected, 1e-6 * expected);
+        }
+    }
+    // Requirements in words: all of its figures.
+    let bare = Supply {
+        brake_resistor: None,
+        max_voltage: Some(710.0),
+        ..supply
+    };
+    let need = answer(&apart, &bare, false).need.unwrap();
+    let words = need.words();
+    assert!(
+        words.starts_with("requires a brake resistor of at most 350 Ω for ")
+            && words.ends_with(&need.figures()),
+        "{words}"
+    );
+}

@@ -139,7 +139,7 @@ fn power_that_comes_back_is_known() {
         }
         Ok(())
     };
-    runner(3000).run(&(duty(), coefficients()), check).unwrap();
+    runner(1500).run(&(duty(), coefficients()), check).unwrap();
     // Friction that outweighs everything else but in one place of the press, and everywhere.
     let cycle = Cycle::new(&press());
     let with = |coulomb: f64| Coefficients([1e-3, 1.0, 1.0, 0.0, coulomb]);

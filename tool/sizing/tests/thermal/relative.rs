@@ -1,0 +1,96 @@
+//! Shares of the rated rise, where only S1 torques are known: p = T²/M₀² + max(0, 1 − S1(n)²/M₀²).
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::operation::Operation;
+use jred_machine::model::site::Site;
+use jred_machine::model::surroundings::Surroundings;
+use jred_machine::read;
+use jred_sizing::catalogue::{Drive, Motor, Thermal};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::thermal::course::Hottest;
+use jred_sizing::thermal::network::Losses;
+use jred_sizing::thermal::{Load, Model};
+
+use super::near;
+use crate::support::press_text;
+
+/// The press lasts half a second: a motor with a time constant of minutes takes the mean of p, one without a time constant exactly that. From
+/// cold for a time t its rise is that of one body, mean·(1 − e^(−t/τ)).
+#[test]
+fn the_rise_is_the_mean_of_the_shares() {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let cycle = Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap());
+    let motor = |time| Motor {
+        rated_torque: Some(30.0),
+        standstill_torque: Some(50.0),
+        rated_speed: Some(8.0),
+        max_speed: Some(400.0),
+        peak_torque: Some(400.0),
+        rotor_inertia: 0.01,
+        thermal: Thermal {
+            housing_time: time,
+            ..Thermal::default()
+        },
+        ..Motor::default()
+    };
+    let mean = |motor: &Motor, prepared: &Prepared| {
+        let drive = Drive {
+            motor,
+            gearbox: None,
+            amplifier: None,
+        };
+        let [mut sum, mut less] = [0.0; 2];
+        for sample in cycle.samples() {
+            let torque = drive.coefficients().torque(&sample.loads()) / 50.0;
+            let s1 = prepared.envelope.continuous_torque(sample.speed()) / 50.0;
+            sum += sample.weight * (torque * torque + (1.0 - s1 * s1).max(0.0));
+            less += sample.weight * torque * torque;
+        }
+        [sum, less].map(|sum| sum / cycle.duration())
+    };
+    for time in [None, Some(300.0)] {
+        let motor = motor(time);
+        let prepared = Prepared::new(&motor, None, &Site::default());
+        let drive = Drive {
+            motor: &motor,
+            gearbox: None,
+            amplifier: None,
+        };
+        let coefficients = drive.coefficients();
+        let load = Load {
+            cycle: &cycle,
+            coefficients: &coefficients,
+            ratio: 1.0,
+            motor: &motor,
+            prepared: &prepared,
+        };
+        let [mean, of_torque] = mean(&motor, &prepared);
+        assert!(
+            mean > 1.2 * of_torque,
+            "the S1 torque falls: {mean} {of_torque}"
+        );
+        let surroundings = Surroundings::default();
+        let model = Model::of(&motor, &prepared, &surroundings, cycle.duration())
+            .ok()
+            .unwrap();
+        let rise = |operation: &Operation| {
+            let heating = model.heating(&load, operation, Losses::default()).ok()?;
+            assert!(heating.relative && !heating.housing);
+            assert_eq!(heating.ripple, time.is_some());
+            match heating.hottest {
+                Hottest::Rise([rise, _]) => Some(rise),
+                Hottest::Runaway => panic!("runaway"),
+            }
+        };
+        // The ripple of half a second in 300, and straight lines between samples.
+        near("S1", rise(&Operation::Continuous).unwrap(), mean, 3e-3);
+        let short = rise(&Operation::Short { operating: 120.0 });
+        assert_eq!(short.is_some(), time.is_some());
+        if let Some(short) = short {
+            near("S2", short, mean * -(-120.0f64 / 300.0).exp_m1(), 3e-3);
+        }
+    }
+}
