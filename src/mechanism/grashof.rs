@@ -32,7 +32,7 @@ pub(super) const NAMES: [&str; 4] = ["crank", "coupler", "rocker", "ground"];
 
 impl Grashof {
     /// The kind of the four-bar with these `lengths` of crank, coupler, rocker and ground (m). Sums that differ by less
-    /// than 1e-12 of themselves count as equal.
+    /// than 1e-12 of themselves count as equal (test `grashof_does_not_depend_on_the_size`).
     #[must_use]
     pub fn of(lengths: [f64; 4]) -> Self {
         let [shortest, _, _, longest] = order(lengths);

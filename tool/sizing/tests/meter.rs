@@ -163,3 +163,31 @@ fn what_the_meter_does_not_monitor_is_named() {
         });
     }
 }
+
+/// The source says first whether the drive violates rules, and breaks its arrays where rustfmt does: beyond sixty characters.
+#[test]
+fn the_source_warns_and_is_laid_out() {
+    let (mut lines, mut broken) = (0, 0);
+    for (share, violated) in [("100 %", false), ("0.1 %", true)] {
+        let rules = format!("[rules]\nspeed = \"{share}\"\n\n[motion]");
+        let text = edited_press("[motion]", &rules);
+        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        with_limits(&file, |_, limits| {
+            let source = limits.source("press.toml");
+            assert_eq!(source.contains("THIS DRIVE VIOLATES RULES"), violated);
+            assert_eq!(source.contains("violated: speed"), violated);
+            for (start, _) in source.match_indices(" = [") {
+                let array = &source[start + 4..];
+                let array = &array[..array.find("];").unwrap()];
+                let joined: Vec<&str> = array.lines().map(str::trim).collect();
+                let joined = joined.join(" ");
+                let joined = joined.trim().trim_end_matches(',');
+                let in_lines = array.starts_with('\n');
+                assert_eq!(in_lines, joined.len() > 60, "{array}");
+                lines += usize::from(!in_lines);
+                broken += usize::from(in_lines);
+            }
+        });
+    }
+    assert!(lines > 0 && broken > 0, "{lines} {broken}");
+}

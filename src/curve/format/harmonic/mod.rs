@@ -49,6 +49,9 @@ pub const MAX_HARMONICS: u32 = 256;
 /// number of cells is that of harmonics, 0 to [`MAX_HARMONICS`]. The words lie as
 /// [`Coefficient::of_word`](crate::harmonic::Coefficient::of_word) says: the means, then harmonic after harmonic.
 ///
+/// **Accuracy** of up to eleven harmonics: J and load to 4e-7 of the sum of their coefficients' sizes in `f32`, J′ with each size times its
+/// order; 4e-15 in `f64` (test `evaluation_rounds_as_stated`).
+///
 /// **Cost** of a tick: one sine and cosine, then six operations for each harmonic, two for each of its coefficients and
 /// for each of J's two or three more (J′). A division only in `acceleration`. Instructions are in `docs/harmonics.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -212,3 +212,33 @@ fn ratings_of_a_resistor_are_asked_for_where_it_comes_on() {
     assert_eq!(unrated(off, known, None), [Some(true), None, None]);
     assert_eq!(unrated(off, None, known), [None, Some(true), None]);
 }
+
+/// What comes back in a cycle is said beside the voltage, as an integral of the power has it.
+#[test]
+fn the_energy_that_comes_back_is_said() {
+    let (cycle, motor) = (cycle(), motor());
+    let site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: Some(1e-3),
+            max_voltage: Some(900.0),
+            ..Supply::default()
+        },
+        ..Site::default()
+    };
+    let prepared = Prepared::new(&motor, None, &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let checks = Context::new(&cycle, &site, drive, &prepared).checks(&RuleSet::default());
+    let check = checks.iter().find(|c| c.id == Rule::BusVoltage).unwrap();
+    let [_, back] =
+        bus::power(&cycle, &drive.coefficients(), 1.0, &motor, &prepared, None).energies();
+    let words = format!("{check:?}");
+    let (before, _) = words.split_once(" J are fed back per cycle").expect(&words);
+    let number: f64 = before.rsplit(['"', ' ']).next().unwrap().parse().unwrap();
+    near("energy", number, back, 1e-3);
+}

@@ -244,3 +244,28 @@ fn the_torque_at_rest_is_explained() {
         "{light:?}"
     );
 }
+
+/// Where the load drives, friction helps, but only what there is at any speed: τ·η_back/i − c; where it resists, c + b·n more.
+#[test]
+fn a_load_that_drives_is_constant_too() {
+    let mut stand = hoist();
+    stand.motor.friction = [0.3, 0.002];
+    let fanuc = jred_machine::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
+    let fastest = stand.cycle.peak_speed();
+    for [resisting, driving] in [[1.0, 60.0], [40.0, 60.0], [0.0, 9.0]] {
+        stand.duty.mechanics.constant = [resisting, driving];
+        stand.cycle = jred_sizing::cycle::Cycle::new(&stand.duty);
+        for geared in [false, true] {
+            let [ratio, there, back] = if geared {
+                let gearbox = &stand.gearbox;
+                [gearbox.ratio, gearbox.efficiency, gearbox.back_efficiency]
+            } else {
+                [1.0; 3]
+            };
+            let resists = resisting / (ratio * there) + 0.3 + 0.002 * ratio * fastest;
+            let drives = driving * back / ratio - 0.3;
+            let found = stand.finding(geared, &fanuc, Rule::ConstantTorque).unwrap();
+            near("constant torque", found.value, resists.max(drives), 1e-12);
+        }
+    }
+}
