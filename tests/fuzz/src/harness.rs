@@ -239,9 +239,9 @@ fn computed(text: &str, files: &BTreeMap<String, String>) -> bool {
         }
     }
     if let Some(simulation) = &file.simulation
-        && let Ok(columns) = simulate(&file, simulation)
+        && let Ok(found) = simulate(&file, simulation)
     {
-        written(&columns);
+        written(&found.columns);
     }
     if let Ok(findings) = Findings::of(&file) {
         let json = inspection::json(&findings).to_string();
