@@ -29,7 +29,7 @@ use sweep::Piece;
 use track::{Ends, Track};
 
 /// Cells of the first try, and of the last.
-const CELLS: [usize; 2] = [128, 32_768];
+const CELLS: [usize; 2] = [128, 131_072];
 
 /// Change of the time from one number of cells to twice as many, as a share, at which it is taken: with a method of order 4 a fifteenth
 /// of it is left.

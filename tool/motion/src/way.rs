@@ -96,6 +96,13 @@ pub struct Demand {
     pub per_acceleration: f64,
 }
 
+impl Place {
+    /// What resists the motion at a speed without an acceleration (N·m).
+    fn resisting(&self, speed: f64) -> f64 {
+        0.5 * self.inertia_slope * speed * speed + self.load + self.viscous * speed + self.coulomb
+    }
+}
+
 impl<'a> Way<'a> {
     /// The way of a machine under a drive; `direction` is +1 or −1.
     pub fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
@@ -147,7 +154,7 @@ impl<'a> Way<'a> {
         if self.is_linear(&self.actuator.coefficients) {
             return 0;
         }
-        let mut torque = place.inertia * acceleration + self.resisting(place, speed);
+        let mut torque = place.inertia * acceleration + place.resisting(speed);
         let (mut alpha, mut sense) = (acceleration, 1.0);
         let mut bits = 0;
         for stage in self.file.drive_train.stages().iter().rev() {
@@ -162,14 +169,6 @@ impl<'a> Way<'a> {
             torque = delivered / stage.ratio() * loss + driver * alpha;
         }
         bits << 1 | u32::from(torque * sense < 0.0)
-    }
-
-    /// What resists the motion at a speed without an acceleration (N·m).
-    fn resisting(&self, place: &Place, speed: f64) -> f64 {
-        0.5 * place.inertia_slope * speed * speed
-            + place.load
-            + place.viscous * speed
-            + place.coulomb
     }
 
     /// The motor torque that holds the machine at rest, without friction; positive against the way back.
@@ -193,7 +192,7 @@ impl<'a> Way<'a> {
         let train = &self.file.drive_train;
         let sense = self.ratio.signum();
         let input = train.input(&TrainOutput {
-            torque: place.inertia * acceleration + self.resisting(place, speed),
+            torque: place.inertia * acceleration + place.resisting(speed),
             torque_per_alpha: place.inertia,
             omega: speed,
             alpha: acceleration,

@@ -18,6 +18,7 @@ fn help_of_every_command() {
         "bus",
         "simulate",
         "steady",
+        "fastest",
         "export",
         "rules",
         "split",
@@ -31,5 +32,5 @@ fn help_of_every_command() {
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;
     let commands = jred_cli::options::Cli::command();
-    assert_eq!(commands.get_subcommands().count(), 14);
+    assert_eq!(commands.get_subcommands().count(), 15);
 }

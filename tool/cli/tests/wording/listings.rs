@@ -304,6 +304,79 @@ fn steady() {
     );
 }
 
+/// Moves of a motion with a drive of the catalogue, a single move with plain limits, and the ways that cannot be gone.
+#[test]
+fn fastest() {
+    let desk = Desk::new().with_machines(&[
+        "press.toml",
+        "hoist.toml",
+        "conveyor.toml",
+        "linear-gripper.toml",
+        "variator-press.toml",
+    ]);
+    let press = ["fastest", "press.toml", "--catalogue", "drives"];
+    let plain = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
+    let way = ["--from", "180 deg", "--to", "300 deg"];
+    let with = |parts: &[&[&'static str]]| parts.concat();
+    compare(
+        "fastest",
+        &desk.runs(&[
+            &press,
+            &with(&[
+                &press,
+                &[
+                    "--drive",
+                    "sgmsh-15a+npt025mf-5",
+                    "--profile",
+                    "p.csv",
+                    "--cam",
+                    "c.csv",
+                ],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--max-speed", "100 rpm", "--max-acceleration", "80 rad/s^2"],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--format", "csv", "--instants", "5"],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--format", "json", "--instants", "2"],
+            ]),
+            &with(&[
+                &press[..2],
+                &["--torque", "0.1 N m", "--motor-speed", "3000 rpm"],
+                &way,
+            ]),
+            &with(&[
+                &["fastest", "hoist.toml"],
+                &["--torque", "2 N m", "--motor-speed", "3000 rpm"],
+            ]),
+            &with(&[&press[..2], &plain, &way, &["--from-speed", "2000 rpm"]]),
+            &with(&[&press[..2], &plain, &way, &["--to-speed", "2000 rpm"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 deg", "--to", "10 deg"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 deg"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 mm", "--to", "20 mm"]]),
+            &with(&[&press[..2], &plain, &way, &["--from-speed=-2 rpm"]]),
+            &with(&[
+                &press[..2],
+                &["--torque", "-1 N m", "--motor-speed", "3000 rpm"],
+            ]),
+            &with(&[&press, &["--drive", "sgmsh-15b"]]),
+            &with(&[&["fastest", "conveyor.toml"], &plain]),
+            &with(&[&["fastest", "variator-press.toml"], &plain]),
+        ]),
+    );
+}
+
 #[test]
 fn split() {
     let desk = Desk::new();

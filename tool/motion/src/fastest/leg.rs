@@ -150,6 +150,9 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
     }
 
     /// From a point to a share of the cell, forwards or backwards; the steps are added to `steps` in the order in which they are made.
+    ///
+    /// # Errors
+    /// The motion comes to rest before.
     pub fn go(&self, from: Point, to: f64, steps: &mut Vec<Step>) -> Result<Point, Stalled> {
         self.halved(from, to, 0, steps)
     }

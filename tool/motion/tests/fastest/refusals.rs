@@ -64,9 +64,9 @@ fn a_machine_that_stops_on_the_way_says_where() {
     for _ in 0..100 {
         let middle = 0.5 * (low + high);
         if left(middle) > 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     let found = solve(&file, &motor([torque; 2], 100.0), &task(start, start + 3.0));
