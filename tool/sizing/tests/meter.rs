@@ -191,3 +191,26 @@ fn the_source_warns_and_is_laid_out() {
     }
     assert!(lines > 0 && broken > 0, "{lines} {broken}");
 }
+
+/// How far a curve lies below its rating is said where it is more than rounding, and what is said is what it is.
+#[test]
+fn shortfalls_are_said() {
+    let file = read::read(&press_file()).unwrap();
+    with_limits(&file, |_, limits| {
+        let mut curves = 0;
+        for entry in &limits.entries {
+            let Bound::Curve(curve) = &entry.bound else {
+                continue;
+            };
+            let said = entry.words.split(", up to ").nth(1);
+            assert_eq!(said.is_some(), curve.shortfall > 1e-5, "{}", entry.words);
+            if let Some(said) = said {
+                let number: f64 = said.split(' ').next().unwrap().parse().unwrap();
+                near("shortfall", number, 100.0 * curve.shortfall, 0.05);
+                assert!(said.ends_with("% of its largest value below it"), "{said}");
+            }
+            curves += 1;
+        }
+        assert_eq!(curves, 2);
+    });
+}

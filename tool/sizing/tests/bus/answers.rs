@@ -427,6 +427,12 @@ fn questions_are_closed_by_what_they_ask_for() {
             "brake_resistor.pulse_energy"
         ]
     );
+    // It holds the voltage where it comes on, which is no rise without one.
+    let words = &answer(std::slice::from_ref(&brakes), &resistor, false).open()[0].words;
+    assert!(
+        words.contains("rises from 560 V to 700 V: give max_voltage"),
+        "{words}"
+    );
     let drives = PowerCurve::new([[0.0, 2500.0], [2.0, 2500.0]], 2.0);
     assert_eq!(keys(&resistor, &drives), ["max_voltage"]);
     // More comes back than is drawn, and nothing takes it.
@@ -693,4 +699,40 @@ fn the_worst_phases_are_judged() {
             && words.ends_with(&need.figures()),
         "{words}"
     );
+}
+
+/// Of two axes half a period apart one takes what the other gives: a common resistor saves what two would burn; in step it saves nothing.
+#[test]
+fn what_a_common_resistor_saves() {
+    let brakes = PowerCurve::new(
+        [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
+        2.0,
+    );
+    let supply = Supply {
+        capacitance: Some(1e-12),
+        chopper_voltage: Some(700.0),
+        max_voltage: Some(1e4),
+        brake_resistor: Some(RESISTOR),
+        ..NOTHING
+    };
+    let apart = [brakes.clone(), brakes.shifted(1.0)];
+    near(
+        "apart",
+        answer(&apart, &supply, true).saved().unwrap(),
+        700.0,
+        1e-6,
+    );
+    let together = [brakes.clone(), brakes.clone()];
+    crate::support::within(
+        "in step",
+        answer(&together, &supply, true).saved().unwrap(),
+        0.0,
+        1e-6,
+    );
+    assert_eq!(answer(&[brakes], &supply, true).saved(), None);
+    let bare = Supply {
+        brake_resistor: None,
+        ..supply
+    };
+    assert_eq!(answer(&together, &bare, true).saved(), None);
 }

@@ -2,9 +2,10 @@
 
 use jred_machine::model::site::Site;
 use jred_machine::units::RPM;
-use jred_sizing::motor::envelope::{Limit, Piece, Prepared};
+use jred_sizing::catalogue::Motor;
+use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Prepared};
 
-use super::{near, servo};
+use super::{bare, near, servo};
 use crate::support::budget;
 
 /// Turned round, with its torque, it draws the same; against its speed less than along it, where the field is weakened.
@@ -68,4 +69,36 @@ fn levels_and_lines() {
         near(lower.torque(speed), torque, budget::CLOSED_FORM);
     }
     assert_eq!(lower.end(), 40.0);
+}
+
+/// The S1 torque at rest and at any speed, where the speed that it is rated at is not known; straight between both where it is, with constant power beyond.
+#[test]
+fn the_continuous_torque_with_and_without_a_rated_speed() {
+    let motor = |rated_speed| Motor {
+        rated_torque: Some(8.0),
+        standstill_torque: Some(9.0),
+        peak_torque: Some(30.0),
+        max_speed: Some(500.0),
+        rated_speed,
+        ..bare()
+    };
+    let unknown = Envelope::of(&motor(None));
+    for (speed, torque) in [(0.0, 9.0), (100.0, 8.0), (400.0, 8.0)] {
+        near(
+            unknown.continuous_torque(speed),
+            torque,
+            budget::CLOSED_FORM,
+        );
+    }
+    let known = Envelope::of(&motor(Some(200.0)));
+    for (speed, torque) in [
+        (0.0, 9.0),
+        (100.0, 8.5),
+        (200.0, 8.0),
+        (400.0, 4.0),
+        (501.0, 0.0),
+    ] {
+        near(known.continuous_torque(speed), torque, budget::CLOSED_FORM);
+        near(known.continuous_torque(-speed), torque, budget::CLOSED_FORM);
+    }
 }

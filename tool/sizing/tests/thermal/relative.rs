@@ -12,7 +12,7 @@ use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::thermal::course::Hottest;
 use jred_sizing::thermal::network::Losses;
-use jred_sizing::thermal::{Load, Model};
+use jred_sizing::thermal::{Load, Model, allowed_rise};
 
 use super::near;
 use crate::support::press_text;
@@ -93,4 +93,52 @@ fn the_rise_is_the_mean_of_the_shares() {
             near("S2", short, mean * -(-120.0f64 / 300.0).exp_m1(), 3e-3);
         }
     }
+}
+
+/// Up to the largest temperature, at least 40 °C below it for the rated rise; 1 % less for every 100 m above 1000 m. Where no temperature is known,
+/// the rated rise in surroundings of 40 °C at most.
+#[test]
+fn the_rise_that_is_allowed() {
+    let motor = |limit| Motor {
+        thermal: Thermal {
+            max_temperature: limit,
+            ..Thermal::default()
+        },
+        ..Motor::default()
+    };
+    let at = |ambient, altitude| Surroundings {
+        ambient,
+        altitude,
+        ..Surroundings::default()
+    };
+    let warm = motor(Some(155.0));
+    for (surroundings, kelvins) in [
+        (at(40.0, 0.0), 115.0),
+        (at(60.0, 500.0), 95.0),
+        (at(20.0, 2000.0), 0.9 * 135.0),
+    ] {
+        near(
+            "K",
+            allowed_rise(&warm, &surroundings, false).unwrap(),
+            kelvins,
+            1e-12,
+        );
+        near(
+            "share",
+            allowed_rise(&warm, &surroundings, true).unwrap(),
+            kelvins / 115.0,
+            1e-12,
+        );
+    }
+    // A limit at or below the reference says nothing of the rated rise.
+    for unknown in [motor(None), motor(Some(40.0)), motor(Some(30.0))] {
+        near(
+            "share",
+            allowed_rise(&unknown, &at(40.0, 3000.0), true).unwrap(),
+            0.8,
+            1e-12,
+        );
+        assert_eq!(allowed_rise(&unknown, &at(40.5, 0.0), true), None);
+    }
+    assert_eq!(allowed_rise(&motor(None), &at(20.0, 0.0), false), None);
 }
