@@ -265,12 +265,12 @@ impl Duty {
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);
         let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
         let hold_torque = held.fold(hold_torque, f64::max);
-        let mut place = f64::NAN;
+        let mut looked_at = None;
         for at_rest in instants.iter().filter(|i| i.omega == 0.0) {
-            if at_rest.phi != place {
-                place = at_rest.phi;
+            // A dwell has many instants at one place.
+            if looked_at.replace(at_rest.phi.to_bits()) != Some(at_rest.phi.to_bits()) {
                 let terms = &at_rest.terms;
-                let held = file.bare_reduction(place)?.coulomb;
+                let held = file.bare_reduction(at_rest.phi)?.coulomb;
                 unheld = unheld.max((terms.potential + terms.process).abs() - held);
             }
         }
@@ -280,10 +280,10 @@ impl Duty {
             ..Mechanics::new(file, &instants, duration, hold_torque)
         };
         Ok(Self {
-            mechanics,
             instants,
             duration,
             hold_torque,
+            mechanics,
             smooth,
         })
     }

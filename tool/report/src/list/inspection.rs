@@ -124,14 +124,20 @@ pub(crate) fn untitled(findings: &Findings) -> String {
     for note in &findings.notes {
         let _ = writeln!(text, "{note}");
     }
+    text += &verdict(findings);
+    text
+}
+
+/// What is violated, or else what was checked.
+fn verdict(findings: &Findings) -> String {
     let violations = findings.violations();
     if violations.is_empty() {
-        let _ = writeln!(
-            text,
-            "\nevery check is satisfied: {}; `jred size` judges drives",
+        return format!(
+            "\nevery check is satisfied: {}; `jred size` judges drives\n",
             findings.checked().join(", ")
         );
     }
+    let mut text = String::new();
     for violation in violations {
         let _ = writeln!(text, "\nviolated: {violation}");
     }

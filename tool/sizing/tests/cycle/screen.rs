@@ -34,9 +34,12 @@ fn plainly(
         lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
     }
     let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);
-    let doubt = |drive: &Drive, found: &Outcome| match found.voltage_unknown {
-        true => 2,
-        false => i32::from(!drive.from_makers()),
+    let doubt = |drive: &Drive, found: &Outcome| {
+        if found.voltage_unknown {
+            2
+        } else {
+            i32::from(!drive.from_makers())
+        }
     };
     let [fit, refused] = &mut lists;
     // Both sorts are stable: equal drives stay in the order of the catalogue.
