@@ -44,7 +44,12 @@ pub fn files(folders: &[&str], ending: &str) -> Vec<Vec<u8>> {
 }
 
 /// The CSV files that machine files of the examples name.
-const NAMED: [&str; 3] = ["drive-log.csv", "load-table.csv", "reduced-curves.csv"];
+const NAMED: [&str; 4] = [
+    "drive-log.csv",
+    "force-over-stroke.csv",
+    "load-table.csv",
+    "reduced-curves.csv",
+];
 
 /// The first word that stands for a number and is none.
 fn no_number(text: &str) -> Option<&str> {

@@ -2,6 +2,7 @@
 
 mod curves;
 mod faults;
+mod link_table;
 mod load_table;
 mod recordings;
 

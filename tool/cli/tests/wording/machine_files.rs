@@ -11,7 +11,12 @@ fn mistakes(name: &str, machine: &str, command: &str, edits: &[(&str, &str)]) {
     for (from, to) in edits {
         assert!(original.contains(from), "{machine} has no {from:?}");
         let desk = Desk::new()
-            .with_machines(&["load-table.csv", "reduced-curves.csv", "drive-log.csv"])
+            .with_machines(&[
+                "load-table.csv",
+                "reduced-curves.csv",
+                "drive-log.csv",
+                "force-over-stroke.csv",
+            ])
             .with("short.csv", "Position [deg],Thrust [N]\n0,1\n10\n")
             .with(
                 "twice.csv",
@@ -20,6 +25,26 @@ fn mistakes(name: &str, machine: &str, command: &str, edits: &[(&str, &str)]) {
             .with("unknown.csv", "Position [deg],Thrst [N]\n0,1\n10,1\n20,1\n")
             .with("bare.csv", "Position,Thrust [N]\n0,1\n10,1\n20,1\n")
             .with("back.csv", "Position [deg],Thrust [N]\n0,1\n20,1\n10,1\n")
+            .with(
+                "jump.csv",
+                "s [mm],Force [kN]\n0,0\n10,-5\n20,-9\n30,-5\n36,-2\n",
+            )
+            .with(
+                "gap.csv",
+                "s [mm],Force [kN]\n0,0\n1,-1\n2,-3\n3,-5\n4,-6\n34,-2\n35,0\n",
+            )
+            .with(
+                "steps.csv",
+                "s [mm],Force [kN]\n0,0\n6,0\n12,-5\n18,-5\n24,-5\n30,0\n",
+            )
+            .with(
+                "moment.csv",
+                "s [mm],Force [kN],Moment [N m]\n0,0,0\n9,-2,1\n18,-3,1\n27,-2,1\n36,0,0\n",
+            )
+            .with(
+                "unsorted.csv",
+                "s [mm],Force [kN]\n0,0\n20,-2\n10,-3\n30,-2\n36,0\n",
+            )
             .with("word.csv", "Position [deg],Thrust [N]\n0,1\n10,one\n20,1\n")
             .with("m.toml", original.replacen(from, to, 1));
         let message = desk.run(&[command, "m.toml"]);
@@ -240,6 +265,35 @@ fn loads() {
                 table,
                 "table = \"load-table.csv\"\nforce = [\"1 N\", \"0 N\"]",
             ),
+        ],
+    );
+    let over = "over = { point = \"slider\", along = \"x\", zero = \"340 mm\" }";
+    let outside = "outside = \"zero\"";
+    let rows = "table = \"force-over-stroke.csv\"";
+    mistakes(
+        "machine-link-tables",
+        "force-over-stroke.toml",
+        "reduce",
+        &[
+            (outside, ""),
+            (outside, "outside = \"hold\""),
+            (outside, "outside = \"zero\"\ncurve = \"straight\""),
+            ("angle = \"0 deg\"\n", ""),
+            (
+                "angle = \"0 deg\"",
+                "angle = \"0 deg\"\nangle_on_link = \"0 deg\"",
+            ),
+            ("on = \"slider\"\nangle", "angle"),
+            (over, "over = { point = \"slider\", along = \"y\" }"),
+            (over, "over = { point = \"slider\" }"),
+            (over, "over = { point = \"slider\", along = \"x\" }"),
+            (over, ""),
+            (rows, "table = \"load-table.csv\""),
+            (rows, "table = \"jump.csv\""),
+            (rows, "table = \"gap.csv\""),
+            (rows, "table = \"steps.csv\""),
+            (rows, "table = \"moment.csv\""),
+            (rows, "table = \"unsorted.csv\""),
         ],
     );
     mistakes(

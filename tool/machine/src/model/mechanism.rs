@@ -200,9 +200,14 @@ impl AnyMechanism {
     pub fn with_stand_ins(mut self, stand_ins: &[StandIn]) -> Result<Self, Error> {
         let own = self.links.len();
         self.inner = Arc::new(Tabulated::new(Arc::clone(&self.inner), stand_ins)?);
-        for (k, StandIn { name, course }) in stand_ins.iter().enumerate() {
+        for (k, stand_in) in stand_ins.iter().enumerate() {
+            let StandIn { name, course, .. } = stand_in;
             if let Some(load) = course.load(own + k)? {
                 let name = name.clone();
+                let load = match stand_in.window {
+                    Some(window) => load.within(window),
+                    None => load,
+                };
                 self.loads.push(NamedLoad { name, load });
             }
             if let Some(element) = course.spring(own + k)? {
@@ -223,6 +228,11 @@ impl AnyMechanism {
     /// Number of links that are parts of the mechanism; those after them stand in for curves.
     pub fn own_links(&self) -> usize {
         self.links.len() - self.stand_ins
+    }
+
+    /// Number of joints that are parts of the mechanism; after them come the bearing and the gearing of each stand-in.
+    pub fn own_joints(&self) -> usize {
+        self.joints.len() - 2 * self.stand_ins
     }
 
     /// Whether a load is the weight of a payload: a part of the machine, not of its process.

@@ -12,16 +12,24 @@
 //! viscous b(φ)            1 N·m·s/rad on the rotor        ψ′ = √b
 //! payload m(φ) on a link  two rotors of 1 kg·m²           ψ′ = √m·x′, √m·y′
 //! its weight              1 N·m                           ψ′ = m·(g_x·x′ + g_y·y′)
-//! force F(φ) against it   1 N·m against the rotor         ψ′ = F·|r′|
+//! force F against it      1 N·m against the rotor         ψ′ = F·|r′|
+//! force F along e         1 N·m                           ψ′ = F·(e_x·x′ + e_y·y′)
+//! moment M on a link      1 N·m                           ψ′ = M·ψ_link′
 //! ```
+//!
+//! What acts on a link is geared to that link instead: by its own force at its own point, so that the joints carry it.
 //!
 //! ψ itself is only kept where a spring needs it; elsewhere nothing depends on it and it stays zero.
 
 use std::sync::Arc;
 
+mod table;
+
+pub use table::{Over, Table};
+
 use jred::machine::{
     Action, Body, Element, Frame, Frames, Joint, Jointed, Joints, Load, MAX_LINKS, Marker,
-    Mechanism, PoseError, Wrench,
+    Mechanism, PoseError, Window, Wrench,
 };
 use jred::number::{RangeError, Transfer};
 use jred::{Domain, Error, Link};
@@ -47,12 +55,12 @@ pub enum Course {
     Opposing(Spline),
     /// A viscous coefficient b (N·m·s/rad, or N·s/m), not negative.
     Viscous(Spline),
-    /// A mass (kg) at the origin of the frame of link number `link`: its motion along x or y.
+    /// A mass (kg) at a point of a link: its motion along x or y.
     Payload {
         /// Mass.
         mass: Spline,
-        /// Index of the link.
-        link: usize,
+        /// Where it is.
+        on: Place,
         /// 0: along x, 1: along y.
         axis: usize,
     },
@@ -60,18 +68,70 @@ pub enum Course {
     Weight {
         /// Mass.
         mass: Spline,
-        /// Index of the link.
-        link: usize,
+        /// Where it is.
+        on: Place,
         /// Gravity (m/s²).
         gravity: [f64; 2],
     },
-    /// A force (N) against the motion of that point, not negative.
+    /// A force (N) against the motion of a point, not negative.
     Thrust {
         /// Force.
-        force: Spline,
+        force: Table,
+        /// Where it acts.
+        on: Place,
+    },
+    /// A force (N) on a point.
+    Force {
+        /// Force.
+        force: Table,
+        /// Where it acts.
+        on: Place,
+        /// Its direction.
+        along: Direction,
+    },
+    /// A moment (N·m) on link number `link`.
+    Moment {
+        /// Moment.
+        moment: Table,
         /// Index of the link.
         link: usize,
     },
+}
+
+/// A point of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Index of the link.
+    pub link: usize,
+    /// The point in its frame (m).
+    pub at: [f64; 2],
+}
+
+impl Place {
+    fn position(self, frames: &[Frame]) -> [Transfer; 2] {
+        frames
+            .get(self.link)
+            .unwrap_or(&Frame::GROUND)
+            .point(self.at)
+    }
+}
+
+/// The direction of a force, as a unit vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// In the coordinates of the mechanism.
+    Fixed([f64; 2]),
+    /// In the link's frame: it turns with the link.
+    OnLink([f64; 2]),
+}
+
+impl Direction {
+    fn vector(self, link: usize, frames: &[Frame]) -> [Transfer; 2] {
+        match self {
+            Self::Fixed(vector) => vector.map(Transfer::constant),
+            Self::OnLink(vector) => frames.get(link).unwrap_or(&Frame::GROUND).vector(vector),
+        }
+    }
 }
 
 /// A stand-in.
@@ -81,6 +141,22 @@ pub struct StandIn {
     pub name: String,
     /// The curve it represents.
     pub course: Course,
+    /// The part of the range in which it acts, if not the whole; of a load.
+    pub window: Option<Window>,
+    /// The drive link's positions at which the curve is not smooth.
+    pub edges: Vec<f64>,
+}
+
+impl StandIn {
+    /// One that acts everywhere and is smooth.
+    pub const fn new(name: String, course: Course) -> Self {
+        Self {
+            name,
+            course,
+            window: None,
+            edges: Vec::new(),
+        }
+    }
 }
 
 /// √f with its first two derivatives; zero with level derivatives where f is zero.
@@ -126,6 +202,11 @@ const fn three([a, b, c, _]: [f64; 4]) -> [f64; 3] {
     [a, b, c]
 }
 
+/// f with two derivatives.
+const fn values(f: Transfer) -> [f64; 3] {
+    [f.value, f.d1, f.d2]
+}
+
 impl Course {
     /// The torque of a potential, with an offset of more than it can fall: a constant in U does nothing.
     pub fn potential(torque: Spline) -> Self {
@@ -136,10 +217,6 @@ impl Course {
 
     /// ψ of the rotor at `phi`, where the mechanism's own links are at `frames`.
     fn psi(&self, phi: f64, frames: &[Frame]) -> Transfer {
-        let origin = |link: usize| {
-            let frame = frames.get(link).unwrap_or(&Frame::GROUND);
-            [frame.x, frame.y]
-        };
         match self {
             Self::Inertia(curve) | Self::Viscous(curve) => from_rate(root(curve.at(phi))),
             Self::Torque(curve) | Self::Opposing(curve) => from_rate(three(curve.at(phi))),
@@ -153,21 +230,17 @@ impl Course {
                 };
                 (energy * 2.0).sqrt()
             }
-            Self::Payload { mass, link, axis } => {
-                let along = origin(*link)[*axis % 2];
+            Self::Payload { mass, on, axis } => {
+                let along = on.position(frames)[*axis % 2];
                 from_rate(product(root(mass.at(phi)), rate(along)))
             }
-            Self::Weight {
-                mass,
-                link,
-                gravity,
-            } => {
-                let [x, y] = origin(*link);
+            Self::Weight { mass, on, gravity } => {
+                let [x, y] = on.position(frames);
                 let fall = x * gravity[0] + y * gravity[1];
                 from_rate(product(three(mass.at(phi)), rate(fall)))
             }
-            Self::Thrust { force, link } => {
-                let [x, y] = origin(*link).map(rate);
+            Self::Thrust { force, on } => {
+                let [x, y] = on.position(frames).map(rate);
                 let speed = x[0].hypot(y[0]);
                 // The magnitude has a bend where the point is at rest; no mass needs its slope there.
                 let bend = if speed > 0.0 {
@@ -175,7 +248,65 @@ impl Course {
                 } else {
                     0.0
                 };
-                from_rate(product(three(force.at(phi)), [speed, bend, 0.0]))
+                let force = force.at(phi, frames);
+                from_rate(product(values(force), [speed, bend, 0.0]))
+            }
+            Self::Force { force, on, along } => {
+                let force = values(force.at(phi, frames));
+                let [x, y] = on.position(frames);
+                let [e_x, e_y] = along.vector(on.link, frames).map(values);
+                let [along_x, along_y] = [product(e_x, rate(x)), product(e_y, rate(y))];
+                let way = [0, 1, 2].map(|k| along_x[k] + along_y[k]);
+                from_rate(product(force, way))
+            }
+            Self::Moment { moment, link } => {
+                let turn = frames.get(*link).map_or([0.0; 3], |frame| rate(frame.psi));
+                from_rate(product(values(moment.at(phi, frames)), turn))
+            }
+        }
+    }
+
+    /// What the gearing of the rotor, whose frame is `rotor`, does for one unit of its effort to what moves it: to the point or the link
+    /// on which the curve acts, otherwise the `drive`'s unit effort times −ψ′. With 1 N·m on the rotor it does no work.
+    fn gearing(&self, phi: f64, frames: &[Frame], rotor: &Frame, drive: Wrench) -> Wrench {
+        let force = |on: &Place, force: [f64; 2]| {
+            let point = on.position(frames).map(|c| c.value);
+            Wrench::force(Body::Link(on.link), point, force).times(-1.0)
+        };
+        match self {
+            Self::Inertia(_)
+            | Self::Torque(_)
+            | Self::Potential { .. }
+            | Self::Opposing(_)
+            | Self::Viscous(_) => drive.times(-rotor.psi.d1),
+            Self::Payload { mass, on, axis } => {
+                let [root, ..] = root(mass.at(phi));
+                force(on, if *axis == 0 { [root, 0.0] } else { [0.0, root] })
+            }
+            Self::Weight { mass, on, gravity } => {
+                let [mass, ..] = mass.at(phi);
+                force(on, gravity.map(|g| mass * g))
+            }
+            Self::Thrust { force: size, on } => {
+                let velocity = on.position(frames).map(|c| c.d1);
+                let speed = velocity[0].hypot(velocity[1]);
+                let share = if speed > 0.0 {
+                    size.at(phi, frames).value / speed
+                } else {
+                    0.0
+                };
+                force(on, velocity.map(|v| share * v))
+            }
+            Self::Force {
+                force: size,
+                on,
+                along,
+            } => {
+                let size = size.at(phi, frames).value;
+                force(on, along.vector(on.link, frames).map(|e| size * e.value))
+            }
+            Self::Moment { moment, link } => {
+                Wrench::moment(Body::Link(*link), -moment.at(phi, frames).value)
             }
         }
     }
@@ -194,7 +325,9 @@ impl Course {
     /// None: the loads are constants.
     pub(crate) fn load(&self, link: usize) -> Result<Option<Load>, Error> {
         let action = match self {
-            Self::Torque(_) | Self::Weight { .. } => Action::Moment(1.0),
+            Self::Torque(_) | Self::Weight { .. } | Self::Force { .. } | Self::Moment { .. } => {
+                Action::Moment(1.0)
+            }
             Self::Opposing(_) | Self::Thrust { .. } => Action::OpposingMoment(1.0),
             Self::Viscous(_) => Action::ViscousMoment(1.0),
             Self::Inertia(_) | Self::Potential { .. } | Self::Payload { .. } => return Ok(None),
@@ -221,6 +354,7 @@ pub(crate) struct Tabulated {
     inner: Arc<dyn Inner>,
     links: Vec<Link>,
     courses: Vec<Course>,
+    edges: Vec<f64>,
 }
 
 impl Tabulated {
@@ -237,7 +371,10 @@ impl Tabulated {
             .into());
         }
         let courses = stand_ins.iter().map(|s| s.course.clone()).collect();
+        let own = (0..).map_while(|k| inner.edge(k));
+        let edges = own.chain(stand_ins.iter().flat_map(|s| s.edges.iter().copied()));
         Ok(Self {
+            edges: edges.collect(),
             inner,
             links,
             courses,
@@ -269,10 +406,14 @@ impl Mechanism for Tabulated {
         }
         Ok(frames)
     }
+
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.edges.get(k).copied()
+    }
 }
 
 impl Jointed for Tabulated {
-    /// Those of the mechanism; then for each stand-in its bearing and its gearing with the drive link.
+    /// Those of the mechanism; then for each stand-in its bearing and its gearing.
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let own = self.own();
         let inner: Frames = frames.iter().take(own).copied().collect();
@@ -281,10 +422,11 @@ impl Jointed for Tabulated {
             Some(joint) => joint.unit_drive(frames)[1],
             None => Wrench::moment(Body::Ground, 0.0),
         };
-        for (k, frame) in frames.iter().enumerate().skip(own) {
+        let rotors = frames.iter().enumerate().skip(own);
+        for ((k, rotor), course) in rotors.zip(&self.courses) {
             let bearing = [Marker::ground([0.0, 0.0]), Marker::on(k, [0.0, 0.0])];
             let gearing = [
-                drive.times(-frame.psi.d1),
+                course.gearing(phi, &inner, rotor, drive),
                 Wrench::moment(Body::Link(k), 1.0),
             ];
             for joint in [Joint::Revolute(bearing), Joint::Transmission(gearing)] {

@@ -3,6 +3,7 @@
 //! ```text
 //! interpolating   cubic, twice continuously differentiable; periodic, or with the first two and the last two pieces being one
 //!                 cubic each (not-a-knot). Error at most 5/384·h⁴·max|f⁗| at equal steps h.
+//! level           the same, but level at both ends, so that it goes on as a constant with one continuous derivative
 //! monotone        cubic, once continuously differentiable, never beyond the two rows that it runs between (M. Steffen,
 //!                 A simple method for monotonic interpolation in one dimension, Astron. Astrophys. 239 (1990) 443)
 //! smoothing       minimises Σ w·(y − f)² + ∫f″² dt/ω_c⁴ with w the time that a row stands for (C. H. Reinsch, Smoothing by
@@ -48,6 +49,8 @@ impl std::error::Error for Fault {}
 pub enum Way {
     /// Through every point, twice continuously differentiable.
     Interpolating,
+    /// The same, level at both ends; around a period there are none.
+    Level,
     /// Through every point without overshoot, once continuously differentiable.
     Monotone,
     /// Near the points: the amplitude of a sine of this angular frequency (1/unit of the argument) is halved.

@@ -22,7 +22,28 @@ const OPEN: f64 = 2.0;
 /// Share of a range by which its rows may miss its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The positions of the rows, checked against the range of the drive link.
+/// What the rows of a file run over.
+pub(super) struct Rows {
+    /// The range of the positions.
+    pub(super) domain: Domain,
+    /// What moves over it.
+    pub(super) of: String,
+    /// Whether they may cover a part of it only.
+    pub(super) partly: bool,
+}
+
+impl Rows {
+    /// The whole range of the drive link.
+    pub(super) fn of(drive: DriveLink) -> Self {
+        Self {
+            domain: drive.domain,
+            of: "the drive link".to_owned(),
+            partly: false,
+        }
+    }
+}
+
+/// The positions of the rows, checked against the range.
 pub(super) struct Positions<'c> {
     columns: &'c Columns,
     /// Positions of the rows that count (rad or m).
@@ -34,8 +55,8 @@ pub(super) struct Positions<'c> {
 }
 
 impl<'c> Positions<'c> {
-    /// The rows of column 0, rising, over a turn or at least the stroke of the drive link.
-    pub(super) fn of(columns: &'c Columns, drive: DriveLink) -> Result<Self> {
+    /// The rows of column 0, rising, over a turn or at least the stroke of what they run over.
+    pub(super) fn of(columns: &'c Columns, rows: &Rows) -> Result<Self> {
         columns.check_rising(
             0,
             "position",
@@ -45,7 +66,7 @@ impl<'c> Positions<'c> {
         let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
             return Err(Problem::new("the file has no rows"));
         };
-        let span = drive.domain.span();
+        let span = rows.domain.span();
         let near = |pair: &[f64]| pair[1] - pair[0] < CLOSEST * span;
         if let Some(row) = x.windows(2).position(near) {
             return Err(columns
@@ -56,22 +77,27 @@ impl<'c> Positions<'c> {
                 )));
         }
         let shown = |position: f64| columns.shown(0, position);
-        let turn = drive.domain == Domain::Turn;
-        if let Domain::Stroke { from, to } = drive.domain {
+        if rows.partly {
+            return Self::part(columns, rows);
+        }
+        let turn = rows.domain == Domain::Turn;
+        if let Domain::Stroke { from, to } = rows.domain {
             let slack = ROUNDING * span;
             if first > from + slack || last < to - slack {
                 return Err(Problem::new(format!(
-                    "the rows run from {} to {}, but the drive link moves from {} to {}",
+                    "the rows run from {} to {}, but {} moves from {} to {}",
                     shown(first),
                     shown(last),
+                    rows.of,
                     shown(from),
                     shown(to)
                 ))
                 .at(columns.place(0), "first row")
                 .at(columns.place(columns.rows() - 1), "last row")
-                .help(
-                    "give rows over the whole stroke of the drive link; rows beyond it are allowed",
-                ));
+                .help(format!(
+                    "give rows over the whole stroke of {}; rows beyond it are allowed",
+                    rows.of
+                )));
             }
             return Ok(Self {
                 columns,
@@ -114,6 +140,43 @@ impl<'c> Positions<'c> {
             turn,
             closing,
         })
+    }
+
+    /// Rows over a part of the range, outside of which there is nothing.
+    fn part(columns: &'c Columns, rows: &Rows) -> Result<Self> {
+        let x = columns.get(0).unwrap_or_default();
+        let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
+            return Err(Problem::new("the file has no rows"));
+        };
+        let fault = |message: String| {
+            Problem::new(message)
+                .at(columns.place(0), "first row")
+                .at(columns.place(columns.rows() - 1), "last row")
+        };
+        let shown = |position: f64| columns.shown(0, position);
+        match rows.domain {
+            Domain::Turn if last - first > TAU * (1.0 + ROUNDING) => Err(fault(format!(
+                "the rows cover more than a turn, from {} to {}",
+                shown(first),
+                shown(last)
+            ))
+            .help("give each position of the turn once")),
+            Domain::Stroke { from, to } if last <= from || first >= to => Err(fault(format!(
+                "the rows run from {} to {}, but {} moves from {} to {}: it never meets them",
+                shown(first),
+                shown(last),
+                rows.of,
+                shown(from),
+                shown(to)
+            ))
+            .help("give positions that are reached")),
+            _ => Ok(Self {
+                columns,
+                x,
+                turn: false,
+                closing: false,
+            }),
+        }
     }
 
     /// Positions of the rows that count.

@@ -1,65 +1,24 @@
-//! `[[load]] table = "loads.csv"`: payload, thrust and torque over the drive link's position.
+//! `[[load]] table = "loads.csv"`: payload, thrust, forces and moments over a position.
 
-use jred::machine::MAX_LOADS;
+use jred::Domain;
+use jred::machine::{MAX_LOADS, Window};
 
-use super::curve_file::Positions;
+use super::curve_file::Rows;
 use super::drive_link::DriveLink;
+use super::effect::Effect;
+use super::{tool, window};
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::{Course, StandIn};
-use crate::number::spline::{MIN_POINTS, Way};
-use crate::text::columns;
-use crate::text::columns::{CsvFile, Format, Known, known};
-use crate::text::csv;
+use crate::model::tabulated::{Direction, Over, Place, StandIn};
+use crate::number::spline::Way;
+use crate::text::columns::CsvFile;
 use crate::text::file::Files;
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
+use crate::units::kind::{ANGLE, LENGTH};
 
-const POSITION: usize = 0;
-const PAYLOAD: usize = 1;
-const THRUST: usize = 2;
-const TORQUE_COLUMN: usize = 3;
-
-/// The columns of a table on the drive link itself.
-const fn on_drive(coordinate: Coordinate) -> ([Known; 4], &'static str) {
-    match coordinate {
-        Coordinate::Angle => (
-            [
-                known(&["Position", "phi", "φ"], &ANGLE),
-                known(&["Payload"], &INERTIA),
-                known(&["Thrust"], &TORQUE),
-                known(&["Torque"], &TORQUE),
-            ],
-            "\"Position [deg],Payload [kg m^2],Thrust [N m],Torque [N m]\" (the position and at least one other)",
-        ),
-        Coordinate::Length => (
-            [
-                known(&["Position", "s"], &LENGTH),
-                known(&["Payload"], &MASS),
-                known(&["Thrust"], &FORCE),
-                known(&["Torque", "Force"], &FORCE),
-            ],
-            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\" (the position and at least one other)",
-        ),
-    }
-}
-
-/// The columns of a table on a link.
-const fn on_link(coordinate: Coordinate) -> ([Known; 4], &'static str) {
-    let (mut columns, _) = on_drive(coordinate);
-    columns[PAYLOAD].kind = &MASS;
-    columns[THRUST].kind = &FORCE;
-    let example = match coordinate {
-        Coordinate::Angle => {
-            "\"Position [deg],Payload [kg],Thrust [N],Torque [N m]\" (the position and at least one other)"
-        }
-        Coordinate::Length => {
-            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\" (the position and at least one other)"
-        }
-    };
-    (columns, example)
-}
+mod curves;
 
 /// Whether a `[[load]]` is a table.
 pub(super) fn is_table(section: &Section) -> bool {
@@ -93,6 +52,23 @@ pub(super) fn read(
     Ok(mechanism)
 }
 
+/// On what a table acts, and how.
+struct Target<'t> {
+    mechanism: &'t AnyMechanism,
+    drive: DriveLink,
+    gravity: [f64; 2],
+    name: &'t str,
+    /// The point of a link, unless it acts on the drive link.
+    on: Option<(Item<'t>, Place)>,
+    /// The direction of the column Force.
+    along: Option<(Item<'t>, Direction)>,
+    /// What the rows run over.
+    over: Over,
+    rows: Rows,
+    way: Option<(Item<'t>, Way)>,
+    window: Option<Window>,
+}
+
 fn table(
     section: &Section,
     mechanism: &AnyMechanism,
@@ -105,109 +81,159 @@ fn table(
         None => "load table",
     };
     let item = section.require("table", "table = \"loads.csv\"")?;
-    let links = &mechanism.link_names()[..mechanism.own_links()];
-    let link = section.get("on").map(|on| on.choice(links)).transpose()?;
+    let on = place(section, mechanism)?;
+    let along = direction(section)?;
+    if let (Some(over), None) = (section.peek("over"), &on) {
+        return Err(over
+            .problem("is given without `on`", "a force on which link?")
+            .help("add on = \"slider\", the link on which the force acts"));
+    }
+    let (over, domain, of) = over(section, mechanism, drive)?;
+    let outside = section.get("outside");
+    let outside = outside.map(|item| item.choice(&["error", "zero"]));
+    let way = section.get("curve").map(|item| {
+        let way = [Way::Interpolating, Way::Monotone][item.choice(&["smooth", "monotone"])?];
+        Ok((item, way))
+    });
+    let target = Target {
+        mechanism,
+        drive,
+        gravity,
+        name,
+        on,
+        along,
+        over,
+        rows: Rows {
+            domain,
+            of,
+            partly: outside.transpose()? == Some(1),
+        },
+        way: way.transpose()?,
+        window: window::read(section, drive)?,
+    };
     section.finish_with(|key| match key {
         "force" | "moment" | "opposing_force" | "opposing_moment" | "viscous_force"
         | "viscous_moment" => {
             Some("a table already says what acts; write this in a separate [[load]]")
         }
-        "between" | "ramp" => Some("the rows of a table already say where it acts"),
-        "at" => Some("a table acts at the origin of its link's frame"),
         _ => None,
     })?;
     let file = CsvFile::open(&item, "loads.csv", files)?;
-    let target = Target {
+    curves::read(&file.text, &target).map_err(|fault| match fault {
+        curves::Fault::InFile(problem) => file.shows(problem),
+        curves::Fault::InMachine(problem) => problem,
+    })
+}
+
+/// `on` and `at`.
+fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(Item<'t>, Place)>> {
+    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let at = section.get("at");
+    let Some(on) = section.get("on") else {
+        return match at {
+            None => Ok(None),
+            Some(at) => Err(at
+                .problem("is given without `on`", "a point of which link?")
+                .help("add on = \"slider\", the link on which the table acts")),
+        };
+    };
+    let link = on.choice(links)?;
+    let at = section.point("at", &LENGTH)?;
+    Ok(Some((on, Place { link, at })))
+}
+
+/// `angle` and `angle_on_link`.
+fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>> {
+    let (fixed, turning) = (section.get("angle"), section.get("angle_on_link"));
+    let unit = |item: &Item| {
+        let (sin, cos) = item.quantity(&ANGLE)?.si.sin_cos();
+        // A right angle has no rounding of the other component.
+        let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
+        Ok::<_, Problem>([cos, sin].map(clean))
+    };
+    Ok(match (fixed, turning) {
+        (Some(fixed), Some(turning)) => {
+            return Err(turning
+                .problem("is given together with `angle`", "here")
+                .at(fixed.key_span(), "and here")
+                .help("write `angle` for a fixed direction, `angle_on_link` for one that turns with the link"));
+        }
+        (Some(item), None) => {
+            let along = Direction::Fixed(unit(&item)?);
+            Some((item, along))
+        }
+        (None, Some(item)) => {
+            let along = Direction::OnLink(unit(&item)?);
+            Some((item, along))
+        }
+        (None, None) => None,
+    })
+}
+
+/// What the rows run over, its range, and its name.
+fn over(
+    section: &Section,
+    mechanism: &AnyMechanism,
+    drive: DriveLink,
+) -> Result<(Over, Domain, String)> {
+    let Some(item) = section.get("over") else {
+        return Ok((Over::Drive, drive.domain, "the drive link".to_owned()));
+    };
+    let section = item.section("`over` of this [[load]]".into())?;
+    let example = "over = { point = \"slider\", along = \"x\" }";
+    let point = section.require("point", example)?;
+    let (name, link, at) = tool::place(&section, &point, mechanism)?;
+    let along = section.require("along", example)?;
+    let axis = along.choice(&["x", "y"])?;
+    let zero = section.optional("zero", &LENGTH)?;
+    section.finish()?;
+    let over = Over::Point {
         link,
-        gravity,
-        name,
+        at,
+        axis,
+        zero: zero.map_or(0.0, |zero| zero.si),
     };
-    curves(&file.text, drive, &target).map_err(|problem| file.shows(problem))
-}
-
-/// On what a table acts.
-struct Target<'t> {
-    link: Option<usize>,
-    gravity: [f64; 2],
-    name: &'t str,
-}
-
-fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>> {
-    let (known, example) = match target.link {
-        Some(_) => on_link(drive.coordinate),
-        None => on_drive(drive.coordinate),
-    };
-    let format = Format {
-        known: &known,
-        ignored: |_| false,
-        example,
-        min_rows: MIN_POINTS,
-    };
-    let columns = columns::read(text, &format)?;
-    let header = |message: &str| {
-        Problem::new(message)
-            .at(csv::header_place(text), "header")
-            .help(format!(
-                "the first line gives column names with units: {example}"
-            ))
-    };
-    if columns.get(POSITION).is_none() {
-        return Err(header("the column for the position is missing"));
+    let [from, to] = over.range(mechanism).map_err(|error| {
+        item.problem(&format!("cannot be used: {error}"), "this point")
+            .help(error.cure().to_string())
+    })?;
+    let letter = ["x", "y"][axis];
+    if to - from <= 1e-9 {
+        return Err(item
+            .problem(
+                &format!("is {letter} of {name}, which does not move"),
+                "stands",
+            )
+            .help("name a point that moves along this axis"));
     }
-    let positions = Positions::of(&columns, drive)?;
-    let mut stand_ins = Vec::new();
-    let mut add = |what: &str, course: Course| {
-        let name = format!("{}: {what}", target.name);
-        stand_ins.push(StandIn { name, course });
-    };
-    if let Some(payload) = positions.magnitudes(
-        PAYLOAD,
-        true,
-        "a payload is a mass or an inertia: write zero where there is none",
-    )? {
-        let mass = positions.curve(&payload, Way::Monotone)?;
-        match target.link {
-            None => add("payload", Course::Inertia(mass)),
-            Some(link) => {
-                for (axis, letter) in ["x", "y"].into_iter().enumerate() {
-                    let mass = mass.clone();
-                    add(
-                        &format!("payload {letter}"),
-                        Course::Payload { mass, link, axis },
-                    );
-                }
-                if target.gravity.iter().any(|g| *g != 0.0) {
-                    let gravity = target.gravity;
-                    add(
-                        "weight",
-                        Course::Weight {
-                            mass,
-                            link,
-                            gravity,
-                        },
-                    );
-                }
-            }
+    Ok((
+        over,
+        Domain::Stroke { from, to },
+        format!("{letter} of {name}"),
+    ))
+}
+
+impl Target<'_> {
+    /// The coordinate of the rows.
+    fn coordinate(&self) -> Coordinate {
+        match self.over {
+            Over::Drive => self.drive.coordinate,
+            Over::Point { .. } => Coordinate::Length,
         }
     }
-    if let Some(thrust) = positions.magnitudes(
-        THRUST,
-        true,
-        "a thrust always opposes the motion: give its magnitude; a force with a sign belongs in the column Torque",
-    )? {
-        let force = positions.curve(&thrust, Way::Monotone)?;
-        let course = match target.link {
-            Some(link) => Course::Thrust { force, link },
-            None => Course::Opposing(force),
+
+    /// A force or a moment on the link does something.
+    fn check_effect(&self, force: bool, fixed: bool) -> Result<Place> {
+        let Some((item, place)) = &self.on else {
+            return Err(Problem::new("a table acts on no link"));
         };
-        add("thrust", course);
+        let effect = Effect {
+            link: place.link,
+            point: place.at,
+            force,
+            fixed,
+        };
+        effect.check(self.mechanism, item)?;
+        Ok(*place)
     }
-    if let Some(torque) = positions.values(TORQUE_COLUMN)? {
-        let torque = positions.curve(&torque, Way::Monotone)?;
-        add("torque", Course::Torque(torque));
-    }
-    if stand_ins.is_empty() {
-        return Err(header("there is no column other than the position"));
-    }
-    Ok(stand_ins)
 }

@@ -10,6 +10,7 @@ mod curve_file;
 mod drive_link;
 mod drive_train;
 mod duty_type;
+mod effect;
 mod elements;
 mod law;
 mod load_table;
@@ -26,6 +27,7 @@ mod surroundings;
 mod tolerance;
 mod tool;
 mod variator;
+mod window;
 
 pub use argument::{
     Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, inertia_argument,

@@ -20,7 +20,7 @@ const LOADS: [(Quantity, &str, &str); 4] = [
 
 /// Kinds of load in the joints.
 pub(super) struct Reactions {
-    /// For each joint: whether it carries a force, and whether a moment.
+    /// For each joint of the mechanism, without those of curves' stand-ins: whether it carries a force, and whether a moment.
     carries: Vec<[bool; 2]>,
 }
 
@@ -42,7 +42,9 @@ impl Reactions {
         let phi = mechanism.domain().position(0.0);
         let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
         Ok(Self {
-            carries: joints.iter().map(carries).collect(),
+            carries: (joints.iter().take(mechanism.own_joints()))
+                .map(carries)
+                .collect(),
         })
     }
 
@@ -81,7 +83,7 @@ impl Set for Reactions {
         let machine = &source.machine;
         let forces = machine.forces(place.phi, state.omega, state.alpha)?;
         let mut values = vec![forces.drive];
-        for (k, reaction) in forces.reactions.iter().enumerate() {
+        for (k, reaction) in forces.reactions.iter().enumerate().take(self.carries.len()) {
             let [x, y] = reaction.force;
             values.extend(self.pick(k, [x, y, x.hypot(y), reaction.moment]));
         }

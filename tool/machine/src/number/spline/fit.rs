@@ -19,6 +19,7 @@ pub(super) fn bounded(x: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
     let h = steps(x);
     match way {
         Way::Interpolating => by_curvature(y, &h, &not_a_knot(y, &h)),
+        Way::Level => by_curvature(y, &h, &level(y, &h)),
         Way::Monotone => {
             let mean = slopes(y, &h);
             let last = mean.len() - 1;
@@ -52,7 +53,7 @@ pub(super) fn periodic(knots: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
             let tangents = at_zero(y, (0..n).map(tangent).collect());
             by_slope(&closed(y), &h, &closed(&tangents))
         }
-        Way::Interpolating => {
+        Way::Interpolating | Way::Level => {
             let (_, curvature) = ring(y, &h, &mean, 0.0);
             by_curvature(&closed(y), &h, &closed(&curvature))
         }
@@ -129,6 +130,21 @@ fn not_a_knot(y: &[f64], h: &[f64]) -> Vec<f64> {
     }
     rows.push([h[last], -(h[last - 1] + h[last]), h[last - 1], 0.0, 0.0]);
     right.push(0.0);
+    System { rows, right }.solve()
+}
+
+/// Second derivatives with level ends.
+fn level(y: &[f64], h: &[f64]) -> Vec<f64> {
+    let mean = slopes(y, h);
+    let last = h.len() - 1;
+    let mut rows = vec![[0.0, 0.0, 2.0 * h[0], h[0], 0.0]];
+    let mut right = vec![6.0 * mean[0]];
+    for k in 1..=last {
+        rows.push([0.0, h[k - 1], 2.0 * (h[k - 1] + h[k]), h[k], 0.0]);
+        right.push(6.0 * (mean[k] - mean[k - 1]));
+    }
+    rows.push([0.0, h[last], 2.0 * h[last], 0.0, 0.0]);
+    right.push(-6.0 * mean[last]);
     System { rows, right }.solve()
 }
 

@@ -8,7 +8,7 @@ use crate::model::mechanism::AnyMechanism;
 use crate::model::tabulated::{Course, DriveLinkAlone, StandIn};
 use crate::number::rounding::figure;
 use crate::number::spline::{MIN_POINTS, Spline, Way};
-use crate::read::curve_file::Positions;
+use crate::read::curve_file::{Positions, Rows};
 use crate::read::drive_link::DriveLink;
 use crate::text::columns;
 use crate::text::columns::{Columns, CsvFile, Format, Known, known};
@@ -116,7 +116,7 @@ impl Curves {
             (true, _) => Domain::Turn,
         };
         let drive = DriveLink { coordinate, domain };
-        let positions = Positions::of(&columns, drive)?;
+        let positions = Positions::of(&columns, &Rows::of(drive))?;
         let mut facts = vec![(
             "rows of the file",
             format!(
@@ -129,7 +129,7 @@ impl Curves {
         let mut stand_ins = Vec::new();
         let mut add = |name: &str, course: Course| {
             let name = name.to_owned();
-            stand_ins.push(StandIn { name, course });
+            stand_ins.push(StandIn::new(name, course));
         };
 
         let inertia = positions

@@ -1,0 +1,174 @@
+//! `between` and `ramp`: the part of the drive link's range in which a load acts.
+
+use std::f64::consts::TAU;
+
+use jred::Domain;
+use jred::machine::Window;
+
+use super::drive_link::DriveLink;
+use crate::text::item::Value;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::ANGLE;
+
+/// The window of a load, if it has one.
+pub(super) fn read(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
+    match drive.domain {
+        Domain::Turn => window(section),
+        Domain::Stroke { .. } => stretch(section, drive),
+    }
+}
+
+/// The part of the turn in which the load acts.
+fn window(section: &Section) -> Result<Option<Window>> {
+    let (between, ramp) = (section.get("between"), section.optional("ramp", &ANGLE)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            return Err(section.missing(
+                "ramp",
+                "ramp = \"10 deg\": the angle over which the load rises and falls",
+            ));
+        }
+        (None, Some(_)) => {
+            return Err(section.missing(
+                "between",
+                "between = [\"315 deg\", \"360 deg\"]: where the load acts",
+            ));
+        }
+    };
+    long_enough(&ramp, TAU)?;
+    let [from, to] = between.pair([&ANGLE, &ANGLE])?;
+    let end = if to.si < from.si { to.si + TAU } else { to.si };
+    let width = end - from.si;
+    if width <= 0.0 || width > TAU * (1.0 + 1e-12) {
+        return Err(between
+            .problem("must span more than zero and at most one turn", "check these angles")
+            .help(format!(
+                "the load acts from the first angle to the second; a smaller second angle means one turn later: here \
+                 the span is {}",
+                to.show(width)
+            )));
+    }
+    // Kept a hair below one turn, so that rounding cannot make it wider.
+    let start = from.si.rem_euclid(TAU);
+    let end = start + width.min(TAU * (1.0 - 1e-14));
+    if width < 2.0 * ramp.si {
+        let what = format!(
+            "is {}, too long for the range of {}",
+            ramp.shown(),
+            from.show(width)
+        );
+        let help = format!(
+            "the load rises over one ramp and falls over another: write at most {}",
+            ramp.show(width / 2.0)
+        );
+        // Rounding may leave two ramps a hair wider than the range.
+        if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+            return Err(ramp
+                .problem(&what, "too long")
+                .at(between.span(), "range")
+                .help(help));
+        }
+    }
+    let ramp = ramp.si.min((end - start) / 2.0);
+    Window::new(Domain::Turn, [start, end], ramp)
+        .map(Some)
+        .map_err(|error| {
+            between.problem(&format!("is not possible: {error}"), "check these angles")
+        })
+}
+
+/// A ramp that a table can tell from a jump.
+fn long_enough(ramp: &Value, span: f64) -> Result<()> {
+    ramp.check_positive()?;
+    let least = Window::SHORTEST_RAMP * span;
+    if ramp.si < least {
+        return Err(ramp
+            .problem(
+                &format!("is {}, as steep as a jump", ramp.shown()),
+                "too short",
+            )
+            .help(format!(
+                "write at least {}, a millionth of the drive link's range",
+                ramp.show(least)
+            )));
+    }
+    Ok(())
+}
+
+/// The part of the stroke in which the load acts.
+fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
+    let kind = drive.position();
+    let (between, ramp) = (section.get("between"), section.optional("ramp", kind)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            let example = format!(
+                "ramp = \"{}\": the way over which the load rises and falls",
+                kind.example
+            );
+            return Err(section.missing("ramp", &example));
+        }
+        (None, Some(_)) => {
+            let example = format!(
+                "between = [\"{}\", …]: where the load acts, within the stroke {}",
+                kind.example,
+                drive.range()
+            );
+            return Err(section.missing("between", &example));
+        }
+    };
+    long_enough(&ramp, drive.domain.span())?;
+    let [from, to] = between.pair([kind, kind])?;
+    let width = to.si - from.si;
+    if width <= 0.0 {
+        return Err(between
+            .problem(
+                &format!("runs from {} to {}", from.shown(), to.shown()),
+                "check these ends",
+            )
+            .help("on a stroke, the second position must be the larger one"));
+    }
+    let Domain::Stroke {
+        from: start,
+        to: end,
+    } = drive.domain
+    else {
+        return Ok(None);
+    };
+    if to.si <= start || from.si >= end {
+        return Err(between
+            .problem(
+                &format!("is outside the stroke, {}", drive.range()),
+                "never reached",
+            )
+            .help("give positions within the stroke; positions beyond its ends are allowed"));
+    }
+    if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+        return Err(ramp
+            .problem(
+                &format!(
+                    "is {}, too long for the range of {}",
+                    ramp.shown(),
+                    from.show(width)
+                ),
+                "too long",
+            )
+            .at(between.span(), "range")
+            .help(format!(
+                "the load rises over one ramp and falls over another: write at most {}",
+                ramp.show(width / 2.0)
+            )));
+    }
+    Window::new(drive.domain, [from.si, to.si], ramp.si.min(width / 2.0))
+        .map(Some)
+        .map_err(|error| {
+            between.problem(
+                &format!("is not possible: {error}"),
+                "check these positions",
+            )
+        })
+}
