@@ -119,7 +119,9 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         file.required_motion()?;
     }
     let state = state(options, &file)?;
-    let moves = file.motion.is_some() || state.is_some();
+    let at = states(options, &file)?;
+    let given = at.iter().flatten().any(|at| at.state.is_some());
+    let moves = file.motion.is_some() || state.is_some() || given;
     if (options.reactions || options.energy) && !moves {
         let instead = "forces and energies need a speed: give one, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or ";
         file.motion_or(instead)?;
@@ -138,12 +140,16 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         state,
     };
     check_size(&file, &request)?;
-    let largest = if sets.reactions {
+    let largest = if sets.reactions && at.is_none() {
         reduce::largest(&file, &request).map_err(core_report)?
     } else {
         Vec::new()
     };
-    let columns = reduce(&file, &request).map_err(core_report)?;
+    let columns = match &at {
+        Some(at) => reduce::reduce_at(&file, &request, at),
+        None => reduce(&file, &request),
+    };
+    let columns = columns.map_err(core_report)?;
     if let Some(state) = state {
         warn(&file, state)?;
     }
@@ -152,21 +158,12 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
         output::write(path, page.as_bytes())?;
     }
-    let mut title = if sets.curves {
-        format!(
-            "{}: reduced to the drive link, flywheel and drive train included",
-            file.title
-        )
-    } else {
-        file.title.clone()
+    let missing = match &at {
+        Some(at) => reduce::not_contained_at(&file, &request, at),
+        None => reduce::not_contained(&file, &request),
     };
-    if sets.reactions {
-        title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
-                  drive train turn with the drive link";
-    }
-    if moves && columns.has_empty_cells() {
-        title += "\nthe motion does not pass every position exactly once: use --over time";
-    }
+    let passed = !(moves && columns.has_empty_cells());
+    let title = reduce_title(&file, sets, (passed, at.is_some()), &missing);
     match options.format {
         Format::Table => {
             let mut text = String::new();
@@ -192,6 +189,41 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         }
         Format::Csv | Format::Json => print_parts(sheet::parts(&columns, options.format, &title)),
     }
+}
+
+/// The lines above a listing: what it is, and what is not in it, because the motion does not pass every position, or at single positions
+/// because they have no time.
+fn reduce_title(
+    file: &MachineFile,
+    sets: Sets,
+    (passed, single): (bool, bool),
+    missing: &[String],
+) -> String {
+    let mut title = if sets.curves {
+        format!(
+            "{}: reduced to the drive link, flywheel and drive train included",
+            file.title
+        )
+    } else {
+        file.title.clone()
+    };
+    if sets.reactions {
+        title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
+                  drive train turn with the drive link";
+    }
+    if !passed {
+        title += if single {
+            "\nthe motion does not pass every position exactly once: give speeds with the positions"
+        } else {
+            "\nthe motion does not pass every position exactly once: use --over time"
+        };
+    }
+    if !missing.is_empty() {
+        title += "\nnot contained where no motion passes: ";
+        title += &missing.join("; ");
+        title += ": use --over time";
+    }
+    title
 }
 
 /// Most numbers that are held at once: 320 MB.
@@ -244,6 +276,23 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
         None => 0.0,
     };
     Ok(Some([omega, alpha]))
+}
+
+/// The positions of the command line, and their states.
+fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<reduce::At>>> {
+    let Some(text) = &options.at else {
+        return Ok(None);
+    };
+    let domain = file.machine.domain();
+    let states = read::drive_states(text, domain, file.machine.mechanism().coordinate());
+    let states = states.map_err(|why| {
+        miette!(
+            help = "write positions with commas between them, such as \"30 deg, 60 deg\", each with its speed and acceleration, if you like: \"30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm\"",
+            "--at {} cannot be used: {why}",
+            plain::quoted(text)
+        )
+    })?;
+    Ok(Some(states))
 }
 
 fn run_check(options: &options::Check) -> Result<Done> {

@@ -91,6 +91,10 @@ pub struct Reduce {
     /// Variable that the rows run over.
     #[arg(long, value_parser = word::<Over>(), default_value_t)]
     pub over: Over,
+    /// These positions instead, each with its speed and its acceleration after it, if they are given, e.g. "30 deg, 60 deg" or "30 deg, 60 rpm,
+    /// 5 rad/s^2".
+    #[arg(long, value_name = "STATES", allow_hyphen_values = true, conflicts_with_all = ["positions", "over"])]
+    pub at: Option<String>,
     /// Also list each link's share of the reduced inertia.
     #[arg(long, conflicts_with_all = ["points", "reactions", "energy"])]
     pub links: bool,

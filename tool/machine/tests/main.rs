@@ -15,10 +15,12 @@ mod mechanisms;
 mod motion;
 mod reading;
 mod rules;
+mod schedule;
 mod simulate;
 mod spline;
 mod steady;
 mod supply;
 #[path = "../../support/mod.rs"]
 mod support;
+mod swing;
 mod variator;

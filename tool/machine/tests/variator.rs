@@ -47,6 +47,52 @@ fn a_free_run_keeps_the_energy() {
     assert!(imbalance(&found) <= budget::BALANCE);
 }
 
+/// The same of a ratio that goes up and down again through points.
+#[test]
+fn a_ratio_through_points_keeps_the_energy() {
+    let points = "ratio = [[\"0.1 s\", 0.5], [\"0.25 s\", 0.8], [\"0.4 s\", 1.4], [\"0.6 s\", 1.5], [\"0.75 s\", 1.1], [\"0.9 s\", 0.9]]";
+    let (head, rest) = SHAFTS.split_once("[[variator.shift]]").unwrap();
+    let (_, simulation) = rest.split_once("[simulation]").unwrap();
+    let text = format!("{head}[simulation]{simulation}");
+    let text = edited(&text, "ratio = 0.5", points);
+    let found = simulate(&text);
+    let (input, output) = (found.get("input omega [rad/s]"), found.get("omega [rad/s]"));
+    let (t, ratio) = (found.get("t [s]"), found.get("ratio"));
+    let kept = |j: f64| (INPUT + j * j * OUTPUT).sqrt();
+    let first = 10.0 * std::f64::consts::PI / 0.5 * kept(0.5);
+    for k in 0..ratio.len() {
+        near("j", output[k], ratio[k] * input[k], budget::SWING);
+        near("ω√J", input[k] * kept(ratio[k]), first, budget::SWING);
+    }
+    for (time, expected) in [(0.0, 0.5), (0.1, 0.5), (0.4, 1.4), (0.6, 1.5), (1.0, 0.9)] {
+        let k = t.iter().position(|t| (t - time).abs() < 1e-9).unwrap();
+        near("ratio", ratio[k], expected, budget::RATIO);
+    }
+    assert!(imbalance(&found) <= budget::BALANCE);
+    for (to, words) in [
+        (
+            "ratio = [[\"0 s\", 0.5], [\"1 s\", 0.6]]",
+            "at least 5 points",
+        ),
+        (
+            "ratio = [[\"0 s\", 0.5], [\"1 s\", 0.6], [\"0.5 s\", 0.6], [\"2 s\", 0.6], [\"3 s\", 0.6]]",
+            "not after the one before",
+        ),
+        (
+            "ratio = [[\"0 s\", 9], [\"1 s\", 9], [\"1.1 s\", 0.01], [\"2 s\", 0.01], [\"3 s\", 0.01]]",
+            "swings to",
+        ),
+    ] {
+        refuses(&text, points, to, &[words]);
+    }
+    refuses(
+        SHAFTS,
+        "ratio = 0.5",
+        points,
+        &["together with a `ratio` over time"],
+    );
+}
+
 #[test]
 fn constant_slip_loses_what_it_should() {
     let slip = "slip = \"4 %\"\npower_flow = \"input-drives\"";

@@ -339,8 +339,9 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         Figure::new(
             figures::reduced_torque(file, mean_speed)?,
             format!(
-                "Parts of the reduced {} that do not depend on the motion: weight and springs, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.",
-                coordinate.vocabulary().torque
+                "Parts of the reduced {} that do not depend on the motion: weight and springs, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.{}",
+                coordinate.vocabulary().torque,
+                figures::not_contained(file)
             ),
         ),
         Figure::new(

@@ -190,7 +190,8 @@ fn every_machine_holds_its_error() {
     let mut checked = 0;
     for (k, path) in files.iter().enumerate() {
         let file = jred_machine::read::read(path).unwrap();
-        if file.variator.is_some() {
+        // What goes by the motion is in no table.
+        if file.variator.is_some() || file.scheduled().next().is_some() {
             continue;
         }
         let out = folder.path("machine.jred");

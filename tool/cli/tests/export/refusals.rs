@@ -3,6 +3,17 @@
 use super::{export_of, number_after};
 use crate::support::{Folder, edited_press, press_file};
 
+/// What goes by the motion is in no table over the position.
+#[test]
+fn what_goes_by_the_motion_is_refused() {
+    let lift = press_file().with_file_name("pick-and-place.toml");
+    let run = export_of(&lift, &["--torque-error", "1 N m"], None).ends(2);
+    run.says(&[
+        "load \"suction cup pressed on the part\" acts in segment 1: that goes by [motion], and a table is over the position",
+        "remove its segments, during, direction and at_rest, or the payload, for this command",
+    ]);
+}
+
 #[test]
 fn too_few_cells_name_the_load_and_the_cures() {
     let more = [

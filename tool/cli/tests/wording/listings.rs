@@ -225,8 +225,12 @@ fn check() {
 
 #[test]
 fn reduce() {
-    let desk =
-        Desk::new().with_machines(&["press.toml", "linear-gripper.toml", "cam-translating.toml"]);
+    let desk = Desk::new().with_machines(&[
+        "press.toml",
+        "linear-gripper.toml",
+        "cam-translating.toml",
+        "pick-and-place.toml",
+    ]);
     let press = ["reduce", "press.toml", "--positions", "4"];
     let with = |more: &[&'static str]| [&press[..], more].concat();
     compare(
@@ -238,6 +242,22 @@ fn reduce() {
             &with(&["--points"]),
             &with(&["--reactions"]),
             &with(&["--energy", "--speed", "60 rpm"]),
+            &[
+                "reduce",
+                "press.toml",
+                "--at",
+                "30 deg, 60 rpm, 5 rad/s^2, 200 deg, 300 deg, 30 rpm",
+            ],
+            &["reduce", "pick-and-place.toml", "--positions", "3"],
+            &[
+                "reduce",
+                "pick-and-place.toml",
+                "--positions",
+                "7",
+                "--over",
+                "time",
+            ],
+            &["check", "pick-and-place.toml"],
             &["reduce", "linear-gripper.toml", "--positions", "3"],
             &[
                 "reduce",

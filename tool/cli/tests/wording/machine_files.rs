@@ -129,6 +129,14 @@ fn mechanisms() {
             ("180 mm", "25 mm"),
             ("offset = \"0 mm\"", "offset = \"-200 mm\""),
             ("type = \"belt\"", "type = \"ball-screw\"\nlead = \"10 mm\""),
+            (
+                "offset = \"0 mm\"",
+                "offset = \"0 mm\"\nstroke = [\"90 deg\", \"10 deg\"]",
+            ),
+            (
+                "offset = \"0 mm\"",
+                "offset = \"0 mm\"\nstroke = [\"0 deg\", \"90 deg\"]",
+            ),
         ],
     );
     mistakes(
@@ -136,6 +144,10 @@ fn mechanisms() {
         "cam-translating.toml",
         "reduce",
         &[
+            (
+                "type = \"disc-cam\"",
+                "type = \"disc-cam\"\nstroke = [\"0 deg\", \"90 deg\"]",
+            ),
             ("rise = \"30 mm\"", "rise = \"20 mm\""),
             ("rise = \"30 mm\"", "rise = \"30 mm\"\nreturn = \"30 mm\""),
             ("dwell = \"80 deg\"", "dwell = \"60 deg\""),
@@ -248,6 +260,10 @@ fn loads() {
             ),
         ],
     );
+}
+
+#[test]
+fn load_tables() {
     let table = "table = \"load-table.csv\"";
     mistakes(
         "machine-load-tables",
@@ -296,6 +312,47 @@ fn loads() {
             (rows, "table = \"unsorted.csv\""),
         ],
     );
+}
+
+#[test]
+fn schedules() {
+    let (held, up) = ("segments = [2]", "direction = \"forward\"");
+    let cup = "[[load]]\nname = \"suction";
+    mistakes(
+        "machine-schedule",
+        "pick-and-place.toml",
+        "reduce",
+        &[
+            (held, "segments = [2, 5]"),
+            (held, "segments = [2, 2]"),
+            (held, "segments = [0]"),
+            (held, "segments = []"),
+            (held, "segments = [1, 3]"),
+            (held, "during = [\"0.4 s\", \"1.1 s\"]"),
+            (held, "during = [\"1.1 s\", \"1.1 s\"]"),
+            (held, "during = [\"1 s\", \"3 s\"]"),
+            (held, "segments = [2]\nduring = [\"0 s\", \"1 s\"]"),
+            (held, "segments = [2]\ndirection = \"forward\""),
+            (held, ""),
+            (
+                cup,
+                "[[payload]]\nname = \"part\"\non = \"rack\"\nmass = \"1 kg\"\nsegments = [2, 3]\n\n[[load]]\nname = \"suction",
+            ),
+            (up, "direction = \"up\""),
+            (up, "direction = \"forward\"\nsegments = [4]"),
+            ("at_rest = \"60 N\"", "at_rest = \"20 N\""),
+            ("at_rest = \"60 N\"", "at_rest = [\"60 N\", \"0 N\"]"),
+            ("opposing_force = \"35 N\"", "viscous_force = \"35 N s/m\""),
+            (
+                "name = \"guide friction\"",
+                "name = \"brush at the way up\"",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn reduced_curves() {
     mistakes(
         "machine-curves",
         "reduced-curves.toml",

@@ -1,13 +1,15 @@
 //! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
 use jred::machine::TorqueTerms;
-use jred::mechanism::TrainOutput;
+use jred::machine::motion::State;
+use jred::mechanism::{Train, TrainOutput};
 use jred::{Error, Reducible as _, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 use crate::number::figures::Figures;
 use crate::number::parabola;
 
@@ -31,6 +33,8 @@ pub struct Instant {
     pub omega: f64,
     /// α of the drive link (rad/s²).
     pub alpha: f64,
+    /// Its sign is that of the motion, or of the motion that begins here from rest.
+    pub direction: f64,
     /// J_red of the mechanism at the drive link, without drive train (kg·m²).
     pub inertia: f64,
     /// Torque at the drive link, term by term, without drive train (N·m).
@@ -53,7 +57,7 @@ pub struct Duty {
     /// Length of the cycle (s).
     pub duration: f64,
     /// Largest torque (N·m) at the input that holds the machine at rest, without losses or the help of friction: against the
-    /// weight at any position, and against weight and process loads at standstill.
+    /// weight at any position, with a payload wherever it is carried, and against weight and process loads at standstill.
     pub hold_torque: f64,
     /// Data for the mechanical rules.
     pub mechanics: Mechanics,
@@ -66,6 +70,9 @@ pub const STEPS: usize = 2000;
 
 /// The ends of a smooth stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
 pub(crate) const INSIDE: f64 = 1e-9;
+
+/// Share of a stretch after which a move that begins from rest has a speed; at its start it has this share of that speed at most.
+const SLIGHTLY: f64 = 1e-3;
 
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
@@ -160,22 +167,34 @@ fn insert_extremes(
     Ok(())
 }
 
+/// The direction of the move that begins from rest with this stretch, if static friction has to be overcome there.
+fn starts(file: &MachineFile, motion: &Motion, [from, to]: [f64; 2]) -> Option<f64> {
+    if !file.schedule.has_static_friction() {
+        return None;
+    }
+    let speed = |share: f64| motion.at(from + share * (to - from)).omega;
+    let ahead = speed(SLIGHTLY);
+    (speed(0.0).abs() <= SLIGHTLY * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
+}
+
 /// The machine in its motion. A dwell asks for one position at every step of time: the last one is kept.
 struct Moving<'a> {
     file: &'a MachineFile,
     motion: &'a Motion,
-    last: Option<(f64, Reduction)>,
+    last: Option<(f64, usize, Reduction)>,
 }
 
 impl Moving<'_> {
-    fn reduction(&mut self, phi: f64) -> Result<Reduction, Error> {
-        if let Some((place, reduction)) = &self.last
+    fn reduction(&mut self, now: &Now, phi: f64) -> Result<Reduction, Error> {
+        let number = self.file.schedule.number(now);
+        if let Some((place, known, reduction)) = &self.last
             && place.to_bits() == phi.to_bits()
+            && *known == number
         {
             return Ok(*reduction);
         }
-        let reduction = self.file.bare_reduction(phi)?;
-        self.last = Some((phi, reduction));
+        let reduction = self.file.bare_reduction_at(now, phi)?;
+        self.last = Some((phi, number, reduction));
         Ok(reduction)
     }
 }
@@ -183,12 +202,53 @@ impl Moving<'_> {
 impl Instant {
     /// The machine at time `t` of its motion.
     fn new(moving: &mut Moving, t: f64, weight: f64) -> Result<Self, Error> {
+        let state = moving.motion.at(t);
+        let reduction = moving.reduction(&Now::of(t, state.omega), state.phi)?;
+        let terms = reduction.torque(state.omega, state.alpha);
+        Ok(Self::with(moving, t, weight, state, &reduction, terms))
+    }
+
+    /// The moment before a move in this `direction` begins from rest: static friction, without acceleration. It has no weight.
+    fn breakaway(moving: &mut Moving, t: f64, direction: f64) -> Result<Self, Error> {
+        let state = State {
+            omega: 0.0,
+            alpha: 0.0,
+            ..moving.motion.at(t)
+        };
+        let reduction = moving.reduction(&Now::of(t, 0.0), state.phi)?;
+        let terms = TorqueTerms {
+            coulomb: reduction.coulomb * direction,
+            ..reduction.torque(0.0, 0.0)
+        };
+        let instant = Self::with(moving, t, 0.0, state, &reduction, terms);
+        Ok(instant.towards(&moving.file.drive_train, direction))
+    }
+
+    /// The same with a drive train that is about to move in this direction, which decides on the side of its losses.
+    fn towards(mut self, train: &Train, direction: f64) -> Self {
+        self.direction = direction;
+        let input = train.input(&TrainOutput {
+            torque: self.terms.total(),
+            torque_per_alpha: self.inertia,
+            omega: self.omega,
+            alpha: self.alpha,
+            direction,
+        });
+        self.input_torque = input.torque;
+        self
+    }
+
+    fn with(
+        moving: &Moving,
+        t: f64,
+        weight: f64,
+        state: State<f64>,
+        reduction: &Reduction,
+        terms: TorqueTerms,
+    ) -> Self {
         let train = &moving.file.drive_train;
         let ratio = train.ratio();
-        let state = moving.motion.at(t);
-        let reduction = moving.reduction(state.phi)?;
         let inertia = reduction.inertia;
-        let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(&TrainOutput {
             torque: terms.total(),
             torque_per_alpha: inertia,
@@ -196,19 +256,20 @@ impl Instant {
             alpha: state.alpha,
             direction: state.omega,
         });
-        Ok(Self {
+        Self {
             t,
             weight,
             phi: state.phi,
             omega: state.omega,
             alpha: state.alpha,
+            direction: state.omega,
             inertia,
             terms,
             input_torque: input.torque,
             input_speed: state.omega * ratio,
             input_alpha: state.alpha * ratio,
             input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
-        })
+        }
     }
 }
 
@@ -239,6 +300,10 @@ impl Duty {
             let span = to - from;
             let n = parts((from, to));
             let step = span / n as f64;
+            if let Some(direction) = starts(file, motion, [from, to]) {
+                smooth.begin(instants.len());
+                instants.push(Instant::breakaway(&mut moving, from, direction)?);
+            }
             let first = instants.len();
             smooth.begin(first);
             for k in 0..=n {
@@ -264,6 +329,8 @@ impl Duty {
         }
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);
         let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
+        let laden = instants.iter().filter(|i| file.schedule.is_laden(i.t));
+        let held = held.chain(laden.map(|i| (i.terms.potential / ratio).abs()));
         let hold_torque = held.fold(hold_torque, f64::max);
         let mut looked_at = None;
         for at_rest in instants.iter().filter(|i| i.omega == 0.0) {

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::analysis::warnings::warnings;
 use crate::model::coordinate::{Coordinate, whole_range};
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::{AnyMechanism, Fact};
 use crate::number::numerics;
 use crate::number::rounding::short;
@@ -143,7 +143,7 @@ impl Findings {
             travels: centres::travels(mechanism)?,
             transmission: transmission(file)?,
             inertia: agreement::inertia(&machine)?,
-            agreement: agreement::agreement(file, &machine)?,
+            agreement: agreement::agreement(file, &Machines::of(file)?)?,
             motion: MotionFindings::of(file),
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
@@ -153,6 +153,7 @@ impl Findings {
                         .iter()
                         .map(|words| format!("warning: {words}")),
                 )
+                .chain(file.scheduled())
                 .collect(),
         })
     }

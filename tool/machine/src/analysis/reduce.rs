@@ -6,9 +6,10 @@ use jred::machine::{Frames, Mechanism as _};
 use jred::{Domain, Error, Machine, Reducible as _};
 
 use crate::model::coordinate::{Coordinate, positions};
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 use crate::number::columns::{Column, Columns, Quantity};
 
 mod curves;
@@ -64,6 +65,7 @@ pub struct Request {
 
 /// One row: where the machine is, and how it moves there, if that is known.
 struct Place {
+    now: Now,
     phi: f64,
     frames: Frames,
     state: Option<State<f64>>,
@@ -72,8 +74,10 @@ struct Place {
 /// Data for the columns.
 struct Source<'f> {
     file: &'f MachineFile,
-    /// The machine with its drive train.
+    /// The machine with its drive train, without what the schedule says.
     machine: Machine<AnyMechanism>,
+    /// The machines of the schedule.
+    machines: Machines<'f>,
     coordinate: Coordinate,
 }
 
@@ -82,6 +86,7 @@ impl<'f> Source<'f> {
         Ok(Self {
             file,
             machine: file.with_drive_train()?,
+            machines: Machines::of(file)?,
             coordinate: file.machine.mechanism().coordinate(),
         })
     }
@@ -90,6 +95,32 @@ impl<'f> Source<'f> {
 /// The column of times.
 fn time_column() -> Column {
     Column::new(Quantity::Time, "t", "s")
+}
+
+/// The loads and payloads that are not in all rows of the request, because these are without a time of the motion, or without a
+/// direction.
+pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
+    not_in(file, || rows(file, request))
+}
+
+/// The same of [`reduce_at`].
+pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[At]) -> Vec<String> {
+    not_in(file, || rows_at(file, request, at))
+}
+
+fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R) -> Vec<String> {
+    if file.schedule.is_empty() {
+        return Vec::new();
+    }
+    let (mut timed, mut directed) = (true, true);
+    for row in rows() {
+        timed &= row.now.t.is_some();
+        directed &= row.now.omega.is_some();
+    }
+    file.scheduled_where(|when| {
+        (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
+    })
+    .collect()
 }
 
 /// Columns that belong together.
@@ -101,14 +132,52 @@ trait Set {
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
 }
 
+/// A position of the drive link (rad, or m), and its speed and acceleration there, if they are given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Position.
+    pub phi: f64,
+    /// Speed and acceleration.
+    pub state: Option<[f64; 2]>,
+}
+
 /// The columns asked for, at every position.
 ///
 /// # Errors
 /// Those of the machine.
 pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
-    let source = Source::new(file)?;
     let moves = file.motion.is_some() || request.state.is_some();
     let in_time = request.over == Over::Time || request.state.is_some();
+    columns(file, request, [moves, in_time], rows(file, request))
+}
+
+/// The columns asked for at these positions, in their order; where no state is given, that of the request, or of the motion where it passes
+/// each position once.
+///
+/// # Errors
+/// Those of the machine.
+pub fn reduce_at(file: &MachineFile, request: &Request, at: &[At]) -> Result<Columns, Error> {
+    let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
+    let moves = file.motion.is_some() || given;
+    columns(file, request, [moves, given], rows_at(file, request, at))
+}
+
+fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<Item = Row> {
+    let state = state_at(file, request.state);
+    at.iter().map(move |at| match at.state {
+        Some(own) => row_at(at.phi, Some(own), None),
+        None => state(at.phi),
+    })
+}
+
+/// The columns of these rows: whether some have a motion, and velocities and accelerations in time.
+fn columns(
+    file: &MachineFile,
+    request: &Request,
+    [moves, in_time]: [bool; 2],
+    rows: impl Iterator<Item = Row>,
+) -> Result<Columns, Error> {
+    let source = Source::new(file)?;
     let Sets {
         curves,
         links,
@@ -138,8 +207,15 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     heads.push(source.coordinate.column());
     heads.extend(sets.iter().flat_map(|set| set.heads(&source)));
     let mut columns = Columns::new(heads);
-    for (time, phi, state) in rows(file, request) {
+    for Row {
+        time,
+        now,
+        phi,
+        state,
+    } in rows
+    {
         let place = Place {
+            now,
             phi,
             frames: source.machine.mechanism().frames(phi)?,
             state,
@@ -154,8 +230,13 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     Ok(columns)
 }
 
-/// Time (over time only), position and state of a row.
-type Row = (Option<f64>, f64, Option<State<f64>>);
+/// Time (over time only), instant, position and state of a row.
+struct Row {
+    time: Option<f64>,
+    now: Now,
+    phi: f64,
+    state: Option<State<f64>>,
+}
 
 /// The rows, one after another.
 fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = Row> + 'f> {
@@ -164,21 +245,43 @@ fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item =
         let row = move |k: usize| {
             let t = motion.duration() * k as f64 / last;
             let state = motion.at(t);
-            (Some(t), state.phi, Some(state))
+            Row {
+                time: Some(t),
+                now: Now::of(t, state.omega),
+                phi: state.phi,
+                state: Some(state),
+            }
         };
         return Box::new((0..request.positions).map(row));
     }
+    let state = state_at(file, request.state);
     let domain = file.machine.domain();
+    Box::new(positions(domain, request.positions).map(state))
+}
+
+/// The row of a position: with the given state, or that of the motion, if it passes each position once.
+fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> Row {
     let pass = match &file.motion {
-        Some(motion) if request.state.is_none() => Pass::of(motion, domain),
+        Some(motion) if given.is_none() => Pass::of(motion, file.machine.domain()),
         _ => None,
     };
-    let given = request.state;
-    let state = move |phi| match given {
-        Some([omega, alpha]) => Some(State { phi, omega, alpha }),
-        None => pass.as_ref()?.at(phi),
+    move |phi| row_at(phi, given, pass.as_ref())
+}
+
+fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
+    let (t, state) = if let Some([omega, alpha]) = given {
+        (None, Some(State { phi, omega, alpha }))
+    } else {
+        let at = pass.and_then(|pass| pass.at(phi));
+        (at.map(|(t, _)| t), at.map(|(_, state)| state))
     };
-    Box::new(positions(domain, request.positions).map(move |phi| (None, phi, state(phi))))
+    let omega = state.map(|state| state.omega);
+    Row {
+        time: None,
+        now: Now { t, omega },
+        phi,
+        state,
+    }
 }
 
 /// A motion that passes every position at most once: it goes one way, through exactly one turn or within the stroke.
@@ -211,8 +314,8 @@ impl<'m> Pass<'m> {
         })
     }
 
-    /// The motion's state where it passes the position `phi`, for a turn modulo 2π.
-    fn at(&self, phi: f64) -> Option<State<f64>> {
+    /// When the motion passes the position `phi`, for a turn modulo 2π, and its state there.
+    fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
         let motion = self.motion;
         let ahead = (phi - self.start) * self.way;
         let distance = if self.turn {
@@ -234,9 +337,10 @@ impl<'m> Pass<'m> {
                 late = middle;
             }
         }
-        Some(State {
+        let state = State {
             phi,
             ..motion.at(late)
-        })
+        };
+        Some((late, state))
     }
 }

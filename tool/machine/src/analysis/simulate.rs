@@ -23,6 +23,9 @@ use crate::model::simulation::Simulation;
 /// # Errors
 /// Those of the machine at the start.
 pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Simulated, SimulationError> {
+    if let Some(what) = file.scheduled().next() {
+        return Err(SimulationError::Scheduled { what });
+    }
     let controlled = simulation.control.zip(file.motion.as_ref());
     match (&file.variator, controlled) {
         (Some(variator), _) => run::run(

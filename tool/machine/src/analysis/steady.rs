@@ -68,6 +68,9 @@ pub fn steady(
             range: format!("{} to {}", coordinate.place(from), coordinate.place(to)),
         });
     }
+    if let Some(what) = file.scheduled().next() {
+        return Err(SteadyError::Scheduled { what });
+    }
     let direction = direction(file, simulation)?;
     let turning = Turning::new(file, simulation, direction)?;
     let cycle = Cycle::of(&turning, request.positions);

@@ -117,6 +117,16 @@ impl Export {
     /// # Errors
     /// A machine that cannot be tabulated; no table that meets what is asked for.
     pub fn new(file: &MachineFile, task: Task) -> Result<Self, Failure> {
+        if let Some(what) = file.scheduled().next() {
+            return Err(Failure::Impossible {
+                message: format!(
+                    "{what}: that goes by [motion], and a table is over the position of the drive link alone"
+                ),
+                help: "remove its segments, during, direction and at_rest, or the payload, for this command, and give the firmware \
+                       what acts in one part of the motion as a torque of its own; a payload that comes and goes is a table each"
+                    .to_owned(),
+            });
+        }
         let ratio = file.drive_train.ratio();
         let machine = file
             .with_drive_train()?

@@ -2,11 +2,14 @@
 
 use jred::harmonic::measure;
 use jred::image::{encode, image_len};
+use jred::machine::Mechanism as _;
 use jred::mechanism::SliderCrank;
 use jred::slider_crank::{SliderCrankError, form, set_in_use};
 use jred::table::{Shape, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{Error, Image, Machine, Reducible as _, Scale, SliderCrankForm, Table, Validity};
+use jred::{
+    Domain, Error, Image, Machine, Reducible as _, Scale, SliderCrankForm, Table, Validity,
+};
 
 use super::Failure;
 use super::candidate::{Answer, Made};
@@ -25,6 +28,8 @@ const PLACES: u32 = 4097;
 pub(super) enum Not {
     /// Another mechanism, by its name in machine files.
     Mechanism(&'static str),
+    /// A part of the turn only.
+    Stroke,
     /// A curve over the position.
     Curve(String),
     /// A load or a spring.
@@ -37,6 +42,7 @@ pub(super) fn plain(machine: &Machine<AnyMechanism>) -> Result<Machine<SliderCra
     let Some(mechanism) = any.inner::<SliderCrank>() else {
         return Err(match any.link_names().get(any.own_links()) {
             Some(curve) if any.kind() == "slider-crank" => Not::Curve(curve.clone()),
+            None if any.kind() == "slider-crank" && any.domain() != Domain::Turn => Not::Stroke,
             _ => Not::Mechanism(any.kind()),
         });
     };
@@ -69,6 +75,10 @@ impl Not {
             Self::Mechanism(kind) => (
                 format!("the mechanism is of type {kind:?}"),
                 "remove --layout: a table holds any mechanism; --layout harmonic a smooth one that turns",
+            ),
+            Self::Stroke => (
+                "the crank has a stroke, and the closed form is of the whole turn".to_owned(),
+                table,
             ),
             Self::Curve(name) => (format!("{name:?} is a curve over the position"), table),
             Self::Part(SliderCrankError::Window(k)) => (

@@ -7,6 +7,7 @@ use jred::{Error, Machine, Reduction};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
+use crate::model::schedule::{Now, Schedule, When};
 use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
@@ -19,8 +20,11 @@ pub struct MachineFile {
     pub name: String,
     /// Title for reports.
     pub title: String,
-    /// The mechanism with gravity, loads and flywheel, *without* the drive train.
+    /// The mechanism with gravity, loads and flywheel, *without* the drive train. What [`schedule`](Self::schedule) says is not in
+    /// it.
     pub machine: Machine<AnyMechanism>,
+    /// Loads that act in a part of the motion only, and payloads.
+    pub schedule: Schedule,
     /// Inertia of the flywheel on the drive link (kg·m²), contained in `machine`.
     pub flywheel: f64,
     /// The loads, in the order of the machine's.
@@ -77,18 +81,47 @@ impl MachineFile {
         })
     }
 
-    /// The reduced link at `phi` without the drive train, as [`Machine::bare_reduction`] gives it, but with the weight of
-    /// payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that varies with the
-    /// position has none.
+    /// The machine at an instant, with what acts and what is carried then, without the drive train.
+    pub fn machine_at(&self, now: &Now) -> &Machine<AnyMechanism> {
+        let number = self.schedule.number(now);
+        self.schedule.machine(number).unwrap_or(&self.machine)
+    }
+
+    /// The reduced link at `phi` without the drive train and without what the schedule says, as [`Machine::bare_reduction`] gives it, but
+    /// with the weight of payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that
+    /// varies with the position has none.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
     pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
-        let mut reduction = self.machine.bare_reduction(phi)?;
+        self.bare_reduction_at(&Now::default(), phi)
+    }
+
+    /// The same at an instant, with what acts and what is carried then.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn bare_reduction_at(&self, now: &Now, phi: f64) -> Result<Reduction, Error> {
+        let mut reduction = self.machine_at(now).bare_reduction(phi)?;
         let weight = self.payload_weight(phi)?;
         reduction.potential_slope += weight;
         reduction.process += weight;
         Ok(reduction)
+    }
+
+    /// What the schedule says, item by item, such as `load "punch" acts in segment 2`.
+    pub fn scheduled(&self) -> impl Iterator<Item = String> {
+        self.scheduled_where(|_| true)
+    }
+
+    /// The same of what acts, or is carried, at such times.
+    pub fn scheduled_where(&self, such: impl Fn(&When) -> bool) -> impl Iterator<Item = String> {
+        let loads = self.schedule.loads().iter();
+        let loads = loads.map(|load| ("load", &load.name, &load.words, &load.when));
+        let payloads = self.schedule.payloads().iter();
+        let payloads = payloads.map(|p| ("payload", &p.name, &p.words, &p.when));
+        let all = loads.chain(payloads).filter(move |(.., when)| such(when));
+        all.map(|(what, name, words, _)| format!("{what} \"{name}\" {words}"))
     }
 
     /// Torque (N·m) of the drive link against the weight of payloads from tables, −m·g·r′; zero without such.
@@ -115,8 +148,45 @@ impl MachineFile {
     /// # Errors
     /// None for a machine file that was read without error.
     pub fn with_drive_train(&self) -> Result<Machine<AnyMechanism>, Error> {
+        Ok(self.machine.clone().with_flywheel(self.train_inertia())?)
+    }
+
+    /// Inertia of the drive train reduced to the drive link (kg·m², or kg).
+    fn train_inertia(&self) -> f64 {
         let ratio = self.drive_train.ratio();
-        let train = self.drive_train.inertia_at_input() * ratio * ratio;
-        Ok(self.machine.clone().with_flywheel(train)?)
+        self.drive_train.inertia_at_input() * ratio * ratio
+    }
+}
+
+/// The machines of a file with its drive train: the one of all times, or those of its schedule.
+#[derive(Clone, Debug)]
+pub struct Machines<'f> {
+    schedule: &'f Schedule,
+    machines: Vec<Machine<AnyMechanism>>,
+}
+
+impl<'f> Machines<'f> {
+    /// Those of a file.
+    ///
+    /// # Errors
+    /// None for a machine file that was read without error.
+    pub fn of(file: &'f MachineFile) -> Result<Self, Error> {
+        let with_train = |machine: &Machine<AnyMechanism>| {
+            Ok(machine.clone().with_flywheel(file.train_inertia())?)
+        };
+        let mut machines = vec![file.with_drive_train()?];
+        if !file.schedule.is_empty() {
+            let scheduled = file.schedule.machines().map(with_train);
+            machines = scheduled.collect::<Result<_, Error>>()?;
+        }
+        Ok(Self {
+            schedule: &file.schedule,
+            machines,
+        })
+    }
+
+    /// The machine at an instant.
+    pub fn at(&self, now: &Now) -> &Machine<AnyMechanism> {
+        &self.machines[self.schedule.number(now)]
     }
 }

@@ -225,6 +225,13 @@ impl AnyMechanism {
         Ok(self)
     }
 
+    /// The same parts, moved by another mechanism with the same links and joints.
+    #[must_use]
+    pub(crate) fn with_inner(mut self, inner: impl Inner + 'static) -> Self {
+        self.inner = Arc::new(inner);
+        self
+    }
+
     /// Number of links that are parts of the mechanism; those after them stand in for curves.
     pub fn own_links(&self) -> usize {
         self.links.len() - self.stand_ins

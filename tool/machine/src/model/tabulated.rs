@@ -21,20 +21,16 @@
 //!
 //! ψ itself is only kept where a spring needs it; elsewhere nothing depends on it and it stays zero.
 
-use std::sync::Arc;
-
+mod mechanism;
 mod table;
 
+pub(crate) use mechanism::{DriveLinkAlone, Tabulated};
 pub use table::{Over, Table};
 
-use jred::machine::{
-    Action, Body, Element, Frame, Frames, Joint, Jointed, Joints, Load, MAX_LINKS, Marker,
-    Mechanism, PoseError, Window, Wrench,
-};
-use jred::number::{RangeError, Transfer};
-use jred::{Domain, Error, Link};
+use jred::Error;
+use jred::machine::{Action, Body, Element, Frame, Load, Marker, Window, Wrench};
+use jred::number::Transfer;
 
-use crate::model::mechanism::Inner;
 use crate::number::spline::Spline;
 
 /// Kind of curve that a stand-in represents.
@@ -311,6 +307,14 @@ impl Course {
         }
     }
 
+    /// Whether it is a mass or an inertia, or the weight of one.
+    pub(crate) const fn is_payload(&self) -> bool {
+        matches!(
+            self,
+            Self::Inertia(_) | Self::Payload { .. } | Self::Weight { .. }
+        )
+    }
+
     /// Inertia of the rotor (kg·m²).
     const fn inertia(&self) -> f64 {
         match self {
@@ -345,152 +349,5 @@ impl Course {
         };
         let ends = [Marker::ground([0.0, 0.0]), Marker::on(link, [0.0, 0.0])];
         Ok(Some(Element::torsion_spring(ends, 1.0, 0.0)?))
-    }
-}
-
-/// A mechanism with stand-ins after its own links.
-#[derive(Clone, Debug)]
-pub(crate) struct Tabulated {
-    inner: Arc<dyn Inner>,
-    links: Vec<Link>,
-    courses: Vec<Course>,
-    edges: Vec<f64>,
-}
-
-impl Tabulated {
-    pub(crate) fn new(inner: Arc<dyn Inner>, stand_ins: &[StandIn]) -> Result<Self, Error> {
-        let mut links = inner.links().to_vec();
-        for stand_in in stand_ins {
-            links.push(Link::rotor(stand_in.course.inertia())?);
-        }
-        if links.len() > MAX_LINKS {
-            return Err(RangeError::TooMany {
-                what: "links, of which each curve takes one",
-                capacity: MAX_LINKS,
-            }
-            .into());
-        }
-        let courses = stand_ins.iter().map(|s| s.course.clone()).collect();
-        let own = (0..).map_while(|k| inner.edge(k));
-        let edges = own.chain(stand_ins.iter().flat_map(|s| s.edges.iter().copied()));
-        Ok(Self {
-            edges: edges.collect(),
-            inner,
-            links,
-            courses,
-        })
-    }
-
-    /// Number of the mechanism's own links.
-    fn own(&self) -> usize {
-        self.links.len() - self.courses.len()
-    }
-}
-
-impl Mechanism for Tabulated {
-    fn links(&self) -> &[Link] {
-        &self.links
-    }
-
-    fn domain(&self) -> Domain {
-        self.inner.domain()
-    }
-
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
-        let mut frames = self.inner.frames(phi)?;
-        let own = frames.len();
-        for course in &self.courses {
-            let psi = course.psi(phi, &frames[..own]);
-            // Cannot fail: `new` counted the links.
-            let _ = frames.push(Frame::turning([0.0, 0.0], psi));
-        }
-        Ok(frames)
-    }
-
-    fn edge(&self, k: usize) -> Option<f64> {
-        self.edges.get(k).copied()
-    }
-}
-
-impl Jointed for Tabulated {
-    /// Those of the mechanism; then for each stand-in its bearing and its gearing.
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
-        let own = self.own();
-        let inner: Frames = frames.iter().take(own).copied().collect();
-        let mut joints = self.inner.joints(phi, &inner)?;
-        let drive = match joints.get(self.inner.drive()) {
-            Some(joint) => joint.unit_drive(frames)[1],
-            None => Wrench::moment(Body::Ground, 0.0),
-        };
-        let rotors = frames.iter().enumerate().skip(own);
-        for ((k, rotor), course) in rotors.zip(&self.courses) {
-            let bearing = [Marker::ground([0.0, 0.0]), Marker::on(k, [0.0, 0.0])];
-            let gearing = [
-                course.gearing(phi, &inner, rotor, drive),
-                Wrench::moment(Body::Link(k), 1.0),
-            ];
-            for joint in [Joint::Revolute(bearing), Joint::Transmission(gearing)] {
-                // Cannot fail: two joints a link.
-                let _ = joints.push(joint);
-            }
-        }
-        Ok(joints)
-    }
-
-    fn drive(&self) -> usize {
-        self.inner.drive()
-    }
-}
-
-/// A single drive link, on its bearing or guide.
-#[derive(Clone, Debug)]
-pub(crate) struct DriveLinkAlone {
-    domain: Domain,
-    slides: bool,
-    links: [Link; 1],
-}
-
-impl DriveLinkAlone {
-    pub(crate) fn new(domain: Domain, slides: bool, link: Link) -> Self {
-        Self {
-            domain,
-            slides,
-            links: [link],
-        }
-    }
-}
-
-impl Mechanism for DriveLinkAlone {
-    fn links(&self) -> &[Link] {
-        &self.links
-    }
-
-    fn domain(&self) -> Domain {
-        self.domain
-    }
-
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
-        if !phi.is_finite() {
-            return Err(RangeError::NotFinite("position of the drive link").into());
-        }
-        let at = Transfer::variable(phi);
-        let frame = if self.slides {
-            Frame::translating([at, Transfer::constant(0.0)])
-        } else {
-            Frame::turning([0.0, 0.0], at)
-        };
-        Ok(Frames::from_iter([frame]))
-    }
-}
-
-impl Jointed for DriveLinkAlone {
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
-        let ends = [Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])];
-        let joint = if self.slides {
-            Joint::Prismatic(ends)
-        } else {
-            Joint::Revolute(ends)
-        };
-        Ok(Joints::from_iter([joint]))
     }
 }

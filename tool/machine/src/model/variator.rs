@@ -13,6 +13,7 @@ use jred::machine::motion::Law;
 use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
+use crate::number::spline::{Fault, Spline, Way};
 
 /// A variator as the machine file gives it.
 #[derive(Clone, Debug)]
@@ -41,11 +42,19 @@ pub enum Slip {
     Creep(CreepContact),
 }
 
-/// A ratio i = ω₂/ω₁ that is shifted in time.
+/// A ratio i = ω₂/ω₁ that is shifted in time: by shifts one after another, or by a curve through points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ratio {
     start: f64,
     shifts: Vec<Shift>,
+    curve: Option<Curve>,
+}
+
+/// A curve through points, level at both ends and constant beyond them.
+#[derive(Clone, Debug, PartialEq)]
+struct Curve {
+    times: Vec<f64>,
+    spline: Spline,
 }
 
 /// One shift.
@@ -62,7 +71,26 @@ impl Ratio {
         Self {
             start,
             shifts: Vec::new(),
+            curve: None,
         }
+    }
+
+    /// A ratio that follows a twice continuously differentiable curve through points in time (s), which is level at both ends and stays the
+    /// same beyond them; and its smallest value with its time.
+    ///
+    /// # Errors
+    /// Too few points, or times that do not rise.
+    pub fn through(times: &[f64], ratios: &[f64]) -> Result<(Self, [f64; 2]), Fault> {
+        let spline = Spline::bounded(times, ratios, Way::Level)?;
+        let (least, at) = spline.least();
+        let ratio = Self {
+            curve: Some(Curve {
+                times: times.to_vec(),
+                spline,
+            }),
+            ..Self::new(ratios.first().copied().unwrap_or(1.0))
+        };
+        Ok((ratio, [at, least]))
     }
 
     /// The ratio after the last shift.
@@ -71,9 +99,12 @@ impl Ratio {
         self.shifts.last().map_or(self.start, value)
     }
 
-    /// When the last shift ends (s).
+    /// When the last shift, or the curve, ends (s).
     pub fn end(&self) -> f64 {
-        self.shifts.last().map_or(f64::NEG_INFINITY, |s| s.to)
+        let shifted = self.shifts.last().map(|shift| shift.to);
+        let curve = self.curve.as_ref();
+        let drawn = curve.and_then(|curve| curve.times.last().copied());
+        shifted.or(drawn).unwrap_or(f64::NEG_INFINITY)
     }
 
     /// With one more shift to the ratio `to`, from the time `at` (s) over `duration` (s), after the last one.
@@ -98,19 +129,25 @@ impl Ratio {
         Ok(())
     }
 
-    /// The times at which a shift begins or ends (s), where the third derivative of the motion jumps.
+    /// The times at which a shift begins or ends, and those of the points of a curve (s), where a derivative of the motion jumps.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
-        self.shifts.iter().flat_map(|s| [s.from, s.to])
+        let points = self.curve.iter().flat_map(|curve| &curve.times);
+        let shifts = self.shifts.iter().flat_map(|s| [s.from, s.to]);
+        shifts.chain(points.copied())
     }
 
     /// Whether it stays the same.
     pub const fn is_constant(&self) -> bool {
-        self.shifts.is_empty()
+        self.shifts.is_empty() && self.curve.is_none()
     }
 }
 
 impl Course for Ratio {
     fn at(&self, at: OperatingPoint) -> Dual<3> {
+        if let Some(curve) = &self.curve {
+            let [ratio, slope, ..] = curve.spline.at(at.t.value);
+            return at.t.through(ratio, slope);
+        }
         let begun = self.shifts.partition_point(|s| s.from <= at.t.value);
         let current = begun.checked_sub(1).and_then(|k| self.shifts.get(k));
         current.map_or(Dual::constant(self.start), |s| s.course.at(at))

@@ -2,6 +2,7 @@
 
 use jred::Domain;
 
+use crate::analysis::reduce::At;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::units::kind::{
@@ -95,6 +96,65 @@ pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, Str
     )
 }
 
+/// A position of the drive link, which must lie within its stroke.
+fn drive_position(part: &str, domain: Domain, coordinate: Coordinate) -> Result<f64, String> {
+    let kind = position_kind(coordinate);
+    let position = any(part.trim(), kind).map_err(|why| format!("{:?}: {why}", part.trim()))?;
+    match domain {
+        Domain::Stroke { from, to } if !(from..=to).contains(&position) => Err(format!(
+            "{:?}: it must lie within the stroke, {} to {} {}",
+            part.trim(),
+            rounded(coordinate.shown(from)),
+            rounded(coordinate.shown(to)),
+            coordinate.unit()
+        )),
+        _ => Ok(position),
+    }
+}
+
+const fn position_kind(coordinate: Coordinate) -> &'static Kind {
+    match coordinate {
+        Coordinate::Angle => &ANGLE,
+        Coordinate::Length => &LENGTH,
+    }
+}
+
+/// Positions of the drive link, each with its speed and its acceleration after it, if they are given, separated by commas, such as
+/// "30 deg, 60 deg" or "30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm".
+///
+/// # Errors
+/// A message for the command line.
+pub fn drive_states(text: &str, domain: Domain, coordinate: Coordinate) -> Result<Vec<At>, String> {
+    let [speed, acceleration] = match coordinate {
+        Coordinate::Angle => [&ANGULAR_SPEED, &ANGULAR_ACCELERATION],
+        Coordinate::Length => [&VELOCITY, &ACCELERATION],
+    };
+    let mut rows: Vec<At> = Vec::new();
+    // How much is known of the last row: its position, its speed, its acceleration.
+    let mut known = 0;
+    for part in text.split(',') {
+        let read = |kind: &'static Kind| quantity::read(part.trim(), kind).ok();
+        let last = rows.last_mut();
+        if let (Some(value), 1, Some(row)) = (read(speed), known, last) {
+            row.state = Some([value.si, 0.0]);
+            known = 2;
+        } else if let (Some(value), 2, Some(row)) = (read(acceleration), known, rows.last_mut()) {
+            row.state = row.state.map(|[omega, _]| [omega, value.si]);
+            known = 3;
+        } else if read(speed).is_some() || read(acceleration).is_some() {
+            return Err(format!(
+                "{:?} does not follow a position: write position, speed and acceleration in this order",
+                part.trim()
+            ));
+        } else {
+            let phi = drive_position(part, domain, coordinate)?;
+            rows.push(At { phi, state: None });
+            known = 1;
+        }
+    }
+    Ok(rows)
+}
+
 /// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides.
 ///
 /// # Errors
@@ -104,23 +164,7 @@ pub fn drive_positions(
     domain: Domain,
     coordinate: Coordinate,
 ) -> Result<Vec<f64>, String> {
-    let kind = match coordinate {
-        Coordinate::Angle => &ANGLE,
-        Coordinate::Length => &LENGTH,
-    };
-    let position = |part: &str| {
-        let position = any(part.trim(), kind).map_err(|why| format!("{:?}: {why}", part.trim()))?;
-        match domain {
-            Domain::Stroke { from, to } if !(from..=to).contains(&position) => Err(format!(
-                "{:?}: it must lie within the stroke, {} to {} {}",
-                part.trim(),
-                rounded(coordinate.shown(from)),
-                rounded(coordinate.shown(to)),
-                coordinate.unit()
-            )),
-            _ => Ok(position),
-        }
-    };
+    let position = |part: &str| drive_position(part, domain, coordinate);
     let parts: Vec<&str> = text.split(',').collect();
     let positions: Vec<f64> = parts
         .iter()

@@ -9,6 +9,7 @@ use crate::analysis::contact::OneWay;
 use crate::analysis::duty::{STEPS, smooth_stretches};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 use crate::number::numerics;
 
 use crate::text::problem::Result;
@@ -39,17 +40,20 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
             .help(error.cure().to_string())
     };
     // A dwell asks for the same state at every sample.
-    let last: Cell<Option<([f64; 3], f64)>> = Cell::new(None);
+    let last: Cell<Option<(usize, [f64; 3], f64)>> = Cell::new(None);
     let force = |t: f64| {
         let state = motion.at(t);
+        let now = Now::of(t, state.omega);
+        let number = file.schedule.number(&now);
         let state = [state.phi, state.omega, state.alpha];
-        if let Some((known, force)) = last.get()
+        if let Some((same, known, force)) = last.get()
+            && same == number
             && known.map(f64::to_bits) == state.map(f64::to_bits)
         {
             return Ok(force);
         }
-        let force = joint.force(&file.machine, state)?;
-        last.set(Some((state, force)));
+        let force = joint.force(file.machine_at(&now), state)?;
+        last.set(Some((number, state, force)));
         Ok(force)
     };
     // The pull of a rope goes with the motion alone, unless a load has edges or a table.
@@ -63,7 +67,11 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
     }
     let state = motion.at(t);
     let parted = joint
-        .parted(&file.machine, [state.phi, state.omega], least)
+        .parted(
+            file.machine_at(&Now::of(t, state.omega)),
+            [state.phi, state.omega],
+            least,
+        )
         .map_err(report)?;
     let message = format!(
         "{} in the prescribed motion: at {}, {}",

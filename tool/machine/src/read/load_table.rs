@@ -1,11 +1,14 @@
 //! `[[load]] table = "loads.csv"`: payload, thrust, forces and moments over a position.
 
+use std::ops::Range;
+
 use jred::Domain;
 use jred::machine::{MAX_LOADS, Window};
 
 use super::curve_file::Rows;
 use super::drive_link::DriveLink;
 use super::effect::Effect;
+use super::loads::SCHEDULE;
 use super::{tool, window};
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
@@ -25,19 +28,21 @@ pub(super) fn is_table(section: &Section) -> bool {
     section.peek("table").is_some()
 }
 
-/// The mechanism with the curves of all tables.
+/// The mechanism with the curves of all tables, and which of its own loads belong to each.
 pub(super) fn read(
     root: &Section,
     mut mechanism: AnyMechanism,
     drive: DriveLink,
     gravity: [f64; 2],
     files: &dyn Files,
-) -> Result<AnyMechanism> {
+) -> Result<(AnyMechanism, Vec<Range<usize>>)> {
+    let mut loads = Vec::new();
     let Some(item) = root.get("load") else {
-        return Ok(mechanism);
+        return Ok((mechanism, loads));
     };
     for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
         let stand_ins = table(section, &mechanism, drive, gravity, files)?;
+        let first = mechanism.own_loads().len();
         mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
             section
                 .problem(format!("{}: {error}", section.title()), "this table")
@@ -48,8 +53,15 @@ pub(super) fn read(
                 .problem(format!("more than {MAX_LOADS} loads"), "one too many")
                 .help("combine loads on the same link into one table"));
         }
+        loads.push(first..mechanism.own_loads().len());
+        let key = SCHEDULE.into_iter().find_map(|key| section.peek(key));
+        if let (Some(key), true) = (key, stand_ins.iter().any(|s| s.course.is_payload())) {
+            return Err(key
+                .problem("is given for a table with a payload", "not of a payload")
+                .help("write a [[payload]] for what is carried over a part of the motion"));
+        }
     }
-    Ok(mechanism)
+    Ok((mechanism, loads))
 }
 
 /// On what a table acts, and how.
@@ -111,7 +123,9 @@ fn table(
         way: way.transpose()?,
         window: window::read(section, drive)?,
     };
+    section.expects(&SCHEDULE);
     section.finish_with(|key| match key {
+        "at_rest" => Some("write at_rest with a plain force or moment"),
         "force" | "moment" | "opposing_force" | "opposing_moment" | "viscous_force"
         | "viscous_moment" => {
             Some("a table already says what acts; write this in a separate [[load]]")

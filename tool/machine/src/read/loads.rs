@@ -1,11 +1,14 @@
 //! `[[load]]`: what acts on the links.
 
+use std::ops::Range;
+
 use jred::machine::{Action, Load, MAX_LOADS};
 
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::effect::Effect;
+use super::schedule::Entry;
 use super::{load_table, window};
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
@@ -22,17 +25,32 @@ const ACTIONS: [&str; 6] = [
     "viscous_moment",
 ];
 
-/// All loads of the file.
+/// Keys that say when a load acts, or a payload is carried.
+pub(super) const SCHEDULE: [&str; 3] = ["segments", "during", "direction"];
+
+/// All loads of the file, and which of them belong to each `[[load]]`: those of a table are among the mechanism's own, at these places.
 pub(super) fn read(
     root: &Section,
     mechanism: &AnyMechanism,
     drive: DriveLink,
-) -> Result<Vec<NamedLoad>> {
+    tables: &[Range<usize>],
+) -> Result<(Vec<NamedLoad>, Vec<Entry>)> {
     let mut loads = mechanism.own_loads().to_vec();
     let Some(item) = root.get("load") else {
-        return Ok(loads);
+        return Ok((loads, Vec::new()));
     };
     let mut sections = item.sections("[[load]]")?;
+    let (mut of_tables, mut next) = (tables.iter(), loads.len());
+    let mut entry = |section: &Section| {
+        let loads = if load_table::is_table(section) {
+            of_tables.next().cloned().unwrap_or_default()
+        } else {
+            next += 1;
+            next - 1..next
+        };
+        Entry { loads }
+    };
+    let entries = sections.iter().map(&mut entry).collect();
     sections.retain(|section| !load_table::is_table(section));
     if let Some(surplus) = sections.get(MAX_LOADS.saturating_sub(loads.len())) {
         return Err(surplus
@@ -42,7 +60,53 @@ pub(super) fn read(
     for section in &sections {
         loads.push(load(section, mechanism, drive)?);
     }
-    Ok(loads)
+    Ok((loads, entries))
+}
+
+/// `at_rest`: the load where the drive link stands still, and whether that is static friction.
+pub(super) fn at_rest(section: &Section, load: &Load, item: &Item) -> Result<(Load, bool)> {
+    let (key, moving_item) = action_key(section)?;
+    let found = match key {
+        "viscous_force" | "viscous_moment" => {
+            return Err(item
+                .problem(&format!("is not used with `{key}`"), "remove this")
+                .help("a viscous load is zero at rest"));
+        }
+        _ => action(key, item)?,
+    };
+    let friction = match (found, action(key, &moving_item)?) {
+        (Action::OpposingForce(still), Action::OpposingForce(moving))
+        | (Action::OpposingMoment(still), Action::OpposingMoment(moving)) => {
+            if still < moving {
+                let kind = if key == "opposing_force" {
+                    &FORCE
+                } else {
+                    &TORQUE
+                };
+                let [still, moving] = [item.quantity(kind)?, moving_item.quantity(kind)?];
+                let what = format!(
+                    "is {}, less than the friction in motion, {}",
+                    still.shown(),
+                    moving.shown()
+                );
+                return Err(item
+                    .problem(&what, "static friction")
+                    .help("static friction is at least as large as friction in motion"));
+            }
+            true
+        }
+        _ => false,
+    };
+    let built = Load::new(load.link(), found)
+        .and_then(|rest| rest.at(section.point("at", &LENGTH).unwrap_or_default()));
+    let rest = built.map_err(|error| {
+        item.problem(&error.to_string(), "here")
+            .help(error.cure().to_string())
+    })?;
+    Ok((
+        load.window().map_or(rest, |window| rest.within(window)),
+        friction,
+    ))
 }
 
 fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result<NamedLoad> {
@@ -59,6 +123,8 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     let at = section.get("at");
     let point = section.point("at", &LENGTH)?;
     let window = window::read(section, drive)?;
+    section.expects(&SCHEDULE);
+    section.expects(&["at_rest"]);
     section.finish()?;
 
     let link_name = links.get(link).map_or("", String::as_str);

@@ -19,6 +19,7 @@ mod mechanism;
 mod motion;
 mod profile;
 mod rules;
+mod schedule;
 mod simulation;
 mod stage;
 mod stiffness;
@@ -30,8 +31,8 @@ mod variator;
 mod window;
 
 pub use argument::{
-    Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, inertia_argument,
-    largest_acceleration, largest_speed, mass_argument, torque_argument,
+    Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, drive_states,
+    inertia_argument, largest_acceleration, largest_speed, mass_argument, torque_argument,
 };
 pub use mechanism::mechanism_types;
 
@@ -214,8 +215,8 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
             .problem("is for a rotating drive link, but the drive link of this mechanism slides", "nothing turns with it")
             .help("add a mass that slides with the drive link to its body; rotating parts belong to a stage of [[drive_train]]"));
     }
-    let mechanism = load_table::read(&root, mechanism, drive_link, gravity, files)?;
-    let loads = loads::read(&root, &mechanism, drive_link)?;
+    let (mechanism, tables) = load_table::read(&root, mechanism, drive_link, gravity, files)?;
+    let (loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
@@ -230,6 +231,8 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .help(error.cure().to_string())
         })?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
+    let schedule = schedule::read(&root, &entries, &loads, &machine, motion.as_ref())?;
+    let machine = schedule.at_no_time().cloned().unwrap_or(machine);
     let around = simulation::Around {
         drive: drive_link,
         drive_train: &drive_train,
@@ -251,6 +254,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
         name: name.to_owned(),
         title,
         machine,
+        schedule,
         flywheel,
         loads,
         elements,

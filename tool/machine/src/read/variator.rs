@@ -6,6 +6,7 @@ use jred::machine::motion::Law;
 use crate::model::variator::{Ratio, Slip, Variator};
 
 use super::drive_link::DriveLink;
+use crate::number::rounding::figure;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -48,7 +49,11 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
         "power_flow",
         "shift",
     ]);
-    let mut ratio = Ratio::new(ratio(&section)?);
+    let list = section.peek("ratio").filter(Item::is_list);
+    let mut ratio = match &list {
+        Some(list) => points(list)?,
+        None => Ratio::new(ratio(&section)?),
+    };
     let input = section.quantity("input_inertia", &INERTIA)?.positive()?;
     let output = section
         .quantity("output_inertia", &INERTIA)?
@@ -56,6 +61,14 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
     let slip = slip(&section)?;
     if let Some(item) = section.get("shift") {
         let shifts = item.sections("[[variator.shift]]")?;
+        if let Some(list) = &list {
+            return Err(item
+                .problem("is given together with a `ratio` over time", "shifts")
+                .at(list.key_span(), "a curve")
+                .help(
+                    "give one ratio and its shifts, or the whole course of the ratio as a list",
+                ));
+        }
         if shifts.len() > MAX_SHIFTS {
             let what = format!(
                 "has {} entries, but at most {MAX_SHIFTS} are possible",
@@ -82,6 +95,49 @@ fn ratio(section: &Section) -> Result<f64> {
             "ratio = 0.5, the output speed over the input speed",
         )?
         .number(RATIOS, "0.5")
+}
+
+/// `ratio = [["0 s", 0.5], …]`: a curve through points in time.
+fn points(list: &Item) -> Result<Ratio> {
+    const EXAMPLE: &str = "[[\"0 s\", 0.5], [\"0.2 s\", 0.6], …]";
+    let (mut times, mut ratios): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    for point in list.list("point", EXAMPLE)? {
+        let pair = point.list("value", "[\"0.2 s\", 0.6]")?;
+        let [time, ratio] = pair.as_slice() else {
+            return Err(point
+                .problem("must be a time and a ratio", "here")
+                .help(format!("write ratio = {EXAMPLE}")));
+        };
+        let time = time.quantity(&TIME)?;
+        if times.last().is_some_and(|last| time.si <= *last) || time.si < 0.0 {
+            let what = format!("is {}, not after the one before", time.shown());
+            return Err(time
+                .problem(&what, "does not increase")
+                .help("give the points in the order of their times, from 0 s on"));
+        }
+        times.push(time.si);
+        ratios.push(ratio.number(RATIOS, "0.6")?);
+    }
+    if times.len() > MAX_SHIFTS {
+        let what = format!(
+            "has {} points, but at most {MAX_SHIFTS} are possible",
+            times.len()
+        );
+        return Err(list.problem(&what, "points"));
+    }
+    let (ratio, [at, least]) = Ratio::through(&times, &ratios).map_err(|fault| {
+        list.problem(&format!("is no curve: {fault}"), "these points")
+            .help("give at least 5 points; a ratio that goes from one value to another in one go is a [[variator.shift]]")
+    })?;
+    if least < RATIOS[0] {
+        return Err(list
+            .problem(
+                &format!("swings to {} at t = {} s", figure(least), figure(at)),
+                "these points",
+            )
+            .help("the curve through the points must stay above zero: add points where it bends"));
+    }
+    Ok(ratio)
 }
 
 fn slip(section: &Section) -> Result<Slip> {

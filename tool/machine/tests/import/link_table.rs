@@ -228,7 +228,7 @@ fn a_part_of_a_turn_comes_again() {
         let [_, way] = slider(degrees.to_radians());
         assert!((process(degrees) / way + 600.0).abs() < 1e-8, "{degrees}");
     }
-    assert_eq!([40.0, 200.0, 349.0].map(process), [0.0; 3]);
+    assert!([40.0, 200.0, 349.0].iter().all(|d| process(*d) == 0.0));
 }
 
 /// A table on a mechanism with edges of its own keeps them.

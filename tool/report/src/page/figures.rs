@@ -29,6 +29,18 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
     }
 }
 
+/// What the curves over the position do not contain, as a sentence after a caption; empty if that is nothing.
+pub(super) fn not_contained(file: &MachineFile) -> String {
+    let missing: Vec<String> = file.scheduled().collect();
+    if missing.is_empty() {
+        return String::new();
+    }
+    format!(
+        " Not contained, because it goes by the motion: {}.",
+        missing.join("; ")
+    )
+}
+
 /// J_red and J_red′ over the range.
 pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     let machine = file.with_drive_train()?;

@@ -171,8 +171,9 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
             figure(
                 figures::reduced_torque(source.file, speed)?.svg,
                 &format!(
-                    "Parts of the reduced {}: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.",
-                    source.coordinate.vocabulary().torque
+                    "Parts of the reduced {}: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.{}",
+                    source.coordinate.vocabulary().torque,
+                    figures::not_contained(source.file)
                 ),
             ),
         ],

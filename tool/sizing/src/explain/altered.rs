@@ -18,6 +18,7 @@ use jred_machine::analysis::duty::{Duty, Instant, Smooth};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
+use jred_machine::model::schedule::Now;
 
 /// Factors on parts of the machine and its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +50,7 @@ pub struct Altered<'a> {
     weights: Vec<f64>,
     /// The instants of an [outline](Self::outline), if others can be left out.
     outline: Option<Vec<usize>>,
-    /// [U′ of the weight, U′ of the rest] at positions over the range (N·m).
+    /// [U′ of the weight, U′ of the rest] at positions over the range, and at instants at which something is carried (N·m).
     range: Vec<[f64; 2]>,
 }
 
@@ -63,24 +64,34 @@ impl<'a> Altered<'a> {
     /// Those of the machine.
     pub fn new(file: &'a MachineFile, duty: &'a Duty) -> Result<Self, Error> {
         let machine = &file.machine;
-        let bare: Machine<AnyMechanism> =
-            Machine::new(machine.mechanism().clone()).with_gravity(machine.gravity())?;
-        let weight = |phi: f64| {
+        let bare = |machine: &Machine<AnyMechanism>| -> Result<Machine<AnyMechanism>, Error> {
+            Ok(Machine::new(machine.mechanism().clone()).with_gravity(machine.gravity())?)
+        };
+        let weight = |bare: &Machine<AnyMechanism>, phi: f64| -> Result<f64, Error> {
             let links = bare.bare_reduction(phi)?.potential_slope;
             Ok(links + file.payload_weight(phi)?)
         };
-        let range = positions(machine.mechanism().domain(), POSITIONS).map(|phi| {
-            let weight = weight(phi)?;
-            let all = file.bare_reduction(phi)?.potential_slope;
-            Ok([weight, all - weight])
-        });
+        let own = bare(machine)?;
+        let laden = (file.schedule.machines().map(bare)).collect::<Result<Vec<_>, Error>>()?;
+        let weights = (duty.instants.iter())
+            .map(|i| {
+                let number = file.schedule.number(&Now::of(i.t, i.omega));
+                weight(laden.get(number).unwrap_or(&own), i.phi)
+            })
+            .collect::<Result<Vec<f64>, Error>>()?;
+        let mut range = positions(machine.mechanism().domain(), POSITIONS)
+            .map(|phi| {
+                let weight = weight(&own, phi)?;
+                let all = file.bare_reduction(phi)?.potential_slope;
+                Ok([weight, all - weight])
+            })
+            .collect::<Result<Vec<[f64; 2]>, Error>>()?;
+        let carried = duty.instants.iter().zip(&weights);
+        let carried = carried.filter(|(i, _)| file.schedule.is_laden(i.t));
+        range.extend(carried.map(|(i, weight)| [*weight, i.terms.potential - weight]));
         Ok(Self {
-            range: range.collect::<Result<_, Error>>()?,
-            weights: duty
-                .instants
-                .iter()
-                .map(|i| weight(i.phi))
-                .collect::<Result<_, Error>>()?,
+            range,
+            weights,
             outline: outline(&duty.instants),
             file,
             duty,
@@ -150,7 +161,7 @@ impl<'a> Altered<'a> {
             torque_per_alpha: inertia,
             omega,
             alpha,
-            direction: omega,
+            direction: instant.direction,
         });
         Instant {
             t: instant.t * by.time,
@@ -158,6 +169,7 @@ impl<'a> Altered<'a> {
             phi: instant.phi,
             omega,
             alpha,
+            direction: instant.direction,
             inertia,
             terms,
             input_torque: input.torque,

@@ -7,6 +7,8 @@ use crate::catalogue::Drive;
 use crate::cycle::form::loads;
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
+use jred_machine::model::schedule::Now;
 use jred_machine::units::Vocabulary;
 
 /// Torque at the motor of one part through one effect, at every instant.
@@ -116,9 +118,14 @@ impl Contributions {
     /// Those of the machine.
     pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
         let mut contributions = Self::default();
+        let own = file.motion.as_ref().map_or(duty.duration, Motion::duration);
+        let share = own / duty.duration;
         for instant in &duty.instants {
             (contributions.next, contributions.next_inertia) = (0, 0);
-            machine(&mut contributions, file, drive, instant)?;
+            // The cycle may take longer than that of the file.
+            let t = instant.t * share;
+            let now = Now::of(t, instant.omega);
+            machine(&mut contributions, file, drive, (instant, &now))?;
             drive_parts(&mut contributions, file, drive, instant);
         }
         Ok(contributions)
@@ -151,13 +158,18 @@ fn machine(
     contributions: &mut Contributions,
     file: &MachineFile,
     drive: &Drive,
-    instant: &Instant,
+    (instant, now): (&Instant, &Now),
 ) -> Result<(), Error> {
-    let machine = &file.machine;
+    let machine = file.machine_at(now);
     let mechanism = machine.mechanism();
     let total = file.drive_train.ratio() * drive.ratio();
     let (omega, alpha) = (instant.omega, instant.alpha);
-    let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
+    // That of the move that begins where static friction is overcome.
+    let sign = if instant.direction == 0.0 {
+        0.0
+    } else {
+        instant.direction.signum()
+    };
     let frames = mechanism.frames(instant.phi)?;
     let names = mechanism.link_names();
     let links = mechanism.links().iter().zip(&frames).zip(names);

@@ -121,6 +121,7 @@ fn instant(t: f64, weight: f64, [alpha, torque, speed]: [f64; 3]) -> Instant {
         phi: 0.0,
         omega: speed,
         alpha,
+        direction: speed,
         inertia: 1.0,
         terms: TorqueTerms::default(),
         input_torque: torque,

@@ -1,9 +1,11 @@
-//! The smooth stretches of a motion: cut where its law bends, and where the drive link passes an edge of a load or a cam.
+//! The smooth stretches of a motion: cut where its law bends, where the drive link passes an edge of a load or a cam, and where a load
+//! begins or ends in time or with the direction of travel, or a payload is picked up or set down.
 
 use jred::{Domain, Reducible as _};
 
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 
 /// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
 fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
@@ -56,7 +58,7 @@ fn crossings(
 }
 
 /// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
-/// its own instants.
+/// its own instants, and where the machine changes by its schedule.
 pub(crate) fn smooth_stretches(
     file: &MachineFile,
     motion: &Motion,
@@ -66,12 +68,18 @@ pub(crate) fn smooth_stretches(
     let least = 1e-13 * motion.duration();
     let mut stretches = Vec::new();
     for (from, to) in motion.stretches() {
-        if edges.is_empty() {
+        if edges.is_empty() && file.schedule.is_empty() {
             stretches.push((from, to));
             continue;
         }
         let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
-        let mut cuts = Vec::new();
+        let mut cuts = file.schedule.times();
+        let machine_at = |t: f64| {
+            // At its end a stretch still belongs to itself.
+            let inside = t.clamp(from, to - least);
+            file.schedule
+                .number(&Now::of(inside, motion.at(inside).omega)) as i64
+        };
         let place = |k: usize| {
             let t = from + (to - from) * k as f64 / n as f64;
             (t, motion.at(t).phi)
@@ -84,6 +92,8 @@ pub(crate) fn smooth_stretches(
                 let at = |t: f64| side(file, motion.at(t).phi, edge);
                 crossings(&at, step, least, &mut cuts);
             }
+            let step = [start.0, end.0].map(|t| (t, machine_at(t)));
+            crossings(&machine_at, step, least, &mut cuts);
             start = end;
         }
         cuts.sort_by(f64::total_cmp);

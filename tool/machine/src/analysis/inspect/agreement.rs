@@ -6,9 +6,10 @@ use serde::Serialize;
 
 use crate::analysis::duty;
 use crate::model::coordinate::whole_range;
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 use crate::number::numerics;
 
 /// Positions or instants that are compared.
@@ -70,23 +71,22 @@ pub(super) fn inertia(machine: &Machine<AnyMechanism>) -> Result<Inertia, Error>
     })
 }
 
-/// Of a machine file, and its machine with the drive train.
-pub(super) fn agreement(
-    file: &MachineFile,
-    machine: &Machine<AnyMechanism>,
-) -> Result<Agreement, Error> {
-    let states: Vec<[f64; 3]> = match &file.motion {
+/// Of a machine file, and its machines with the drive train.
+pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agreement, Error> {
+    let states: Vec<(Now, [f64; 3])> = match &file.motion {
         Some(motion) => (0..=STEPS)
-            .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64))
-            .map(|s| [s.phi, s.omega, s.alpha])
+            .map(|k| motion.duration() * k as f64 / STEPS as f64)
+            .map(|t| (t, motion.at(t)))
+            .map(|(t, s)| (Now::of(t, s.omega), [s.phi, s.omega, s.alpha]))
             .collect(),
-        None => whole_range(machine.domain(), STEPS)
+        None => whole_range(file.machine.domain(), STEPS)
             .zip([[1.0, 1.0], [-1.0, 0.5], [1.0, -1.0]].into_iter().cycle())
-            .map(|(phi, [omega, alpha])| [phi, omega, alpha])
+            .map(|(phi, [omega, alpha])| (Now::default(), [phi, omega, alpha]))
             .collect(),
     };
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
-    for [phi, omega, alpha] in states {
+    for (now, [phi, omega, alpha]) in states {
+        let machine = machines.at(&now);
         let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
         let found = machine.forces(phi, omega, alpha)?.drive;
         worst = worst.max((found - terms.total()).abs());
@@ -102,7 +102,7 @@ pub(super) fn agreement(
         worst
     };
     let energy = match &file.motion {
-        Some(motion) => Some(balance(file, machine, motion)?),
+        Some(motion) => Some(balance(file, machines, motion)?),
         None => None,
     };
     Ok(Agreement {
@@ -112,47 +112,70 @@ pub(super) fn agreement(
     })
 }
 
-/// The energy balance over the motion.
-fn balance(
-    file: &MachineFile,
-    machine: &Machine<AnyMechanism>,
-    motion: &Motion,
-) -> Result<f64, Error> {
-    let drive = |t: f64| -> Result<f64, Error> {
-        let state = motion.at(t);
-        let drive = machine.forces(state.phi, state.omega, state.alpha)?.drive;
-        Ok(drive * state.omega)
-    };
-    // What loads and losses leave of the drive's power.
-    let power = |t: f64| -> Result<f64, Error> {
-        let state = motion.at(t);
-        let point = machine.bare_reduction(state.phi)?;
-        let loads = point.reduced_torque(state.omega) + point.potential_slope;
-        Ok(drive(t)? + loads * state.omega)
-    };
+/// The energy balance over the motion, stretch by stretch: a payload brings its energy with it, and takes it away.
+fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
     let stretches = duty::smooth_stretches(file, motion, STEPS);
-    let panels = |from: f64, to: f64| {
+    let panels = |[from, to]: [f64; 2]| {
         let share = (f64::from(PANELS) * (to - from) / motion.duration()).ceil();
         share.max(2.0) as u32
     };
+    let parts: Vec<Part> = stretches
+        .into_iter()
+        .map(|(from, to)| Part::new(machines, motion, [from, to]))
+        .collect();
     let mut moved = 0.0;
-    for &(from, to) in &stretches {
-        let to_and_fro = |t: f64| Ok::<f64, Error>(drive(t)?.abs());
+    for part in &parts {
+        let to_and_fro = |t: f64| Ok::<f64, Error>(part.drive(t)?.abs());
         // Only a scale: the rule without halvings.
-        moved += numerics::integral(to_and_fro, [from, to], panels(from, to), f64::INFINITY)?;
+        moved += numerics::integral(to_and_fro, part.span, panels(part.span), f64::INFINITY)?;
     }
-    let mut work = 0.0;
-    for &(from, to) in &stretches {
+    let (mut work, mut gain) = (0.0, 0.0);
+    for part in &parts {
+        let [from, to] = part.span;
         let tolerance = SHARE * moved * (to - from) / motion.duration();
-        work += numerics::integral(power, [from, to], panels(from, to), tolerance)?;
+        work += numerics::integral(|t| part.power(t), part.span, panels(part.span), tolerance)?;
+        gain += part.energy(to)? - part.energy(from)?;
     }
-    let energy = |t: f64| -> Result<f64, Error> {
-        let state = motion.at(t);
-        let point = machine.bare_reduction(state.phi)?;
-        let kinetic = 0.5 * point.inertia * state.omega * state.omega;
-        Ok(kinetic + point.potential_energy)
-    };
-    let gain = energy(motion.duration())? - energy(0.0)?;
     let off = (work - gain).abs();
     Ok(if moved > 0.0 { off / moved } else { off })
+}
+
+/// A smooth stretch of the motion, over which the machine is one and the same.
+struct Part<'m> {
+    machine: &'m Machine<AnyMechanism>,
+    motion: &'m Motion,
+    span: [f64; 2],
+}
+
+impl<'m> Part<'m> {
+    fn new(machines: &'m Machines, motion: &'m Motion, span: [f64; 2]) -> Self {
+        let t = span[0].midpoint(span[1]);
+        Self {
+            machine: machines.at(&Now::of(t, motion.at(t).omega)),
+            motion,
+            span,
+        }
+    }
+
+    /// Power of the drive.
+    fn drive(&self, t: f64) -> Result<f64, Error> {
+        let state = self.motion.at(t);
+        let forces = self.machine.forces(state.phi, state.omega, state.alpha)?;
+        Ok(forces.drive * state.omega)
+    }
+
+    /// What loads and losses leave of it.
+    fn power(&self, t: f64) -> Result<f64, Error> {
+        let state = self.motion.at(t);
+        let point = self.machine.bare_reduction(state.phi)?;
+        let loads = point.reduced_torque(state.omega) + point.potential_slope;
+        Ok(self.drive(t)? + loads * state.omega)
+    }
+
+    fn energy(&self, t: f64) -> Result<f64, Error> {
+        let state = self.motion.at(t);
+        let point = self.machine.bare_reduction(state.phi)?;
+        let kinetic = 0.5 * point.inertia * state.omega * state.omega;
+        Ok(kinetic + point.potential_energy)
+    }
 }

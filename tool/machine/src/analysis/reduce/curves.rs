@@ -81,7 +81,8 @@ impl Set for Curves {
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
-        let point = source.machine.reduction(place.phi)?;
+        let machine = source.machines.at(&place.now);
+        let point = machine.reduction(place.phi)?;
         let [inertia, slope, bend] = point.inertias();
         let mut values = vec![
             inertia,
@@ -94,7 +95,7 @@ impl Set for Curves {
             point.coulomb,
         ];
         if self.links {
-            let each = source.machine.link_inertias(place.phi)?;
+            let each = machine.link_inertias(place.phi)?;
             values.extend(each.iter().map(|j| j[0]));
             values.push(source.machine.flywheel());
         }
@@ -106,7 +107,10 @@ impl Set for Curves {
         };
         let terms = point.torque(state.omega, state.alpha);
         // The drive train's inertia sits in its stages, between the losses.
-        let bare = source.file.machine.bare_reduction(place.phi)?;
+        let bare = source
+            .file
+            .machine_at(&place.now)
+            .bare_reduction(place.phi)?;
         let bare = bare.torque(state.omega, state.alpha).total();
         let train = &source.file.drive_train;
         let input = train

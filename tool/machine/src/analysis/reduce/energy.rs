@@ -30,7 +30,7 @@ impl Set for Energy {
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
-        let machine = &source.machine;
+        let machine = source.machines.at(&place.now);
         let point = machine.bare_reduction(place.phi)?;
         let Some(state) = place.state else {
             let mut values = vec![None; self.heads(source).len()];

@@ -10,6 +10,7 @@ use super::{Over, Pass, Place, Request, Set as _, Source};
 use crate::analysis::duty::{INSIDE, smooth_stretches};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
+use crate::model::schedule::Now;
 use crate::number::columns::{Column, Quantity};
 use crate::number::parabola::peak;
 use crate::number::rounding::short;
@@ -211,7 +212,15 @@ impl Search<'_, '_> {
     /// The forces at x.
     fn at(&self, x: f64) -> Result<Vec<f64>, Error> {
         let state = self.course.state(x);
+        let now = match self.course {
+            Course::Motion(_) => Now::of(x, state.omega),
+            Course::State(_) => Now {
+                t: None,
+                omega: Some(state.omega),
+            },
+        };
         let place = Place {
+            now,
             phi: state.phi,
             frames: self.source.machine.mechanism().frames(state.phi)?,
             state: Some(state),

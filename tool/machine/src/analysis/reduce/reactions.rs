@@ -80,7 +80,7 @@ impl Set for Reactions {
         let Some(state) = place.state else {
             return Ok(vec![None; self.heads(source).len()]);
         };
-        let machine = &source.machine;
+        let machine = source.machines.at(&place.now);
         let forces = machine.forces(place.phi, state.omega, state.alpha)?;
         let mut values = vec![forces.drive];
         for (k, reaction) in forces.reactions.iter().enumerate().take(self.carries.len()) {

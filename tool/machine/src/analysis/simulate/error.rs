@@ -10,6 +10,16 @@ pub enum SimulationError {
     /// The machine cannot be placed.
     #[error("{error}; {cure}", error = .0, cure = .0.cure())]
     Machine(Error),
+    /// The machine goes by the motion of the file, which a free motion does not follow.
+    #[error("{what}: that goes by [motion], which a free motion does not follow")]
+    #[diagnostic(help(
+        "remove its segments, during, direction and at_rest, or the payload, for this command; `jred reduce --over time` and \
+         `jred size` contain them"
+    ))]
+    Scheduled {
+        /// The load or payload.
+        what: String,
+    },
     /// The drive link has passed the end of its stroke.
     #[error("the drive link hits the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
     #[diagnostic(help(

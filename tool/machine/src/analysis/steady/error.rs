@@ -19,6 +19,16 @@ pub enum SteadyError {
         /// The stroke in words.
         range: String,
     },
+    /// The machine goes by the motion of the file, which a steady cycle does not follow.
+    #[error("{what}: that goes by [motion], which a steady cycle does not follow")]
+    #[diagnostic(help(
+        "remove its segments, during, direction and at_rest, or the payload, for this command; `jred reduce --over time` and \
+         `jred size` contain them"
+    ))]
+    Scheduled {
+        /// The load or payload.
+        what: String,
+    },
     /// There is no motor.
     #[error("the motor gives no torque at rest, nor at any other speed of its characteristic")]
     #[diagnostic(help(

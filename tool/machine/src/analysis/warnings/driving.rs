@@ -5,6 +5,7 @@ use jred::machine::Mechanism as _;
 
 use crate::model::coordinate::whole_range;
 use crate::model::machine::MachineFile;
+use crate::model::schedule::Now;
 use crate::number::rounding::short;
 
 /// Positions or instants that are looked at.
@@ -19,26 +20,29 @@ const BALANCED: f64 = 1e-3;
 pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mechanism = file.machine.mechanism();
     let coordinate = mechanism.coordinate();
-    let states: Vec<[f64; 2]> = match &file.motion {
+    let states: Vec<(Now, [f64; 2])> = match &file.motion {
         Some(motion) => (0..=STEPS)
-            .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64))
-            .map(|state| [state.phi, state.omega])
+            .map(|k| motion.duration() * k as f64 / STEPS as f64)
+            .map(|t| (t, motion.at(t)))
+            .map(|(t, state)| (Now::of(t, state.omega), [state.phi, state.omega]))
             .collect(),
         None => whole_range(mechanism.domain(), STEPS)
-            .map(|phi| [phi, 1.0])
+            .map(|phi| (Now::default(), [phi, 1.0]))
             .collect(),
     };
-    let loads = file.machine.loads().iter().zip(&file.loads);
+    let loads = file.loads.iter().enumerate();
     // A web pulls whether it is wound or unwound.
     let loads: Vec<_> = loads
         .skip(mechanism.pulls())
-        .filter(|(load, _)| !mechanism.is_weight(load))
+        .filter(|(_, named)| !mechanism.is_weight(&named.load))
         .collect();
     // Position of the largest driving power, that power, the sum of all powers and of their magnitudes.
     let mut found = vec![(0.0, 0.0f64, [0.0f64; 2]); loads.len()];
-    for [phi, omega] in states {
+    for (now, [phi, omega]) in states {
         let frames = mechanism.frames(phi)?;
-        for ((load, _), (place, driving, [net, moved])) in loads.iter().zip(&mut found) {
+        let acting = file.machine_at(&now).loads();
+        for ((k, _), (place, driving, [net, moved])) in loads.iter().zip(&mut found) {
+            let load = &acting[*k];
             let Some(frame) = frames.get(load.link()) else {
                 continue;
             };

@@ -23,16 +23,20 @@ mod traction;
 mod train;
 mod winder;
 
-use jred::machine::MassProperties;
-use jred::{Error, Link};
+use std::f64::consts::TAU;
 
+use jred::machine::{MassProperties, Mechanism as _};
+use jred::{Domain, Error, Link};
+
+use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
+use crate::model::swing::Swing;
 use crate::number::rounding::figure;
 use crate::text::file::Files;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, LENGTH, MASS};
+use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 
 /// The types of mechanism, as machine files write them.
 const SLIDER_CRANK: &str = "slider-crank";
@@ -193,6 +197,7 @@ pub(super) fn read(
             read(section)?
         }
     };
+    let mechanism = swing(section, mechanism)?;
     let elsewhere = |key: &str| match key {
         "efficiency" => Some("efficiency belongs to [[drive_train]]"),
         _ => None,
@@ -232,6 +237,33 @@ fn inclination([x, y]: [f64; 2]) -> String {
 
 /// Share of gravity below which a component is a rounding.
 const LEVEL: f64 = 1e-12;
+
+/// `stroke` of a drive link that turns: a part of its turn as its range. Mechanisms that cannot turn fully have a stroke of their own.
+fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
+    if mechanism.domain() != Domain::Turn || mechanism.coordinate() != Coordinate::Angle {
+        return Ok(mechanism);
+    }
+    let Some(item) = section.get("stroke") else {
+        return Ok(mechanism);
+    };
+    if !mechanism.contacts().is_empty() {
+        return Err(item
+            .problem("is not for a cam, which turns fully", "remove this")
+            .help("a motion may swing over a part of the turn without it: write its moves in [motion]"));
+    }
+    let [from, to] = item.pair([&ANGLE, &ANGLE])?;
+    let width = to.si - from.si;
+    if width <= 0.0 || width >= TAU {
+        return Err(item
+            .problem(
+                &format!("runs from {} to {}", from.shown(), to.shown()),
+                "check these angles",
+            )
+            .help("the second angle must be the larger one, by less than a turn; a drive link that turns fully has no stroke"));
+    }
+    let swing = Swing::new(mechanism.clone(), [from.si, to.si]);
+    Ok(mechanism.with_inner(swing))
+}
 
 /// Mass, moment of inertia and centre of mass of a crank or a rod.
 fn link(section: &Section) -> Result<Link> {

@@ -1,0 +1,349 @@
+//! What of a machine changes in the course of its motion: loads that act in a part of it only, and payloads that are picked up and set
+//! down.
+//!
+//! At every instant the machine is one of a few: each of them has the same links, joints and loads in the same order, of which some
+//! are without force, and some links are heavier by what they carry.
+
+use jred::machine::{Action, Frames, Jointed, Joints, Load, Mechanism, PoseError};
+use jred::{Domain, Error, Link, Machine};
+
+use crate::model::mechanism::AnyMechanism;
+use crate::model::motion::Motion;
+
+/// A direction of the drive link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Travel {
+    /// φ grows.
+    Forward,
+    /// φ falls.
+    Backward,
+}
+
+/// When something of the machine acts or is there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct When {
+    /// Times [from, to) of the motion (s), the last up to its end; `None`: always.
+    pub spans: Option<Vec<[f64; 2]>>,
+    /// In one direction of travel only.
+    pub travel: Option<Travel>,
+}
+
+impl When {
+    /// Whether that is now, in a motion that lasts until `end`: at a time of a motion, if there is one, and with the speed ω, if it is known.
+    pub fn holds(&self, now: &Now, end: f64) -> bool {
+        let in_time = self.spans.as_ref().is_none_or(|spans| {
+            now.t.is_some_and(|t| {
+                let within = |[from, to]: &[f64; 2]| *from <= t && (t < *to || *to >= end);
+                spans.iter().any(within)
+            })
+        });
+        let ways = self.travel.is_none_or(|travel| {
+            now.omega.is_some_and(|omega| match travel {
+                Travel::Forward => omega > 0.0,
+                Travel::Backward => omega < 0.0,
+            })
+        });
+        in_time && ways
+    }
+}
+
+/// An instant: a time of the motion (s) and a speed of the drive link, as far as they are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Now {
+    /// Time of the motion (s).
+    pub t: Option<f64>,
+    /// Speed of the drive link (rad/s, or m/s).
+    pub omega: Option<f64>,
+}
+
+impl Now {
+    /// A time of the motion, with the speed there.
+    pub const fn of(t: f64, omega: f64) -> Self {
+        Self {
+            t: Some(t),
+            omega: Some(omega),
+        }
+    }
+}
+
+/// A load that does not always act, or has a value of its own at rest.
+#[derive(Clone, Debug)]
+pub struct Scheduled {
+    /// Its name.
+    pub name: String,
+    /// Index of the load among the machine's.
+    pub load: usize,
+    /// When it acts.
+    pub when: When,
+    /// The load where the drive link is at rest, if that is another one: of a load against the motion its static friction.
+    pub at_rest: Option<Load>,
+    /// Whether that is static friction.
+    pub is_static_friction: bool,
+    /// The same in words, for reports.
+    pub words: String,
+}
+
+/// A mass that a link carries for a while.
+#[derive(Clone, Debug)]
+pub struct Payload {
+    /// Its name.
+    pub name: String,
+    /// Index of the link.
+    pub link: usize,
+    /// Where its centre of mass is in the link's frame (m).
+    pub at: [f64; 2],
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about its own centre of mass (kg·m²).
+    pub inertia: f64,
+    /// When it is carried.
+    pub when: When,
+    /// The same in words, for reports.
+    pub words: String,
+}
+
+impl Payload {
+    /// The link with the payload on it: one rigid body.
+    ///
+    /// # Errors
+    /// A sum that is not finite.
+    fn on(&self, link: &Link) -> Result<Link, Error> {
+        let (own, mass) = (link.mass(), link.mass() + self.mass);
+        let com = [0, 1].map(|k| (own * link.com()[k] + self.mass * self.at[k]) / mass);
+        let off = |at: [f64; 2]| (at[0] - com[0]).powi(2) + (at[1] - com[1]).powi(2);
+        let steiner = own * off(link.com()) + self.mass * off(self.at);
+        Ok(Link::new(jred::machine::MassProperties {
+            mass,
+            inertia: link.inertia() + self.inertia + steiner,
+            com,
+        })?)
+    }
+}
+
+/// A mechanism some of whose links carry something.
+#[derive(Clone, Debug)]
+pub(crate) struct Laden {
+    inner: AnyMechanism,
+    links: Vec<Link>,
+}
+
+impl Laden {
+    /// The links with what they carry.
+    fn new(inner: AnyMechanism, payloads: &[&Payload]) -> Result<Self, Error> {
+        let mut links = inner.links().to_vec();
+        for payload in payloads {
+            if let Some(link) = links.get_mut(payload.link) {
+                *link = payload.on(link)?;
+            }
+        }
+        Ok(Self { inner, links })
+    }
+}
+
+impl Mechanism for Laden {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+    fn domain(&self) -> Domain {
+        self.inner.domain()
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        self.inner.frames(phi)
+    }
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.inner.edge(k)
+    }
+}
+
+impl Jointed for Laden {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+        self.inner.joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        self.inner.drive()
+    }
+}
+
+/// What a load does at an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Share {
+    Nothing,
+    Moving,
+    AtRest,
+}
+
+/// Which loads act and which payloads are carried, in the schedule's order.
+type State = (Vec<Share>, Vec<bool>);
+
+/// Everything that changes in the course of the motion, and the machines that follow from it.
+#[derive(Clone, Debug, Default)]
+pub struct Schedule {
+    loads: Vec<Scheduled>,
+    payloads: Vec<Payload>,
+    /// End of the motion (s).
+    end: f64,
+    variants: Vec<(State, Machine<AnyMechanism>)>,
+}
+
+impl Schedule {
+    /// The machines that `machine`, all of whose loads act, is at some instant of the motion, and without one.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(
+        machine: &Machine<AnyMechanism>,
+        loads: Vec<Scheduled>,
+        payloads: Vec<Payload>,
+        motion: Option<&Motion>,
+    ) -> Result<Self, Error> {
+        let mut schedule = Self {
+            loads,
+            payloads,
+            end: motion.map_or(0.0, Motion::duration),
+            variants: Vec::new(),
+        };
+        let mut times: Vec<Option<f64>> = vec![None];
+        if motion.is_some() {
+            times.push(Some(0.0));
+            times.extend(schedule.times().into_iter().map(Some));
+        }
+        let speeds = [None, Some(-1.0), Some(0.0), Some(1.0)];
+        let mut states: Vec<State> = Vec::new();
+        for t in times {
+            states.extend(speeds.map(|omega| schedule.state(&Now { t, omega })));
+        }
+        states.sort();
+        states.dedup();
+        for state in states {
+            let variant = schedule.variant(machine, &state)?;
+            schedule.variants.push((state, variant));
+        }
+        Ok(schedule)
+    }
+
+    /// The loads that do not always act, or have a value of their own at rest.
+    pub fn loads(&self) -> &[Scheduled] {
+        &self.loads
+    }
+
+    /// What is picked up and set down.
+    pub fn payloads(&self) -> &[Payload] {
+        &self.payloads
+    }
+
+    /// Whether nothing changes.
+    pub const fn is_empty(&self) -> bool {
+        self.loads.is_empty() && self.payloads.is_empty()
+    }
+
+    /// Whether a load has to be broken away from rest.
+    pub fn has_static_friction(&self) -> bool {
+        self.loads.iter().any(|load| load.is_static_friction)
+    }
+
+    /// The times of the motion (s) at which something begins or ends.
+    pub fn times(&self) -> Vec<f64> {
+        let loads = self.loads.iter().map(|load| &load.when);
+        let whens = loads.chain(self.payloads.iter().map(|payload| &payload.when));
+        let spans = whens.filter_map(|when| when.spans.as_ref()).flatten();
+        let mut times: Vec<f64> = spans.flatten().copied().collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// Which machine it is at this instant, as a number that changes where the machine does.
+    pub fn number(&self, now: &Now) -> usize {
+        if self.is_empty() {
+            return 0;
+        }
+        let state = self.state(now);
+        let same = |(known, _): &(State, _)| *known == state;
+        self.variants.iter().position(same).unwrap_or_default()
+    }
+
+    /// The machine of this number; `None` if nothing changes.
+    pub fn machine(&self, number: usize) -> Option<&Machine<AnyMechanism>> {
+        self.variants.get(number).map(|(_, machine)| machine)
+    }
+
+    /// The machine without anything that goes by the motion; `None` if nothing changes.
+    pub fn at_no_time(&self) -> Option<&Machine<AnyMechanism>> {
+        self.machine(self.number(&Now::default()))
+    }
+
+    /// The machines, in the order of their numbers.
+    pub fn machines(&self) -> impl Iterator<Item = &Machine<AnyMechanism>> {
+        self.variants.iter().map(|(_, machine)| machine)
+    }
+
+    /// Whether something is carried at this time of the motion.
+    pub fn is_laden(&self, t: f64) -> bool {
+        let now = Now::of(t, 0.0);
+        (self.payloads.iter()).any(|payload| payload.when.holds(&now, self.end))
+    }
+
+    fn state(&self, now: &Now) -> State {
+        let share = |load: &Scheduled| {
+            if load.at_rest.is_some() && now.omega == Some(0.0) {
+                // The direction of a machine at rest is unknown: its value at rest is that of every direction.
+                let when = When {
+                    travel: None,
+                    ..load.when.clone()
+                };
+                if when.holds(now, self.end) {
+                    return Share::AtRest;
+                }
+                return Share::Nothing;
+            }
+            if load.when.holds(now, self.end) {
+                Share::Moving
+            } else {
+                Share::Nothing
+            }
+        };
+        let carried = |payload: &Payload| payload.when.holds(now, self.end);
+        (
+            self.loads.iter().map(share).collect(),
+            self.payloads.iter().map(carried).collect(),
+        )
+    }
+
+    /// The machine with the loads and payloads of a state.
+    fn variant(
+        &self,
+        machine: &Machine<AnyMechanism>,
+        (shares, carried): &State,
+    ) -> Result<Machine<AnyMechanism>, Error> {
+        let payloads: Vec<&Payload> = (self.payloads.iter().zip(carried))
+            .filter_map(|(payload, carried)| carried.then_some(payload))
+            .collect();
+        let mechanism = machine.mechanism().clone();
+        let mechanism = if payloads.is_empty() {
+            mechanism
+        } else {
+            let laden = Laden::new(mechanism.clone(), &payloads)?;
+            mechanism.with_inner(laden)
+        };
+        let mut made = Machine::new(mechanism)
+            .with_gravity(machine.gravity())?
+            .with_flywheel(machine.flywheel())?;
+        for (k, load) in machine.loads().iter().enumerate() {
+            let scheduled = self.loads.iter().zip(shares).find(|(s, _)| s.load == k);
+            let load = match scheduled {
+                Some((_, Share::Nothing)) => {
+                    // Its edges stay: the machines differ in nothing but their forces and masses.
+                    let none = Load::new(load.link(), Action::Moment(0.0))?;
+                    load.window().map_or(none, |window| none.within(window))
+                }
+                Some((scheduled, Share::AtRest)) => scheduled.at_rest.unwrap_or(*load),
+                _ => *load,
+            };
+            made = made.with_load(load)?;
+        }
+        for element in machine.elements() {
+            made = made.with_element(*element)?;
+        }
+        Ok(made)
+    }
+}

@@ -1,0 +1,198 @@
+//! `[[payload]]`: what a link picks up and sets down.
+
+use jred::Machine;
+use jred::machine::Mechanism as _;
+
+use super::{Course, joined, part};
+use crate::model::mechanism::AnyMechanism;
+use crate::model::motion::Motion;
+use crate::model::schedule::Payload;
+use crate::number::rounding::{figure, short};
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{INERTIA, LENGTH, MASS};
+
+/// The most payloads of a machine.
+const MOST: usize = 16;
+
+/// Share of the largest speed of its place over the motion below which a payload is picked up and set down at rest.
+const AT_REST: f64 = 1e-6;
+
+/// Instants of the motion at which the speed of a place is looked at.
+const INSTANTS: u32 = 1000;
+
+/// All payloads of the file.
+pub(super) fn read(
+    root: &Section,
+    machine: &Machine<AnyMechanism>,
+    course: &Course,
+) -> Result<Vec<Payload>> {
+    let Some(item) = root.get("payload") else {
+        return Ok(Vec::new());
+    };
+    let sections = item.sections("[[payload]]")?;
+    if let Some(surplus) = sections.get(MOST) {
+        return Err(surplus
+            .problem(format!("more than {MOST} payloads"), "one too many")
+            .help("combine what the same link carries at the same time"));
+    }
+    let mut payloads: Vec<Payload> = Vec::new();
+    for (k, section) in sections.iter().enumerate() {
+        let payload = payload(section, machine, course)?;
+        for (earlier, header) in payloads.iter().zip(&sections[..k]) {
+            if earlier.name == payload.name {
+                check_once([earlier, &payload], [header, section])?;
+            }
+        }
+        payloads.push(payload);
+    }
+    Ok(payloads)
+}
+
+/// A payload of the same name is not picked up while it is carried.
+fn check_once(payloads: [&Payload; 2], sections: [&Section; 2]) -> Result<()> {
+    let [first, second] = payloads.map(|payload| payload.when.spans.clone().unwrap_or_default());
+    let both = |[a, b]: &[f64; 2]| second.iter().any(|[c, d]| c < b && a < d);
+    if !first.iter().any(both) {
+        return Ok(());
+    }
+    Err(Problem::new(format!(
+        "the payload \"{}\" is picked up while it is carried",
+        payloads[0].name
+    ))
+    .at(sections[0].header(), "carried here")
+    .at(sections[1].header(), "picked up again")
+    .help("set it down before it is picked up again, or give the second one a name of its own"))
+}
+
+fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) -> Result<Payload> {
+    let mechanism = machine.mechanism();
+    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
+    let on = section.require("on", &example)?;
+    let link = on.choice(links)?;
+    let name = match section.get("name") {
+        Some(item) => item.text("workpiece")?.to_owned(),
+        None => format!("payload on {}", on.text("slider")?),
+    };
+    let at = section.point("at", &LENGTH)?;
+    let mass = section.quantity("mass", &MASS)?.positive()?;
+    let inertia = match section.optional("inertia", &INERTIA)? {
+        Some(value) => value.not_negative()?,
+        None => 0.0,
+    };
+    let while_moving = match section.get("while_moving") {
+        Some(item) => item.flag()?,
+        None => false,
+    };
+    let part = part(section, course)?;
+    section.finish_with(|key| match key {
+        "between" | "ramp" => Some(
+            "a payload over a part of the turn is a column of a table of loads: docs/import.md",
+        ),
+        _ => None,
+    })?;
+    if let Some(item) = section.peek("direction") {
+        return Err(item
+            .problem("is for loads", "not of a payload")
+            .help("write segments = [2, 3] or during = [\"0.2 s\", \"0.5 s\"]: the time over which it is carried"));
+    }
+    let Some(item) = &part.item else {
+        return Err(section.missing(
+            "segments",
+            "segments = [2, 3], over which it is carried, or during = [\"0.2 s\", \"0.5 s\"]; a mass that is always there belongs to its link",
+        ));
+    };
+    let payload = Payload {
+        name,
+        link,
+        at,
+        mass,
+        inertia,
+        words: format!("of {} kg is carried {}", short(mass), part.words.join(", ")),
+        when: part.when,
+    };
+    let motion = course.required(item)?;
+    let ends = ends(&payload, motion, item)?;
+    if !while_moving {
+        check_at_rest(&payload, machine, motion, ends, item)?;
+    }
+    Ok(payload)
+}
+
+/// When it is picked up and set down; `None` if it always is carried.
+fn ends(payload: &Payload, motion: &Motion, item: &Item) -> Result<Option<[f64; 2]>> {
+    let spans = joined(payload.when.spans.clone().unwrap_or_default());
+    let end = motion.duration();
+    match spans.as_slice() {
+        [[from, to]] if motion.cyclic && *from <= 0.0 && *to >= end => Ok(None),
+        [[from, to]] => Ok(Some([*from, *to])),
+        [[zero, to], [from, last]] if motion.cyclic && *zero <= 0.0 && *last >= end => {
+            Ok(Some([*from, *to]))
+        }
+        _ => Err(item
+            .problem(
+                &format!("lets \"{}\" be picked up more than once", payload.name),
+                "not in one go",
+            )
+            .help("a payload is carried from one instant to another, in a cycle over its end too: write another [[payload]] for the second time")),
+    }
+}
+
+/// It is at rest where it is picked up and where it is set down.
+fn check_at_rest(
+    payload: &Payload,
+    machine: &Machine<AnyMechanism>,
+    motion: &Motion,
+    ends: Option<[f64; 2]>,
+    item: &Item,
+) -> Result<()> {
+    let Some(ends) = ends else {
+        return Ok(());
+    };
+    // Speeds of its place (m/s) and of its rotation (rad/s).
+    let speeds = |t: f64| {
+        let state = motion.at(t);
+        let frames = machine.mechanism().frames(state.phi).map_err(|error| {
+            item.problem(&format!("cannot be used: {error}"), "here")
+                .help(error.cure().to_string())
+        })?;
+        let frame = frames.get(payload.link);
+        let [x, y, turn] = frame.map_or([0.0; 3], |frame| {
+            let [x, y] = frame.point(payload.at);
+            [x, y, frame.psi].map(|c| c.velocity(state.omega))
+        });
+        Ok::<_, Problem>([x.hypot(y), turn.abs()])
+    };
+    let mut most = [0.0f64; 2];
+    for k in 0..=INSTANTS {
+        let here = speeds(motion.duration() * f64::from(k) / f64::from(INSTANTS))?;
+        most = [0, 1].map(|k| most[k].max(here[k]));
+    }
+    // An end at the end of a motion that does not repeat is no event: the motion ends.
+    let at_ends = |t: &f64| !motion.cyclic && (*t <= 0.0 || *t >= motion.duration());
+    let events = [("picked up", ends[0]), ("set down", ends[1])];
+    for (what, t) in events.into_iter().filter(|(_, t)| !at_ends(t)) {
+        let [speed, turn] = speeds(t)?;
+        let turns = payload.inertia > 0.0 && turn > AT_REST * most[1];
+        if speed > AT_REST * most[0] || turns {
+            let moving = if speed > AT_REST * most[0] {
+                format!("{} m/s", short(speed))
+            } else {
+                format!("{} rad/s", short(turn))
+            };
+            return Err(item
+                .problem(
+                    &format!(
+                        "lets \"{}\" be {what} at t = {} s, where its place moves at {moving}",
+                        payload.name,
+                        figure(t)
+                    ),
+                    "not at rest",
+                )
+                .help("choose segments that begin and end at rest; or write while_moving = true, if the payload comes and goes with the speed of its place, without an impact"));
+        }
+    }
+    Ok(())
+}
