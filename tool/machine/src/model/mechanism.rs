@@ -132,9 +132,8 @@ impl AnyMechanism {
 
     /// On a part of its range only.
     #[must_use]
-    pub(crate) fn on_stroke(mut self, domain: Domain) -> Self {
-        let inner = Arc::clone(&self.inner);
-        self.inner = Arc::new(OnStroke { inner, domain });
+    pub(crate) fn on_stroke(mut self, stroke: [f64; 2]) -> Self {
+        self.inner = Arc::new(OnStroke::new(Arc::clone(&self.inner), stroke));
         self
     }
 

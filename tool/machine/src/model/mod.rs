@@ -14,7 +14,6 @@ pub mod simulation;
 pub mod site;
 pub mod supply;
 pub mod surroundings;
-pub(crate) mod swing;
 pub mod tabulated;
 pub mod tolerance;
 pub mod variator;

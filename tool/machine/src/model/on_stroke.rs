@@ -1,5 +1,6 @@
 //! A mechanism of which only a part of the range is used: an axis that ends.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use jred::machine::{Frames, Jointed, Joints, Mechanism, PoseError};
@@ -7,11 +8,38 @@ use jred::{Domain, Link};
 
 use super::mechanism::Inner;
 
-/// A mechanism on a stroke of its drive link.
+/// A mechanism on a stroke of its drive link, which may be a part of a turn.
 #[derive(Clone, Debug)]
 pub(super) struct OnStroke {
-    pub(super) inner: Arc<dyn Inner>,
-    pub(super) domain: Domain,
+    inner: Arc<dyn Inner>,
+    domain: Domain,
+    edges: Vec<f64>,
+}
+
+impl OnStroke {
+    /// From one position to another.
+    pub(super) fn new(inner: Arc<dyn Inner>, [from, to]: [f64; 2]) -> Self {
+        // An edge of the turn, in every turn on the stroke; at its start and at its end there is none.
+        let repeats = inner.domain() == Domain::Turn;
+        let mut edges = Vec::new();
+        for edge in (0..).map_while(|k| inner.edge(k)) {
+            let ahead = if repeats {
+                (edge - from).rem_euclid(TAU)
+            } else {
+                edge - from
+            };
+            let turns = if repeats { (to - from) / TAU } else { 0.0 };
+            let places = (0..=turns as u32).map(|k| ahead + f64::from(k) * TAU);
+            let inside = places.filter(|place| *place > 0.0 && *place < to - from);
+            edges.extend(inside.map(|place| from + place));
+        }
+        edges.sort_by(f64::total_cmp);
+        Self {
+            domain: Domain::Stroke { from, to },
+            edges,
+            inner,
+        }
+    }
 }
 
 impl Mechanism for OnStroke {
@@ -25,7 +53,7 @@ impl Mechanism for OnStroke {
         self.inner.frames(phi)
     }
     fn edge(&self, k: usize) -> Option<f64> {
-        self.inner.edge(k)
+        self.edges.get(k).copied()
     }
 }
 

@@ -30,7 +30,6 @@ use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::swing::Swing;
 use crate::number::rounding::figure;
 use crate::text::file::Files;
 
@@ -261,8 +260,7 @@ fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
             )
             .help("the second angle must be the larger one, by less than a turn; a drive link that turns fully has no stroke"));
     }
-    let swing = Swing::new(mechanism.clone(), [from.si, to.si]);
-    Ok(mechanism.with_inner(swing))
+    Ok(mechanism.on_stroke([from.si, to.si]))
 }
 
 /// Mass, moment of inertia and centre of mass of a crank or a rod.

@@ -94,6 +94,7 @@ pub(super) fn linear_stroke(
     };
     let way = [frame.x, frame.y][axis];
     let [a, b] = ends.map(|end| (end - way.value) / way.d1);
-    let domain = Domain::stroke(a.min(b), a.max(b)).map_err(|error| core(section, error))?;
-    Ok(mechanism.on_stroke(domain))
+    let stroke = [a.min(b), a.max(b)];
+    Domain::stroke(stroke[0], stroke[1]).map_err(|error| core(section, error))?;
+    Ok(mechanism.on_stroke(stroke))
 }
