@@ -42,6 +42,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "fastest")?;
+    file.refuse_scheduled("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
     let limits = limits(options, &file, chosen.limits)?;

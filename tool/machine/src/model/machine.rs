@@ -109,6 +109,20 @@ impl MachineFile {
         Ok(reduction)
     }
 
+    /// Refuses a machine whose loads or payloads go by the motion of the file, for a command that seeks another motion.
+    ///
+    /// # Errors
+    /// It has such a load or payload.
+    pub fn refuse_scheduled(&self, command: &str) -> miette::Result<()> {
+        match self.scheduled().next() {
+            None => Ok(()),
+            Some(what) => Err(miette::miette!(
+                help = "remove its segments, during, direction and at_rest, or the payload, for this command; `jred size` contains them",
+                "{what}: that goes by [motion], but `jred {command}` seeks another motion"
+            )),
+        }
+    }
+
     /// What the schedule says, item by item, such as `load "punch" acts in segment 2`.
     pub fn scheduled(&self) -> impl Iterator<Item = String> {
         self.scheduled_where(|_| true)
