@@ -23,31 +23,46 @@ pub struct Fastest {
     #[arg(long, allow_hyphen_values = true, requires = "from")]
     pub to: Option<String>,
     /// Speed at its beginning, in the direction of the move; at rest if not given.
-    #[arg(long, value_name = "SPEED", requires = "from")]
+    #[arg(
+        long,
+        value_name = "SPEED",
+        requires = "from",
+        allow_hyphen_values = true
+    )]
     pub from_speed: Option<String>,
     /// Speed at its end.
-    #[arg(long, value_name = "SPEED", requires = "from")]
+    #[arg(
+        long,
+        value_name = "SPEED",
+        requires = "from",
+        allow_hyphen_values = true
+    )]
     pub to_speed: Option<String>,
     /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the best drive in the catalogue for the motion.
     #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with = "torque")]
     pub drive: Option<String>,
     /// Instead of a drive: largest torque at the input of the drive train, e.g. "20 N m" ("500 N" for a linear motor).
-    #[arg(long, requires = "motor_speed")]
+    #[arg(long, requires = "motor_speed", allow_hyphen_values = true)]
     pub torque: Option<String>,
     /// Largest speed of that motor, e.g. "3000 rpm" ("2 m/s").
-    #[arg(long, value_name = "SPEED", requires = "torque")]
+    #[arg(
+        long,
+        value_name = "SPEED",
+        requires = "torque",
+        allow_hyphen_values = true
+    )]
     pub motor_speed: Option<String>,
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
     #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
     /// Largest acceleration of the drive link while its speed grows, e.g. "120 rad/s^2" ("3 m/s^2").
-    #[arg(long, value_name = "ACCELERATION")]
+    #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_acceleration: Option<String>,
     /// Largest deceleration; that of --max-acceleration if not given.
-    #[arg(long, value_name = "ACCELERATION")]
+    #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_deceleration: Option<String>,
     /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]

@@ -156,7 +156,7 @@ fn make(
         let (actuator, limits) = without(actuator, task.limits, limit);
         let eased = Task { limits, ..task };
         // Where no motion is found the limit is not what it costs time.
-        let time = solve(file, &actuator, &eased).ok()?.time;
+        let time = super::time(file, &actuator, &eased).ok()?;
         Some(Cost { limit, time })
     };
     Ok(Made {

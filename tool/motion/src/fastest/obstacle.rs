@@ -175,24 +175,19 @@ impl NoMotion {
     }
 }
 
-/// A limit in words.
-pub(super) const fn name(limit: Binding) -> &'static str {
-    match limit {
-        Binding::Driving => "motor torque, driving",
-        Binding::Braking => "motor torque, braking",
-        Binding::MotorSpeed => "motor speed",
-        Binding::GearboxTorque => "gearbox torque",
-        Binding::GearboxSpeed => "gearbox speed",
-        Binding::Speed => "speed limit",
-        Binding::Acceleration => "acceleration limit",
-        Binding::Deceleration => "deceleration limit",
-    }
-}
-
 impl Binding {
     /// Its name.
     pub const fn name(self) -> &'static str {
-        name(self)
+        match self {
+            Self::Driving => "motor torque (driving)",
+            Self::Braking => "motor torque (braking)",
+            Self::MotorSpeed => "motor speed",
+            Self::GearboxTorque => "gearbox torque",
+            Self::GearboxSpeed => "gearbox speed",
+            Self::Speed => "speed limit",
+            Self::Acceleration => "acceleration limit",
+            Self::Deceleration => "deceleration limit",
+        }
     }
 }
 
@@ -226,7 +221,7 @@ impl fmt::Display for NoMotion {
                 };
                 match limit {
                     Binding::Acceleration | Binding::Deceleration => {
-                        write!(f, "{what} {place}: the {} is in the way", name(*limit))
+                        write!(f, "{what} {place}: the {} is in the way", limit.name())
                     }
                     Binding::GearboxTorque => write!(
                         f,
@@ -257,12 +252,12 @@ impl fmt::Display for NoMotion {
                     Binding::Deceleration | Binding::Acceleration => write!(
                         f,
                         "{what} {place}: its loads brake harder than the {} allows",
-                        name(*limit)
+                        limit.name()
                     ),
                     _ => write!(
                         f,
                         "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {} is {given} {unit}",
-                        name(*limit)
+                        limit.name()
                     ),
                 }
             }
@@ -288,9 +283,9 @@ impl fmt::Display for NoMotion {
                 "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
                 short(*phi),
                 short(*speed),
-                name(least.1),
+                least.1.name(),
                 short(least.0),
-                name(most.1),
+                most.1.name(),
                 short(most.0)
             ),
         }

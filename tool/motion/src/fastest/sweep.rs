@@ -75,6 +75,12 @@ pub fn fastest(field: &Field, track: &Track, ends: [f64; 2]) -> Result<Vec<Piece
     forwards(field, track, &upper, ends)
 }
 
+/// The time (s) of each piece.
+pub fn times(track: &Track, pieces: &[Piece]) -> Vec<f64> {
+    let time = |piece: &Piece| piece.step.time(track.cells[piece.cell].length);
+    pieces.iter().map(time).collect()
+}
+
 fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
     let sure = |u: f64| Ok::<_, Infallible>(f(u));
     let Ok(u) = zero(sure, between, values, CROSSING);
