@@ -35,7 +35,7 @@ fn main() {
         corners: Vec::new(),
     };
     for count in [100, 1_000, 10_000, 100_000, 1_000_000] {
-        let track = Track::new(&field, &ends, count).expect("the press turns");
+        let track = Track::new(&field, &ends, count, &[]).expect("the press turns");
         let mut best = Duration::MAX;
         for _ in 0..(2_000_000 / count).clamp(3, 500) {
             let begin = Instant::now();

@@ -28,7 +28,7 @@ pub use phases::Phase;
 use sweep::Piece;
 use track::{Ends, Track};
 
-/// Cells of the first try, and of the last.
+/// Cells of the first try, and the most.
 const CELLS: [usize; 2] = [128, 131_072];
 
 /// Change of the time from one number of cells to twice as many, as a share, at which it is taken: with a method of order 4 a fifteenth
@@ -37,6 +37,15 @@ const SETTLED: f64 = 1e-9;
 
 /// Share by which a torque, speed or acceleration may exceed its limit between the nodes of the motion.
 const WITHIN: f64 = 1e-9;
+
+/// Rounds of finer cells.
+const ROUNDS: u32 = 24;
+
+/// Most parts of a cell in the next round.
+const MOST_PARTS: f64 = 8.0;
+
+/// Share of the motion below which a step is not looked into: there the acceleration is the difference of roundings.
+const SHORT: f64 = 1e-6;
 
 /// Places between two nodes at which that is looked at.
 const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
@@ -87,7 +96,7 @@ pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64,
     refine(file, actuator, task, f64::INFINITY).map(|found| found.time)
 }
 
-/// Halves the cells until the time is settled and limits are exceeded by no more than `within`.
+/// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
 fn refine(
     file: &MachineFile,
     actuator: &Actuator,
@@ -104,41 +113,48 @@ fn refine(
         speeds: task.speeds,
         corners: corners::corners(&field, task.from, length)?,
     };
-    let mut before: Option<f64> = None;
+    let z = ends.speeds.map(|v| 0.5 * v * v);
     let [mut count, most] = CELLS;
-    loop {
-        let track = Track::new(&field, &ends, count)?;
-        let z = ends.speeds.map(|v| 0.5 * v * v);
+    let mut before: Option<f64> = None;
+    let mut settled = f64::INFINITY;
+    let mut finer: Vec<f64> = Vec::new();
+    for round in 0.. {
+        let track = Track::new(&field, &ends, count, &finer)?;
         let pieces = sweep::fastest(&field, &track, z)
             .map_err(|obstacle| NoMotion::at(&field, &track, obstacle))?;
         check(&field, &track, &pieces)?;
         let times = sweep::times(&track, &pieces);
         let time: f64 = times.iter().sum();
-        let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
-        before = Some(time);
-        count *= 2;
-        if change > SETTLED * time && count <= most {
-            continue;
+        let may_go_on = track.cells.len() < most && round < ROUNDS;
+        if finer.is_empty() {
+            let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
+            before = Some(time);
+            if change > SETTLED * time && may_go_on {
+                count *= 2;
+                continue;
+            }
+            settled = change;
         }
         let trace = trace(&way, &ends, &track, &pieces, &times);
-        let enough = if count <= most { within } else { f64::INFINITY };
-        let excess = if within.is_finite() {
-            excess(&field, &trace, enough)?
+        let (excess, places) = if within.is_finite() {
+            excess(&field, &ends, &trace, within)?
         } else {
-            0.0
+            (0.0, Vec::new())
         };
-        if excess > enough {
+        if !places.is_empty() && may_go_on {
+            finer.extend(places);
             continue;
         }
         return Ok(Fastest {
             time,
-            error: change / 15.0,
+            error: settled / 15.0,
             phases: phases::phases(&field, &ends, &track, &pieces, &times),
             trace,
             excess,
             cells: track.cells.len(),
         });
     }
+    Err(NoMotion::NoWay)
 }
 
 /// The way of a task, if it can be gone at all.
@@ -213,18 +229,25 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
     Trace::new(way.coordinate(), nodes)
 }
 
-/// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place; the first one found beyond
-/// `enough`.
-fn excess(field: &Field, trace: &Trace, enough: f64) -> Result<f64, NoMotion> {
+/// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place; and the distances at which cells
+/// must meet so that it is no more than `within`.
+fn excess(
+    field: &Field,
+    ends: &Ends,
+    trace: &Trace,
+    within: f64,
+) -> Result<(f64, Vec<f64>), NoMotion> {
     let way = field.way;
     let direction = way.direction;
-    let mut most = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut places = Vec::new();
     let (top, _) = field.top();
     for pair in trace.nodes().windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        if most > enough {
-            break;
+        if b.t - a.t < SHORT * trace.duration() {
+            continue;
         }
+        let mut most = 0.0_f64;
         for share in LOOKS {
             let t = a.t + share * (b.t - a.t);
             if !(a.t < t && t < b.t) {
@@ -251,6 +274,14 @@ fn excess(field: &Field, trace: &Trace, enough: f64) -> Result<f64, NoMotion> {
                 most = most.max(-alpha / limit - 1.0);
             }
         }
+        largest = largest.max(most);
+        if most > within {
+            // The error falls with the third power of the step.
+            let parts = (most / within).cbrt().ceil().clamp(2.0, MOST_PARTS) as usize;
+            let [from, to] = [a, b].map(|node| (node.phi - ends.from) * direction);
+            let place = |k: usize| from + (to - from) * k as f64 / parts as f64;
+            places.extend((1..parts).map(place));
+        }
     }
-    Ok(most)
+    Ok((largest, places))
 }

@@ -108,12 +108,12 @@ pub struct Ends {
 }
 
 impl Track {
-    /// About `count` cells, finer towards an end at rest, none across a corner of the machine.
+    /// About `count` cells, finer towards an end at rest, which also meet at the distances `finer`; none across a corner of the machine.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere on the way.
-    pub fn new(field: &Field, ends: &Ends, count: usize) -> Result<Self, Error> {
-        let (nodes, is_edge) = nodes(ends, count);
+    pub fn new(field: &Field, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
+        let (nodes, is_edge) = nodes(ends, count, finer);
         let direction = field.way.direction;
         let top = 0.5 * field.top().0.powi(2);
         let at = |x: f64| field.way.place(ends.from + direction * x);
@@ -146,7 +146,7 @@ impl Track {
 }
 
 /// Distances from the start at which cells meet, and whether each is a corner of the machine.
-fn nodes(ends: &Ends, count: usize) -> (Vec<f64>, Vec<bool>) {
+fn nodes(ends: &Ends, count: usize, finer: &[f64]) -> (Vec<f64>, Vec<bool>) {
     let rest = ends.speeds.map(|speed| speed == 0.0);
     let share = |s: f64| match rest {
         [true, true] => 0.5 * (1.0 - (PI * s).cos()),
@@ -157,6 +157,7 @@ fn nodes(ends: &Ends, count: usize) -> (Vec<f64>, Vec<bool>) {
     let count = count.max(2);
     let inner = (1..count).map(|k| (ends.length * share(k as f64 / count as f64), false));
     let mut all: Vec<(f64, bool)> = inner.collect();
+    all.extend(finer.iter().map(|x| (*x, false)));
     all.extend(ends.corners.iter().map(|x| (*x, true)));
     all.push((0.0, true));
     all.push((ends.length, true));

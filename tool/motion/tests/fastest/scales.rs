@@ -24,7 +24,6 @@ fn the_result_does_not_depend_on_units() {
                     &task(0.0, 3.0 * angle),
                 );
                 close(found.time / time, reference.time, 1e-11);
-                assert_eq!(found.cells, reference.cells);
                 assert_eq!(found.phases.len(), reference.phases.len());
             }
         }
