@@ -23,6 +23,7 @@ use jred_sizing::cycle::Cycle;
 use jred_sizing::meter::MeterLimits;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::pareto::Front;
+use jred_sizing::select::rank::Objective;
 use jred_sizing::select::size::Selection;
 
 /// Runs `jred size`.
@@ -55,25 +56,8 @@ pub fn size(options: &Size) -> Result<Done> {
     for gap in gaps {
         output::say(&format!("warning: {gap}"));
     }
-    if let Some(objectives) = &options.pareto {
-        let front = Front::new(&selection, &objectives.0);
-        if let Some(obstacle) = front.obstacle() {
-            return Err(obstacle);
-        }
-        let title = format!(
-            "{}: Pareto front of the drives that violate no rule",
-            file.title
-        );
-        print(&jred_report::list::front::write(
-            &front,
-            options.format,
-            &title,
-        ))?;
-        return Ok(if front.points.is_empty() {
-            Done::Violated
-        } else {
-            Done::Holds
-        });
+    if !objectives.is_empty() {
+        return pareto(options, objectives, &file, &selection);
     }
     if let Some(path) = &options.report {
         let name = plain::path(&options.file);
@@ -136,6 +120,33 @@ pub fn size(options: &Size) -> Result<Done> {
         }
     }
     Ok(if selection.fit.is_empty() {
+        Done::Violated
+    } else {
+        Done::Holds
+    })
+}
+
+/// The Pareto front of the drives that violate no rule.
+fn pareto(
+    options: &Size,
+    objectives: &[Objective],
+    file: &MachineFile,
+    selection: &Selection,
+) -> Result<Done> {
+    let front = Front::new(selection, objectives);
+    if let Some(obstacle) = front.obstacle() {
+        return Err(obstacle);
+    }
+    let title = format!(
+        "{}: Pareto front of the drives that violate no rule",
+        file.title
+    );
+    print(&jred_report::list::front::write(
+        &front,
+        options.format,
+        &title,
+    ))?;
+    Ok(if front.points.is_empty() {
         Done::Violated
     } else {
         Done::Holds
