@@ -142,3 +142,26 @@ fn a_warning_names_its_limit() {
     assert_eq!(note(6.0), "10 times the rotor's inertia; warning above 5");
     assert_eq!(note(4.0), "10 times the rotor's inertia");
 }
+
+/// Where the peak is said with its speed, that at which the cycle comes closest to the envelope.
+#[test]
+fn the_place_of_the_peak_is_said() {
+    let stand = Stand::press();
+    let check = stand.check(true, &stand.file.rules, Rule::PeakTorque);
+    let words = format!("{check:?}");
+    let (before, _) = words
+        .split_once(" rpm, where the cycle comes closest to the envelope")
+        .expect(&words);
+    let number: f64 = before.rsplit(' ').next().unwrap().parse().unwrap();
+    let prepared = stand.prepared();
+    let context = Context::new(&stand.cycle, &stand.file.site, stand.drive(true), &prepared);
+    let peak = stand
+        .cycle
+        .peak(&context.coefficients, 5.0, &prepared.envelope);
+    within(
+        "rpm",
+        number.abs(),
+        peak.speed.abs() / jred_machine::units::RPM,
+        1.0,
+    );
+}

@@ -2,6 +2,7 @@
 // Copied figures are exact.
 #![allow(clippy::float_cmp)]
 
+mod figures;
 mod filter;
 mod obstacle;
 mod ratio;
@@ -279,32 +280,4 @@ fn temperatures_are_compared_as_shares() {
         compared += 1;
     }
     assert!(compared > 0);
-}
-
-/// Where no suitable drive has a figure there is nothing to compare, and the sentence names the figures that are missing and no other.
-#[test]
-fn an_empty_front_says_what_is_missing() {
-    let case = case(&press_text(), 200);
-    let select = |from: &Catalogue, objectives: &[Objective]| {
-        let prepared = from.prepare(&case.file.site);
-        let (cycle, site, rules) = (&case.cycle, &case.file.site, &case.file.rules);
-        let selection = Selection::new(from, &prepared, cycle, site, rules);
-        let front = Front::new(&selection, objectives);
-        (front.fit, front.obstacle().map(|report| report.to_string()))
-    };
-    let bare = Catalogue {
-        amplifiers: Vec::new(),
-        ..catalogue()
-    };
-    let objectives = [Objective::Power, Objective::Price];
-    let (fit, words) = select(&bare, &objectives);
-    let words = words.unwrap();
-    assert!(
-        words.starts_with(&format!("{fit} drives are suitable")),
-        "{words}"
-    );
-    assert!(words.contains("none has data for the price"), "{words}");
-    assert!(!words.contains(Objective::Power.name()), "{words}");
-    assert_eq!(select(&priced(), &objectives).1, None);
-    assert_eq!(select(&Catalogue::default(), &objectives), (0, None));
 }

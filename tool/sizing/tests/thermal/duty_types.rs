@@ -114,3 +114,35 @@ fn features_are_counted() {
         assert!(words.contains(part), "{part} is not in {words}");
     }
 }
+
+/// A rotor under friction c that is accelerated for a quarter of the time and slowed down for another: of ∫T² these have
+/// (T₁² + T₂²)/(T₁² + 2c² + T₂²) with T₁ = c + J·α and T₂ = c − J·α.
+#[test]
+fn the_share_of_the_acceleration_is_in_closed_form() {
+    let quarters = "law = \"trapezoid\"\naccelerate = \"25 %\"\ndecelerate = \"25 %\"\nmove = \"360 deg\"\nduration = \"0.3 s\"";
+    let found = kind(FRICTION, &moves(&[quarters, DWELL])).features;
+    let alpha = std::f64::consts::TAU / (0.3 * 0.75) / 0.075;
+    let inertia = 0.02 + 0.001 + 0.002 / 4.0;
+    let [first, last] = [1.0, -1.0].map(|sign| (2.0 + sign * inertia * alpha).powi(2));
+    let share = (first + last) / (first + 2.0 * 4.0 + last);
+    assert!((0.5..0.97).contains(&share), "{share}");
+    // The ends of a quarter belong to one side or the other.
+    within("share", found.accelerating, share, 0.01);
+    within("rest", found.rest, 0.25, budget::SIMPSON);
+}
+
+/// A speed that changes its sign stops in between, though no instant is at rest.
+#[test]
+fn a_reversal_is_a_stop() {
+    let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+    for (back, stops) in [(-20.0, true), (20.0, false)] {
+        let mut duty = duty_of(&press_text());
+        let half = 0.5 * duty.duration;
+        for instant in &mut duty.instants {
+            instant.input_speed = if instant.t < half { 30.0 } else { back };
+        }
+        let cycle = Cycle::new(&duty);
+        assert_eq!(Features::of(&cycle, &direct, 1.0).stops, stops, "{back}");
+        assert_eq!(Features::of(&cycle, &direct, -1.0).stops, stops, "{back}");
+    }
+}
