@@ -162,6 +162,12 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         Some(at) => reduce::not_contained_at(&file, &request, at),
         None => reduce::not_contained(&file, &request),
     };
+    if !missing.is_empty() && !matches!(options.format, Format::Table) {
+        let missing = missing.join("; ");
+        output::say(&format!(
+            "warning: {NOT_CONTAINED}{missing}: use --over time"
+        ));
+    }
     let passed = !(moves && columns.has_empty_cells());
     let title = reduce_title(&file, sets, (passed, at.is_some()), &missing);
     match options.format {
@@ -191,6 +197,9 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     }
 }
 
+/// What goes by the motion, and is not in rows without it.
+const NOT_CONTAINED: &str = "not contained where no motion passes: ";
+
 /// The lines above a listing: what it is, and what is not in it, because the motion does not pass every position, or at single positions
 /// because they have no time.
 fn reduce_title(
@@ -219,7 +228,8 @@ fn reduce_title(
         };
     }
     if !missing.is_empty() {
-        title += "\nnot contained where no motion passes: ";
+        title += "\n";
+        title += NOT_CONTAINED;
         title += &missing.join("; ");
         title += ": use --over time";
     }

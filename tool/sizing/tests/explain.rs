@@ -277,6 +277,53 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     );
 }
 
+/// The same of a lift whose payload comes and goes, with static friction and a load in a segment: also what holds it.
+#[test]
+fn an_altered_lift_is_that_of_the_altered_file() {
+    let text = include_str!("../../../machines/pick-and-place.toml");
+    let file = parse(text);
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let found = altered.duty(Alteration {
+        time: 2.0,
+        mass: 0.5,
+        process: 0.6,
+    });
+    let mut text = text.to_owned();
+    for (from, to) in [
+        ("dwell = \"0.3 s\"", "dwell = \"0.6 s\""),
+        ("dwell = \"0.3 s\"", "dwell = \"0.6 s\""),
+        ("\"0.7 s\"", "\"1.4 s\""),
+        ("\"0.5 s\"", "\"1 s\""),
+        ("\"120 N\"", "\"72 N\""),
+        ("mass = \"1.4 kg\"", "mass = \"0.7 kg\""),
+        ("\"11 kg cm^2\"", "\"5.5 kg cm^2\""),
+        ("mass = \"14 kg\"", "mass = \"7 kg\""),
+        ("mass = \"8 kg\"", "mass = \"4 kg\""),
+    ] {
+        text = edited(&text, from, to);
+    }
+    let expected = duty_of(&parse(&text));
+    near("duration", found.duration, 3.6, budget::SAME_SUMS);
+    let hold = (7.0 + 4.0) * 9.81 * 0.04;
+    near("hold", found.hold_torque, hold, budget::SAME_SUMS);
+    near("hold", expected.hold_torque, hold, budget::SAME_SUMS);
+    let figures = |duty: &Duty| duty.figures(|i| i.input_torque);
+    let (a, b) = (figures(&found), figures(&expected));
+    near("rms", a.rms, b.rms, budget::DEFAULT_STEPS);
+    near("most", a.max, b.max, budget::DEFAULT_PEAK);
+    near("least", a.min, b.min, budget::DEFAULT_PEAK);
+    // Weight with the part, static friction of the guide and the brush, before it goes up.
+    let broken = found.instants.iter().filter(|i| i.omega == 0.0);
+    let most = broken.map(|i| i.input_torque).fold(0.0, f64::max);
+    near(
+        "static",
+        most,
+        hold + (60.0 + 45.0) * 0.04,
+        budget::SAME_SUMS,
+    );
+}
+
 /// A spring is no mass: it keeps its torque where the masses are gone.
 #[test]
 fn springs_keep_their_torque_without_masses() {

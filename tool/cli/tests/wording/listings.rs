@@ -257,6 +257,14 @@ fn reduce() {
                 "--over",
                 "time",
             ],
+            &[
+                "reduce",
+                "pick-and-place.toml",
+                "--positions",
+                "2",
+                "--format",
+                "csv",
+            ],
             &["check", "pick-and-place.toml"],
             &["reduce", "linear-gripper.toml", "--positions", "3"],
             &[

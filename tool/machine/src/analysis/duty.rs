@@ -215,7 +215,7 @@ impl Instant {
             alpha: 0.0,
             ..moving.motion.at(t)
         };
-        let reduction = moving.reduction(&Now::of(t, 0.0), state.phi)?;
+        let reduction = moving.reduction(&Now::starting(t, direction), state.phi)?;
         let terms = TorqueTerms {
             coulomb: reduction.coulomb * direction,
             ..reduction.torque(0.0, 0.0)

@@ -278,7 +278,11 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
     let omega = state.map(|state| state.omega);
     Row {
         time: None,
-        now: Now { t, omega },
+        now: Now {
+            t,
+            omega,
+            starts: None,
+        },
         phi,
         state,
     }

@@ -38,9 +38,10 @@ impl When {
             })
         });
         let ways = self.travel.is_none_or(|travel| {
-            now.omega.is_some_and(|omega| match travel {
-                Travel::Forward => omega > 0.0,
-                Travel::Backward => omega < 0.0,
+            let way = now.starts.or(now.omega);
+            way.is_some_and(|way| match travel {
+                Travel::Forward => way > 0.0,
+                Travel::Backward => way < 0.0,
             })
         });
         in_time && ways
@@ -54,6 +55,8 @@ pub struct Now {
     pub t: Option<f64>,
     /// Speed of the drive link (rad/s, or m/s).
     pub omega: Option<f64>,
+    /// At rest, where a move begins: its direction, as a sign.
+    pub starts: Option<f64>,
 }
 
 impl Now {
@@ -62,6 +65,15 @@ impl Now {
         Self {
             t: Some(t),
             omega: Some(omega),
+            starts: None,
+        }
+    }
+
+    /// A time of the motion at which a move in this direction begins from rest.
+    pub const fn starting(t: f64, direction: f64) -> Self {
+        Self {
+            starts: Some(direction),
+            ..Self::of(t, 0.0)
         }
     }
 }
@@ -207,10 +219,18 @@ impl Schedule {
             times.push(Some(0.0));
             times.extend(schedule.times().into_iter().map(Some));
         }
-        let speeds = [None, Some(-1.0), Some(0.0), Some(1.0)];
+        let rest = Some(0.0);
+        let speeds = [
+            (None, None),
+            (Some(-1.0), None),
+            (Some(1.0), None),
+            (rest, None),
+            (rest, Some(-1.0)),
+            (rest, Some(1.0)),
+        ];
         let mut states: Vec<State> = Vec::new();
         for t in times {
-            states.extend(speeds.map(|omega| schedule.state(&Now { t, omega })));
+            states.extend(speeds.map(|(omega, starts)| schedule.state(&Now { t, omega, starts })));
         }
         states.sort();
         states.dedup();
@@ -286,9 +306,10 @@ impl Schedule {
     fn state(&self, now: &Now) -> State {
         let share = |load: &Scheduled| {
             if load.at_rest.is_some() && now.omega == Some(0.0) {
-                // The direction of a machine at rest is unknown: its value at rest is that of every direction.
+                // Where no move begins the direction is unknown: its value at rest is that of every direction.
+                let travel = load.when.travel.filter(|_| now.starts.is_some());
                 let when = When {
-                    travel: None,
+                    travel,
                     ..load.when.clone()
                 };
                 if when.holds(now, self.end) {

@@ -124,7 +124,12 @@ impl Contributions {
             (contributions.next, contributions.next_inertia) = (0, 0);
             // The cycle may take longer than that of the file.
             let t = instant.t * share;
-            let now = Now::of(t, instant.omega);
+            let starts = instant.omega == 0.0 && instant.direction != 0.0;
+            let now = if starts {
+                Now::starting(t, instant.direction)
+            } else {
+                Now::of(t, instant.omega)
+            };
             machine(&mut contributions, file, drive, (instant, &now))?;
             drive_parts(&mut contributions, file, drive, instant);
         }

@@ -215,8 +215,8 @@ impl Search<'_, '_> {
         let now = match self.course {
             Course::Motion(_) => Now::of(x, state.omega),
             Course::State(_) => Now {
-                t: None,
                 omega: Some(state.omega),
+                ..Now::default()
             },
         };
         let place = Place {
