@@ -174,7 +174,7 @@ fn energies_of_the_press() {
     // 150 N over twice the stroke of 60 mm; Coulomb friction of the guide alone.
     near(
         "guide",
-        effect("Coulomb").energy,
+        effect("dry friction").energy,
         150.0 * 0.12,
         budget::DEFAULT_STEPS,
     );
