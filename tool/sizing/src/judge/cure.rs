@@ -5,13 +5,13 @@ use jred_machine::model::rule::Rule;
 /// Keys that let a rule be checked: columns of the catalogue (docs/catalogue.md), or keys of the machine file.
 pub const fn cure(rule: Rule) -> &'static str {
     match rule {
-        Rule::RmsTorque => "rated_torque and rated_speed of the motor in the catalogue",
-        Rule::PeakTorque => "peak_torque of the motor in the catalogue",
+        Rule::RmsTorque => "the S1 rating of the motor in the catalogue",
+        Rule::PeakTorque => "the peak rating of the motor in the catalogue",
         Rule::Speed => "max_speed of the motor in the catalogue",
         Rule::HoldingTorque | Rule::ConstantTorque => {
-            "standstill_torque of the motor in the catalogue"
+            "the standstill rating of the motor in the catalogue"
         }
-        Rule::BrakeTorque => "brake_torque of the motor with its holding brake in the catalogue",
+        Rule::BrakeTorque => "the columns of the holding brake of the motor in the catalogue",
         Rule::InertiaRatio => "inertia_ratio in [rules]",
         Rule::WindingTemperature | Rule::HousingTemperature => {
             "thermal resistances, time constants and winding data of the motor in the catalogue"
@@ -22,13 +22,9 @@ pub const fn cure(rule: Rule) -> &'static str {
         Rule::GearboxMeanSpeed => "rated_input_speed of the gearbox in the catalogue",
         Rule::GearboxSpeed => "max_input_speed of the gearbox in the catalogue",
         Rule::GearboxCycles => "shock_factors of the gearbox in the catalogue",
-        Rule::RmsCurrent => {
-            "amplifiers in the catalogue, and torque_constant or rated_current of the motor"
-        }
-        Rule::PeakCurrent => "torque_constant or rated_current of the motor in the catalogue",
-        Rule::Overload => {
-            "peak_time of the amplifier and torque_constant of the motor in the catalogue"
-        }
+        Rule::RmsCurrent => "amplifiers in the catalogue, and k_t or rated_current of the motor",
+        Rule::PeakCurrent => "k_t or rated_current of the motor in the catalogue",
+        Rule::Overload => "peak_time of the amplifier and k_t of the motor in the catalogue",
         Rule::MotorVoltage => {
             "mains_voltage or max_bus_voltage of the motor in the catalogue, and mains_voltage in [supply]"
         }
