@@ -128,7 +128,7 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         }
     };
     let speed = |name: &str, text: &Option<String>| {
-        let speed = quantity(name, text, read::drive_speed, coordinate)?.unwrap_or(0.0);
+        let speed = quantity(name, text.as_deref(), read::drive_speed, coordinate)?.unwrap_or(0.0);
         if speed < 0.0 {
             return Err(miette!(
                 help = "speeds count in the direction of the move",
@@ -150,11 +150,11 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
 
 fn quantity(
     name: &str,
-    text: &Option<String>,
+    text: Option<&str>,
     read: read::Reader,
     coordinate: Coordinate,
 ) -> Result<Option<f64>> {
-    let value = text.as_deref().map(|text| {
+    let value = text.map(|text| {
         read(text, coordinate)
             .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
     });
@@ -165,7 +165,7 @@ fn quantity(
 fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limits> {
     let coordinate = file.machine.mechanism().coordinate();
     let read = |name: &str, text: &Option<String>, read: read::Reader| {
-        quantity(name, text, read, coordinate)
+        quantity(name, text.as_deref(), read, coordinate)
     };
     let acceleration = read(
         "max-acceleration",
@@ -191,17 +191,14 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
         return plain_motor(options, file, torque);
     }
     let filter = Filter::default();
-    let drive = match &options.drive {
-        Some(name) => {
-            let mut catalogue = catalogue(&options.supply, &filter)?;
-            fit_input(&mut catalogue, file)?;
-            ChosenDrive::of(&named(&catalogue, name)?.1)
-        }
-        None => {
-            file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
-            let study = study(&options.file, &options.supply, &filter)?;
-            ChosenDrive::choose(&study, None, &filter, None)?
-        }
+    let drive = if let Some(name) = &options.drive {
+        let mut catalogue = catalogue(&options.supply, &filter)?;
+        fit_input(&mut catalogue, file)?;
+        ChosenDrive::of(&named(&catalogue, name)?.1)
+    } else {
+        file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
+        let study = study(&options.file, &options.supply, &filter)?;
+        ChosenDrive::choose(&study, None, &filter, None)?
     };
     let drive = drive.drive();
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
@@ -226,10 +223,10 @@ fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Ch
         MotorKind::Rotary => Coordinate::Angle,
         MotorKind::Linear => Coordinate::Length,
     };
-    let effort = quantity("torque", &options.torque, read::drive_effort, coordinate)?;
+    let effort = quantity("torque", Some(torque), read::drive_effort, coordinate)?;
     let speed = quantity(
         "motor-speed",
-        &options.motor_speed,
+        options.motor_speed.as_deref(),
         read::largest_speed,
         coordinate,
     )?;
