@@ -371,7 +371,7 @@ fn fastest() {
                 &press[..2],
                 &plain,
                 &way,
-                &["--format", "csv", "--instants", "5"],
+                &["--format", "csv", "--instants", "2"],
             ]),
             &with(&[
                 &press[..2],

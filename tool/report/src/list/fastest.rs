@@ -20,6 +20,9 @@ use jred_sizing::study::cell::Cell;
 /// Name and version of the form in JSON.
 const SCHEMA: &str = "jred-fastest/1";
 
+/// What a motion is refined to: less is chance.
+const LEAST_EXCESS: f64 = 1e-9;
+
 /// The fastest motion of a machine with a drive.
 pub struct Answer<'a> {
     /// The machine.
@@ -183,7 +186,7 @@ impl Answer<'_> {
             &format!(
                 "duration within {:.0e} s; limits satisfied within {:.0e} between the nodes",
                 error.sum::<f64>().max(1e-16),
-                worst.fold(1e-16, f64::max)
+                worst.fold(LEAST_EXCESS, f64::max)
             ),
         );
         for (k, made) in cycle.moves.iter().enumerate() {
