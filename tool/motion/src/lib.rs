@@ -6,10 +6,14 @@
 //! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion;
 //! 2. [`moves`]: what a prescribed motion is made of, moves and pauses;
 //! 3. [`fastest`]: minimum time;
-//! 4. [`trace`]: a motion that was made, and the files that it becomes.
+//! 4. [`trace`]: a motion that was made, and the files that it becomes;
+//! 5. [`gentlest`]: least RMS torque, energy or peak in a given time;
+//! 6. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws.
 #![forbid(unsafe_code)]
 
 pub mod fastest;
+pub mod gentlest;
 pub mod moves;
+pub mod retime;
 pub mod trace;
 pub mod way;

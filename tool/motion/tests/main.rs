@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod fastest;
+mod gentlest;
 mod moves;
 #[path = "../../support/mod.rs"]
 mod support;

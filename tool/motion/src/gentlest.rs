@@ -1,0 +1,251 @@
+//! The gentlest motion: of all motions over a way in a given time the one with the least RMS torque, energy or peak torque.
+//!
+//! ```text
+//! minimise ∫ c(T) dt,   T = T(φ, v, a),   with ∫ dφ/v the given time
+//! ```
+//!
+//! In x = v² it is ∫ c(T)/√x dφ with T a straight line in (x′, x) at each φ: T²/√x and 1/√x are convex, so a stationary motion is the
+//! global optimum. Three things disturb that: viscous friction (√x enters T), the losses of gears (T bends where the power changes its
+//! direction), and a time longer than the motion would take of itself (the multiplier of the time is negative, as where a weight must be
+//! held). Whatever holds, [`bound`] gives a lower bound for all motions from a verification function, and the gap to it.
+//!
+//! - [`shape`](self): the path over a parameter along which w, the square of the pace, is smooth up to rest.
+//! - [`mesh`](self): w in cubic pieces, the machine at Gauss points.
+//! - [`solve`](self): Newton's method.
+//! - [`bound`](self): the lower bound;
+//! - [`task`](self): mesh after mesh, and the time that is better waited.
+
+use jred::Error;
+use jred_machine::model::motion::Phase;
+use jred_sizing::catalogue::Motor;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+
+use self::task::{Task, Waits, edges};
+use crate::way::{Actuator, Way};
+
+mod bound;
+mod cost;
+mod mesh;
+mod shape;
+mod skyline;
+mod solve;
+mod task;
+mod torque;
+
+/// What is to be least.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objective {
+    /// ∫T² dt: the RMS torque, copper loss.
+    Rms,
+    /// ∫(copper·T² + max(T·ω, 0)) dt: copper loss and the mechanical power that the motor draws; what flows back is not counted.
+    Energy {
+        /// Copper loss per square of the torque (W/(N·m)²).
+        copper: f64,
+    },
+    /// The peak of |T|, as the mean of a high power of it ([`PEAK_POWER`]).
+    Peak,
+}
+
+/// The power whose mean stands for the peak. The least peak of all motions is not less than the least of these means.
+pub const PEAK_POWER: i32 = 64;
+
+/// One move: a way in a time, in one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Travel {
+    /// Where it starts (rad, or m).
+    pub start: f64,
+    /// How far it goes, with its sign.
+    pub distance: f64,
+    /// How long it takes (s).
+    pub duration: f64,
+    /// Speeds at its ends along the way (rad/s, or m/s); zero is rest.
+    pub speeds: [f64; 2],
+    /// Share of the path's parameter, about that of the time, over which the acceleration rises from zero at the start and falls to
+    /// zero at the end; 0: it begins and ends with a jump.
+    pub ramp: f64,
+    /// Whether it goes on for ever: the end is the start, at a speed that is sought.
+    pub ring: bool,
+}
+
+/// The form of the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Ends {
+    rest: [bool; 2],
+    ramp: f64,
+    ring: bool,
+}
+
+impl Travel {
+    fn ends(&self) -> Ends {
+        Ends {
+            rest: self.speeds.map(|speed| speed == 0.0 && !self.ring),
+            ramp: if self.ring || self.ramp == 0.0 {
+                0.0
+            } else {
+                1.0 / mesh::ramps(self.ramp) as f64
+            },
+            ring: self.ring,
+        }
+    }
+}
+
+/// Why a motion could not be made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// The machine cannot be placed somewhere.
+    Machine(Error),
+    /// A figure is zero, negative or not finite where it may not be.
+    Figure(&'static str, f64),
+    /// Nothing that moves has inertia.
+    NoInertia,
+    /// The method did not come to an end: no motion of finite cost was found.
+    NotFound,
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
+    }
+}
+
+/// What is known of an optimum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Optimum {
+    /// No motion is better, by more than the gap.
+    Global,
+    /// Motions near it are not better; of others it is not known. The reason.
+    Local(Reason),
+}
+
+/// Why an optimum may be local only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// The time is longer than the motion takes of itself: waiting before or after it, where it is free, is better.
+    LongTime,
+    /// Viscous friction.
+    Viscous,
+    /// Losses of gears.
+    Losses,
+    /// Something else: the bound is too low.
+    Bound,
+}
+
+/// No drive: the torque at the input of the machine's drive train, without limits.
+pub fn without_drive() -> Actuator {
+    Actuator {
+        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
+        ratio: 1.0,
+        envelope: Envelope::of(&Motor::default()),
+    }
+}
+
+/// The gentlest motion of a move.
+#[derive(Clone, Debug)]
+pub struct Gentle {
+    /// The move.
+    pub travel: Travel,
+    /// How long it moves (s): less than the time of the move where waiting at an end costs less than to move slowly.
+    pub moving: f64,
+    /// Whether it waits at its end, not at its start.
+    pub waits_at_end: bool,
+    /// ∫c dt: of the square of the torque (N²·m²·s), of the power (J), of the torque's power in units of itself.
+    pub cost: f64,
+    /// No motion costs less; for the RMS torque and the energy.
+    pub bound: Option<f64>,
+    /// Lower bound on the peak torque of all motions in this time (N·m), where the peak is to be least and the optimum is global.
+    pub least_peak: Option<f64>,
+    /// What a second more costs: negative where it saves.
+    pub per_second: f64,
+    /// What is known of it.
+    pub optimum: Optimum,
+    /// Share by which the cost changed when the mesh was halved for the last time.
+    pub discretisation: f64,
+    /// Number of elements.
+    pub elements: usize,
+    /// The motion, in polynomials one after another.
+    pub phases: Vec<Phase>,
+}
+
+impl Gentle {
+    /// (cost − bound)/cost.
+    pub fn gap(&self) -> Option<f64> {
+        let bound = self.bound?;
+        Some(if self.cost > 0.0 {
+            ((self.cost - bound) / self.cost).max(0.0)
+        } else {
+            0.0
+        })
+    }
+}
+
+/// Elements of the first mesh, and most of the last.
+const FIRST: usize = 32;
+const MOST: usize = 512;
+
+/// The mesh is fine enough when halving it changes the cost by less than this share.
+const FINE: f64 = 1e-9;
+
+/// An optimum with a larger gap is not called global.
+pub const GAP: f64 = 1e-4;
+
+/// The gentlest motion.
+///
+/// Accuracy: for a constant inertia ∫T² is that of φ ∝ 3τ² − 2τ³ to 1e-9 (test `constant_inertia_is_the_cubic`).
+///
+/// # Errors
+/// See [`Fault`].
+pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
+    for (what, value) in [
+        ("distance", travel.distance.abs()),
+        ("duration", travel.duration),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Fault::Figure(what, value));
+        }
+    }
+    for speed in travel.speeds {
+        if !(speed >= 0.0 && speed.is_finite()) {
+            return Err(Fault::Figure("speed", speed));
+        }
+    }
+    if !(0.0..=0.25).contains(&travel.ramp) {
+        return Err(Fault::Figure("ramp", travel.ramp));
+    }
+    let task = Task {
+        way,
+        travel,
+        objective,
+        edges: edges(way, travel),
+    };
+    let at_rest = travel.ends().rest == [true; 2];
+    let held = if at_rest { task.held()? } else { [0.0; 2] };
+    let whole = task.solve(travel.duration, FIRST, None)?;
+    let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
+        Some(solved) => solved,
+        None if at_rest => {
+            let moving = task.shorter(&held)?;
+            task.solve(moving, FIRST, None)?.ok_or(Fault::NotFound)?
+        }
+        None => return Err(Fault::NotFound),
+    };
+    let moving = solved.moving;
+    let mut change = f64::INFINITY;
+    let mut parts = FIRST;
+    while parts < MOST && change > FINE {
+        parts *= 2;
+        let Some(next) = task.solve(moving, parts, Some(&solved))? else {
+            break;
+        };
+        let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
+        // What is left of a cost that can be none is rounding.
+        change = if cost > 1e-20 {
+            ((cost - before) / cost).abs()
+        } else {
+            0.0
+        };
+        solved = next;
+    }
+    let waits = Waits::new(travel.duration - moving, &held);
+    solved.finish(change, &waits)
+}

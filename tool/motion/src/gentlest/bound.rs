@@ -1,0 +1,387 @@
+//! A lower bound for all motions, by a verification function.
+//!
+//! For any functions P(u) and C(u) with P = C = 0 at ends at rest, and V = P·w + C·√w, every motion has
+//!
+//! ```text
+//! ∫ h(u, w, w′) du ≥ ∫ inf over w > 0, w′ of [h + λ/√w − dV/du] du − λ·T + V(1) − V(0),   dV/du = P′·w + C′·√w + (P + C/(2√w))·w′
+//! ```
+//!
+//! because λ·∫du/√w = λ·T, and ∫dV/du du is known. This needs no convexity. It is equality for the right P, which at the optimum is the
+//! derivative of h by w′: it is taken from the motion found. C is free; with C = 0 the bound is the dual problem's of the convex case.
+//! Where λ < 0, as with a weight that must be held, C from the torque that holds the machine at rest makes the bound finite.
+//! The integral is that of the mesh; the infimum is that of straight lines in w′ and a search over w in a range of speeds of 1 : 10,000.
+
+use super::Fault;
+use super::mesh::{GAUSS, Mesh};
+use super::solve::{Minimum, Problem, pace_at};
+use super::torque::Torque;
+use crate::way::Place;
+
+/// Ends and thirds of an element, at which C is taken.
+const THIRDS: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+
+/// w is looked for from this share of the motion's own on, in so many steps per power of ten, up to its inverse.
+const RANGE: i32 = 4;
+const STEPS: i32 = 4;
+
+/// Steps of the search by the golden section.
+const GOLDEN: u32 = 40;
+
+/// Most straight pieces of a torque.
+const PIECES: usize = 16;
+
+/// The best of the bounds, in the units of the problem: of the problem that is meant, P from the one with rounded bends.
+/// `price` is λ: the multiplier found, or what waiting saves.
+pub(super) fn value(problems: [&Problem; 2], found: &Minimum, price: f64) -> Result<f64, Fault> {
+    let plain = with(problems, found, price, 0.0)?;
+    Ok(plain.max(with(problems, found, price, 1.0)?))
+}
+
+/// P and P′ at every station: P′ is what stationarity asks, and P its integral, which closes over a whole move because the
+/// motion found is stationary.
+fn integrated(problem: &Problem, found: &Minimum) -> Vec<[f64; 2]> {
+    let mesh = problem.mesh;
+    let mut all = Vec::with_capacity(mesh.stations.len());
+    let (mut before, mut missed) = (0.0, 0.0);
+    for (index, element) in mesh.elements.iter().enumerate() {
+        let h = element.span[1] - element.span[0];
+        let mut slopes = [0.0; GAUSS.len()];
+        let first = index * GAUSS.len();
+        let mut own = [0.0; GAUSS.len()];
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            [*slope, own[k]] = problem.pull(&found.x, first + k, found.multiplier);
+        }
+        for (k, [z, weight]) in GAUSS.into_iter().enumerate() {
+            let p = before + h * integral(&slopes, z);
+            missed += weight * h * (own[k] - p);
+            all.push([p, slopes[k]]);
+        }
+        before += h * integral(&slopes, 1.0);
+    }
+    // At an end at rest P is zero, elsewhere what fits best. What is left at the other end is rounding, and is spread over the way.
+    let [starts, stops] = rests(mesh);
+    if stops || mesh.is_ring() {
+        for ([p, slope], station) in all.iter_mut().zip(&mesh.stations) {
+            *p -= before
+                * if starts || mesh.is_ring() {
+                    station.u
+                } else {
+                    1.0
+                };
+            *slope -= before * f64::from(u8::from(starts || mesh.is_ring()));
+        }
+    }
+    if mesh.is_ring() || !(starts || stops) {
+        for [p, _] in &mut all {
+            *p += missed;
+        }
+    }
+    all
+}
+
+/// Which ends are at rest.
+fn rests(mesh: &Mesh) -> [bool; 2] {
+    [0.0, 1.0].map(|u| mesh.shape.at(u)[1].abs() < 1e-12)
+}
+
+/// The integral from 0 to z of the polynomial through values at Gauss points of (0, 1).
+fn integral(values: &[f64; GAUSS.len()], z: f64) -> f64 {
+    let mut sum = 0.0;
+    for (k, [at, _]) in GAUSS.into_iter().enumerate() {
+        // Coefficients of Lagrange's polynomial.
+        let mut terms = [0.0; GAUSS.len()];
+        terms[0] = 1.0;
+        let mut size = 1.0;
+        let others = GAUSS.into_iter().enumerate().filter(|(j, _)| *j != k);
+        for (degree, (_, [other, _])) in others.enumerate() {
+            for i in (0..=degree + 1).rev() {
+                let lower = if i > 0 { terms[i - 1] } else { 0.0 };
+                let own = if i <= degree { terms[i] } else { 0.0 };
+                terms[i] = lower - other * own;
+            }
+            size *= at - other;
+        }
+        let mut power = z;
+        for (degree, term) in terms.into_iter().enumerate() {
+            sum += values[k] * term / size * power / (degree + 1) as f64;
+            power *= z;
+        }
+    }
+    sum
+}
+
+/// The bound with C of a share of the torque at rest.
+fn with(
+    [problem, rounded]: [&Problem; 2],
+    found: &Minimum,
+    price: f64,
+    held: f64,
+) -> Result<f64, Fault> {
+    let mesh = problem.mesh;
+    let last = mesh.elements.len() - 1;
+    let mut all = vec![[0.0; 4]; last + 1];
+    if held != 0.0 {
+        for (index, element) in mesh.elements.iter().enumerate() {
+            let [from, to] = element.span;
+            for (k, z) in THIRDS.into_iter().enumerate() {
+                // From inside, so that the load is that of the element.
+                let u = from + (to - from) * z.clamp(1e-9, 1.0 - 1e-9);
+                all[index][k] = held * of_rest(problem, u)?;
+            }
+        }
+        // It is continuous, and zero at rest.
+        for k in 0..last {
+            let middle = 0.5 * (all[k][3] + all[k + 1][0]);
+            (all[k][3], all[k + 1][0]) = (middle, middle);
+        }
+        let ends = if mesh.is_ring() {
+            0.5 * (all[last][3] + all[0][0])
+        } else {
+            0.0
+        };
+        let [starts, stops] = rests(mesh);
+        if starts || mesh.is_ring() {
+            all[0][0] = ends;
+        }
+        if stops || mesh.is_ring() {
+            all[last][3] = ends;
+        }
+    }
+    let p = integrated(rounded, found);
+    let mut sum = -price;
+    for (index, (element, own)) in mesh.elements.iter().zip(&all).enumerate() {
+        let [from, to] = element.span;
+        let h = to - from;
+        for (k, [z, _]) in GAUSS.into_iter().enumerate() {
+            let station = index * GAUSS.len() + k;
+            let [c, c1] = cubic(own, z, h);
+            let [w, change] = mesh.pace(&found.x, &mesh.stations[station]);
+            let root = w.sqrt();
+            let [p, p1] = p[station];
+            let line = Line {
+                p: p - c / (2.0 * root),
+                p1: p1 - c1 / (2.0 * root) + c * change / (4.0 * w * root),
+                c,
+                c1,
+                multiplier: price,
+            };
+            let least = line.least(problem, &found.x, station);
+            sum += mesh.stations[station].weight * least;
+        }
+    }
+    // V at the ends: of P·w the share with C cancels half of C·√w.
+    if !mesh.is_ring() {
+        let at = |index: usize, u: f64, p: f64, k: usize| {
+            let [w, ..] = pace_at(mesh, &found.x, index, u);
+            p * w + 0.5 * all[index][k] * w.sqrt()
+        };
+        let [first, end] = ends_of(rounded, found, &p);
+        let [starts, stops] = rests(mesh);
+        if !stops {
+            sum += at(last, 1.0, end, 3);
+        }
+        if !starts {
+            sum -= at(0, 0.0, first, 0);
+        }
+    }
+    Ok(if sum.is_nan() { f64::NEG_INFINITY } else { sum })
+}
+
+/// P at both ends.
+fn ends_of(problem: &Problem, found: &Minimum, p: &[[f64; 2]]) -> [f64; 2] {
+    let mesh = problem.mesh;
+    let count = GAUSS.len();
+    let part = |element: usize, z: f64| {
+        let [from, to] = mesh.elements[element].span;
+        let mut slopes = [0.0; GAUSS.len()];
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            *slope = problem.pull(&found.x, element * count + k, found.multiplier)[0];
+        }
+        (to - from) * integral(&slopes, z)
+    };
+    let last = mesh.elements.len() - 1;
+    let first = p[0][0] - part(0, GAUSS[0][0]);
+    let end = p[last * count][0] + part(last, 1.0) - part(last, GAUSS[0][0]);
+    [first, end]
+}
+
+/// The cubic through values at the thirds of an element of length h, and its derivative.
+fn cubic(values: &[f64; 4], z: f64, h: f64) -> [f64; 2] {
+    let [mut value, mut slope] = [0.0; 2];
+    for (k, at) in THIRDS.into_iter().enumerate() {
+        let (mut product, mut change) = (1.0, 0.0);
+        for (_, other) in THIRDS.into_iter().enumerate().filter(|(j, _)| *j != k) {
+            let part = (z - other) / (at - other);
+            change = change * part + product / (at - other);
+            product *= part;
+        }
+        value += values[k] * product;
+        slope += values[k] * change;
+    }
+    [value, slope / h]
+}
+
+/// C for the torque that holds the machine at rest.
+fn of_rest(problem: &Problem, u: f64) -> Result<f64, Fault> {
+    let [g, slope, _] = problem.mesh.shape.at(u);
+    let place = problem.place(g)?;
+    let rest = Torque::exact(problem.way, &place, 0.0, 0.0);
+    let by_change = rest.by_acceleration * 0.5 * slope * problem.length
+        / (problem.duration * problem.duration * problem.unit);
+    let [_, at_rest, _] = problem.cost.torque(rest.value / problem.unit);
+    Ok(2.0 * at_rest * by_change)
+}
+
+/// V and its change at a station.
+struct Line {
+    p: f64,
+    p1: f64,
+    c: f64,
+    c1: f64,
+    multiplier: f64,
+}
+
+impl Line {
+    /// The infimum over all w and w′.
+    fn least(&self, problem: &Problem, x: &[f64], station: usize) -> f64 {
+        let [own, _] = problem.mesh.pace(x, &problem.mesh.stations[station]);
+        let at = |power: f64| self.over_change(problem, station, own * 10f64.powf(power));
+        let (mut best, mut least) = (0, at(0.0));
+        for k in -RANGE * STEPS..=RANGE * STEPS {
+            let value = at(f64::from(k) / f64::from(STEPS));
+            if value < least || value.is_nan() {
+                (best, least) = (k, value);
+            }
+        }
+        let place = |k: i32| f64::from(k) / f64::from(STEPS);
+        let [mut low, mut high] = [place(best - 1), place(best + 1)];
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let [mut a, mut b] = [high - golden * (high - low), low + golden * (high - low)];
+        let [mut fa, mut fb] = [at(a), at(b)];
+        for _ in 0..GOLDEN {
+            if fa < fb {
+                (high, b, fb) = (b, a, fa);
+                a = high - golden * (high - low);
+                fa = at(a);
+            } else {
+                (low, a, fa) = (a, b, fb);
+                b = low + golden * (high - low);
+                fb = at(b);
+            }
+        }
+        least.min(fa).min(fb)
+    }
+
+    /// The infimum over w′ at a w.
+    fn over_change(&self, problem: &Problem, station: usize, w: f64) -> f64 {
+        let station = &problem.mesh.stations[station];
+        let root = w.sqrt();
+        let factor = self.p + self.c / (2.0 * root);
+        let t2 = problem.duration * problem.duration;
+        // a = free + per·w′
+        let [slope, bend] = station.path;
+        let (free, per) = (bend * w / t2, 0.5 * slope / t2);
+        let speed = slope * root / problem.duration;
+        let cost = |tau: f64| {
+            let [c, ..] = problem.cost.torque(tau);
+            let [m, ..] = problem.cost.drawn(tau);
+            c / root + problem.cost.drawn * m * slope
+        };
+        // Over a: h − factor·(a − free)/per, in straight pieces of τ = start + rise·(a − at).
+        let price = factor / per;
+        let pieces = pieces(problem, &station.place, speed);
+        let mut least = f64::INFINITY;
+        for piece in pieces.iter() {
+            let by_torque = price / piece.rise;
+            // Stationary with and without drawn power, and where the two meet.
+            let quiet = 0.5 * by_torque * root;
+            let drawing = 0.5 * (by_torque - problem.cost.drawn * slope) * root;
+            for tau in [quiet.min(0.0), drawing.max(0.0), 0.0, quiet] {
+                let tau = tau.clamp(piece.torques[0], piece.torques[1]);
+                let a = piece.at + (tau - piece.start) / piece.rise;
+                least = least.min(cost(tau) - price * (a - free));
+            }
+        }
+        least + self.multiplier / root - self.p1 * w - self.c1 * root
+    }
+}
+
+/// A straight piece of the torque over the acceleration, in units of the problem.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    at: f64,
+    start: f64,
+    rise: f64,
+    /// From where to where it reaches.
+    torques: [f64; 2],
+}
+
+/// A few pieces, without memory of their own.
+struct Pieces {
+    all: [Piece; PIECES],
+    count: usize,
+}
+
+impl Pieces {
+    fn iter(&self) -> impl Iterator<Item = &Piece> {
+        self.all[..self.count].iter()
+    }
+}
+
+/// The torque over the acceleration at a speed: convex, so two of its lines meet above it or at the bend between them.
+fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
+    let line = |a: f64| {
+        let demand = problem.way.demand(place, speed, a);
+        Piece {
+            at: a,
+            start: demand.torque / problem.unit,
+            rise: demand.per_acceleration / problem.unit,
+            torques: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    };
+    let middle = line(0.0);
+    let mut pieces = Pieces {
+        all: [middle; PIECES],
+        count: 1,
+    };
+    if problem.smooth == 0.0 {
+        return pieces;
+    }
+    // Far enough on both sides that nothing bends beyond.
+    let far = 1e6 * (1.0 + middle.start.abs() + (place.load / problem.unit).abs()) / middle.rise;
+    let mut lines = vec![line(-far), line(far)];
+    let mut k = 0;
+    while k + 1 < lines.len() && lines.len() < PIECES {
+        let [left, right] = [lines[k], lines[k + 1]];
+        if right.rise - left.rise <= 1e-9 * right.rise {
+            lines.remove(k + 1);
+            continue;
+        }
+        let meet = (right.start - left.start + left.rise * left.at - right.rise * right.at)
+            / (left.rise - right.rise);
+        let there = line(meet);
+        let expected = left.start + left.rise * (meet - left.at);
+        let own = |side: Piece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
+        if own(left) || own(right) || (there.start - expected).abs() <= 1e-9 * expected.abs() {
+            k += 1;
+        } else {
+            lines.insert(k + 1, there);
+        }
+    }
+    let mut from = f64::NEG_INFINITY;
+    pieces.count = 0;
+    for (k, own) in lines.iter().enumerate() {
+        let to = lines.get(k + 1).map_or(f64::INFINITY, |next| {
+            let meet = (next.start - own.start + own.rise * own.at - next.rise * next.at)
+                / (own.rise - next.rise);
+            own.start + own.rise * (meet - own.at)
+        });
+        pieces.all[pieces.count] = Piece {
+            torques: [from, to],
+            ..*own
+        };
+        pieces.count += 1;
+        from = to;
+    }
+    pieces
+}

@@ -1,0 +1,323 @@
+//! Elements and stations of a move: w(u), the square of the pace, in cubic pieces.
+//!
+//! With s = D·g(u) the way, v = D·g′·√w and a = D·(g″·w + ½·g′·w′): both w and w′ enter the acceleration and the square of the speed in
+//! straight lines, so that what is convex in v² and a stays convex in the unknowns. w and its slope are continuous, but at an edge of a
+//! load or a cam, where the acceleration jumps: there each side has a slope of its own.
+
+use jred::Error;
+
+use super::shape::Shape;
+use super::skyline::Skyline;
+use super::{Ends, Travel};
+use crate::way::{Place, Way};
+
+/// Gauss and Legendre's five points in (0, 1), and their weights.
+pub(super) const GAUSS: [[f64; 2]; 5] = [
+    [0.046_910_077_030_668_004, 0.118_463_442_528_094_54],
+    [0.230_765_344_947_158_45, 0.239_314_335_249_683_23],
+    [0.5, 0.284_444_444_444_444_44],
+    [0.769_234_655_052_841_5, 0.239_314_335_249_683_23],
+    [0.953_089_922_969_332, 0.118_463_442_528_094_54],
+];
+
+/// A value at an end of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value {
+    /// An unknown.
+    Free(usize),
+    /// Given.
+    Fixed(f64),
+}
+
+/// A piece of the path: w, w′ at its start, w, w′ at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    pub(super) span: [f64; 2],
+    pub(super) values: [Value; 4],
+}
+
+/// A point of the quadrature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Station {
+    pub(super) element: usize,
+    /// u
+    pub(super) u: f64,
+    /// In the integral over u.
+    pub(super) weight: f64,
+    pub(super) place: Place,
+    /// D·g′, D·g″
+    pub(super) path: [f64; 2],
+    /// What the four values give to w, and to w′.
+    pub(super) basis: [[f64; 4]; 2],
+}
+
+/// The elements of a move.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    pub(super) shape: Shape,
+    pub(super) elements: Vec<Element>,
+    /// Parts of the elements, each with Gauss points of its own: the element and its span.
+    pub(super) cells: Vec<(usize, [f64; 2])>,
+    pub(super) stations: Vec<Station>,
+    pub(super) unknowns: usize,
+    ring: bool,
+}
+
+/// What the four values of an element of length h give to w, w′ and w″ at the share z of it.
+pub(super) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
+    let z2 = z * z;
+    let z3 = z2 * z;
+    [
+        [
+            2.0 * z3 - 3.0 * z2 + 1.0,
+            h * (z3 - 2.0 * z2 + z),
+            3.0 * z2 - 2.0 * z3,
+            h * (z3 - z2),
+        ],
+        [
+            6.0 * (z2 - z) / h,
+            3.0 * z2 - 4.0 * z + 1.0,
+            6.0 * (z - z2) / h,
+            3.0 * z2 - 2.0 * z,
+        ],
+        [
+            (12.0 * z - 6.0) / (h * h),
+            (6.0 * z - 4.0) / h,
+            (6.0 - 12.0 * z) / (h * h),
+            (6.0 * z - 2.0) / h,
+        ],
+    ]
+}
+
+/// How the slopes at a node are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Node {
+    /// One slope.
+    Smooth,
+    /// A slope on each side.
+    Edge,
+}
+
+/// Elements of a motion whose acceleration is continuous: as many as the ramp, the first of them, goes into the whole.
+pub(super) fn ramps(ramp: f64) -> usize {
+    ((1.0 / ramp).round() as usize).max(4)
+}
+
+impl Mesh {
+    /// About `parts` elements for a move, or, where the acceleration is continuous, so many cells of the quadrature; `edges` are the
+    /// shares of the way at which a load begins or ends.
+    pub(super) fn new(
+        way: &Way,
+        travel: &Travel,
+        edges: &[f64],
+        parts: usize,
+    ) -> Result<Self, Error> {
+        let ends = travel.ends();
+        let shape = Shape::new(ends);
+        let marks = edges.iter().map(|share| shape.place(*share));
+        let fine = nodes(marks.collect(), parts);
+        let nodes = if ends.ramp > 0.0 {
+            let count = ramps(ends.ramp);
+            let node = |k: usize| (k as f64 / count as f64, Node::Smooth);
+            (0..=count).map(node).collect()
+        } else {
+            fine.clone()
+        };
+        let (elements, unknowns) = elements(&shape, travel, ends, &nodes);
+        let cells = if ends.ramp > 0.0 {
+            cells(&elements, &fine)
+        } else {
+            (0..elements.len()).map(|k| (k, elements[k].span)).collect()
+        };
+        let mut stations = Vec::with_capacity(GAUSS.len() * cells.len());
+        let way_length = travel.distance.abs();
+        for &(element, [from, to]) in &cells {
+            let [start, end] = elements[element].span;
+            let h = to - from;
+            for [z, weight] in GAUSS {
+                let u = from + z * h;
+                let [g, slope, bend] = shape.at(u);
+                let [value, change, _] = hermite((u - start) / (end - start), end - start);
+                stations.push(Station {
+                    element,
+                    u,
+                    weight: weight * h,
+                    place: way.place(travel.start + travel.distance * g)?,
+                    path: [slope, bend].map(|derivative| derivative * way_length),
+                    basis: [value, change],
+                });
+            }
+        }
+        Ok(Self {
+            shape,
+            elements,
+            cells,
+            stations,
+            unknowns,
+            ring: ends.ring,
+        })
+    }
+
+    /// Whether the end is the start.
+    pub(super) const fn is_ring(&self) -> bool {
+        self.ring
+    }
+
+    /// w and w′ at a station.
+    pub(super) fn pace(&self, x: &[f64], station: &Station) -> [f64; 2] {
+        let values = self.values(x, station.element);
+        station.basis.map(|basis| dot(&basis, &values))
+    }
+
+    /// The four values of an element.
+    pub(super) fn values(&self, x: &[f64], element: usize) -> [f64; 4] {
+        self.elements[element].values.map(|value| match value {
+            Value::Free(index) => x[index],
+            Value::Fixed(value) => value,
+        })
+    }
+
+    /// The unknowns of a function of u with its slope.
+    pub(super) fn sample(&self, f: impl Fn(usize, f64) -> [f64; 2]) -> Vec<f64> {
+        let mut x = vec![0.0; self.unknowns];
+        for (index, element) in self.elements.iter().enumerate() {
+            for (end, u) in element.span.into_iter().enumerate() {
+                for (k, value) in f(index, u).into_iter().enumerate() {
+                    if let Value::Free(at) = element.values[2 * end + k] {
+                        x[at] = value;
+                    }
+                }
+            }
+        }
+        x
+    }
+
+    /// The matrix of the unknowns, bordered by one row for the time.
+    pub(super) fn matrix(&self) -> Skyline {
+        let mut first: Vec<usize> = (0..self.unknowns).collect();
+        for element in &self.elements {
+            let free = element.values.iter().filter_map(|value| match value {
+                Value::Free(index) => Some(*index),
+                Value::Fixed(_) => None,
+            });
+            let free: Vec<usize> = free.collect();
+            let least = free.iter().copied().min().unwrap_or(0);
+            for index in free {
+                first[index] = first[index].min(least);
+            }
+        }
+        first.push(0);
+        Skyline::new(first)
+    }
+}
+
+pub(super) fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Shortest distance of an edge from another node, as a share of u.
+const APART: f64 = 1e-7;
+
+/// About `parts` equal pieces, cut at marks.
+fn nodes(mut marks: Vec<f64>, parts: usize) -> Vec<(f64, Node)> {
+    marks.extend([0.0, 1.0]);
+    marks.sort_by(f64::total_cmp);
+    marks.dedup_by(|a, b| *a - *b < APART);
+    let mut nodes = Vec::new();
+    for pair in marks.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let count = ((parts as f64 * (to - from)).ceil() as usize).max(2);
+        nodes.push((from, Node::Edge));
+        for k in 1..count {
+            let u = from + (to - from) * k as f64 / count as f64;
+            nodes.push((u, Node::Smooth));
+        }
+    }
+    nodes.push((1.0, Node::Edge));
+    nodes
+}
+
+/// The elements cut at the nodes of a finer row.
+fn cells(elements: &[Element], fine: &[(f64, Node)]) -> Vec<(usize, [f64; 2])> {
+    let mut cells = Vec::new();
+    for (index, element) in elements.iter().enumerate() {
+        let [mut from, to] = element.span;
+        for (u, _) in fine {
+            if *u > from + APART && *u < to - APART {
+                cells.push((index, [from, *u]));
+                from = *u;
+            }
+        }
+        cells.push((index, [from, to]));
+    }
+    cells
+}
+
+/// The values at a node: slope on the left, w, slope on the right.
+type Values = [Value; 3];
+
+fn elements(
+    shape: &Shape,
+    travel: &Travel,
+    ends: Ends,
+    nodes: &[(f64, Node)],
+) -> (Vec<Element>, usize) {
+    let last = nodes.len() - 1;
+    let mut unknowns = 0;
+    let mut next = || {
+        unknowns += 1;
+        Value::Free(unknowns - 1)
+    };
+    let level = Value::Fixed(0.0);
+    let mut all: Vec<Values> = Vec::with_capacity(nodes.len());
+    for (k, (u, kind)) in nodes.iter().enumerate() {
+        let end = match k {
+            0 => Some(0),
+            _ if k == last => Some(1),
+            _ => None,
+        };
+        if let (Some(_), true) = (end, ends.ring) {
+            all.push([level; 3]);
+            continue;
+        }
+        if let Some(end) = end.filter(|end| !ends.rest[*end]) {
+            // At an end that moves, the speed is given, and with ramps the acceleration is zero.
+            let [_, slope, bend] = shape.at(*u);
+            let pace = travel.speeds[end] * travel.duration / (travel.distance.abs() * slope);
+            let w = pace * pace;
+            let change = if ends.ramp > 0.0 {
+                Value::Fixed(-2.0 * bend * w / slope)
+            } else {
+                next()
+            };
+            all.push([change, Value::Fixed(w), change]);
+            continue;
+        }
+        all.push(match kind {
+            Node::Smooth => {
+                let w = next();
+                let slope = next();
+                [slope, w, slope]
+            }
+            Node::Edge => {
+                let left = if k == 0 { level } else { next() };
+                let w = next();
+                let right = if k == last { level } else { next() };
+                [left, w, right]
+            }
+        });
+    }
+    if ends.ring {
+        let (w, left, right) = (next(), next(), next());
+        all[0] = [left, w, right];
+        all[last] = [left, w, right];
+    }
+    let elements = all.windows(2).zip(nodes.windows(2)).map(|(values, nodes)| {
+        let [[_, w0, s0], [s1, w1, _]] = [values[0], values[1]];
+        Element {
+            span: [nodes[0].0, nodes[1].0],
+            values: [w0, s0, w1, s1],
+        }
+    });
+    (elements.collect(), unknowns)
+}

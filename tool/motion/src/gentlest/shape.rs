@@ -1,0 +1,123 @@
+//! The path over a parameter u from 0 to 1 that has the form of a motion's ends: the pace du/dt is then smooth up to rest.
+//!
+//! Near rest the speed is no smooth function of the position: v² ∝ φ where the acceleration begins with a jump, v² ∝ φ^(4/3) where it
+//! begins with a constant jerk. Along g(u) with g ∝ u² or u³ there, the square of the pace is smooth and greater than zero.
+
+use super::Ends;
+
+/// g(u) with g(0) = 0 and g(1) = 1, in cubic pieces.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    /// Where each piece begins, and its Taylor series there.
+    pieces: Vec<(f64, [f64; 4])>,
+}
+
+impl Shape {
+    /// For ends at rest (or not), with ramps of the acceleration over a share of u (or none).
+    pub(super) fn new(ends: Ends) -> Self {
+        let [starts, stops] = ends.rest;
+        let ramp = ends.ramp;
+        // The second derivative is a straight line between these.
+        let mut knots: Vec<[f64; 2]> = Vec::new();
+        if ramp > 0.0 && starts {
+            knots.push([0.0, 0.0]);
+        }
+        let from = if starts { ramp } else { 0.0 };
+        let to = if stops { 1.0 - ramp } else { 1.0 };
+        let (first, last) = match (starts, stops) {
+            (true, true) => (1.0, -1.0),
+            (true, false) => (1.0, 1.0),
+            (false, true) => (-1.0, -1.0),
+            (false, false) => (0.0, 0.0),
+        };
+        knots.push([from, first]);
+        knots.push([to, last]);
+        if ramp > 0.0 && stops {
+            knots.push([1.0, 0.0]);
+        }
+        let change: f64 = knots
+            .windows(2)
+            .map(|k| 0.5 * (k[0][1] + k[1][1]) * (k[1][0] - k[0][0]))
+            .sum();
+        // The slope at the start: what is left at the end is zero at rest.
+        let mut state = [0.0, 0.0];
+        if !starts {
+            state[1] = if stops { -change } else { 1.0 };
+        }
+        let mut pieces = Vec::new();
+        for pair in knots.windows(2) {
+            let [[u, bend], [end, next]] = [pair[0], pair[1]];
+            let h = end - u;
+            let jerk = (next - bend) / h;
+            let [g, slope] = state;
+            pieces.push((u, [g, slope, bend, jerk]));
+            state = [
+                g + h * (slope + h * (bend / 2.0 + h * jerk / 6.0)),
+                slope + h * (bend + h * jerk / 2.0),
+            ];
+        }
+        for (_, taylor) in &mut pieces {
+            for term in taylor {
+                *term /= state[0];
+            }
+        }
+        Self { pieces }
+    }
+
+    /// [g, g′, g″] at u.
+    pub(super) fn at(&self, u: f64) -> [f64; 3] {
+        let index = self.pieces.partition_point(|(from, _)| *from <= u).max(1) - 1;
+        let (from, [g, slope, bend, jerk]) = self.pieces[index];
+        let h = u - from;
+        [
+            g + h * (slope + h * (bend / 2.0 + h * jerk / 6.0)),
+            slope + h * (bend + h * jerk / 2.0),
+            bend + h * jerk,
+        ]
+    }
+
+    /// Where g has a value between 0 and 1.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let [mut low, mut high] = [0.0, 1.0];
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.at(middle)[0] < value {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ends, Shape};
+
+    /// Every form goes from 0 to 1, rises, has no slope at rest, and with ramps no bend there.
+    #[test]
+    fn ends_are_as_asked() {
+        for rest in [[true, true], [true, false], [false, true], [false, false]] {
+            for ramp in [0.0, 0.1, 0.3] {
+                let ends = Ends {
+                    rest,
+                    ramp,
+                    ring: false,
+                };
+                let shape = Shape::new(ends);
+                let [first, last] = [0.0, 1.0].map(|u| shape.at(u));
+                assert!(first[0].abs() < 1e-15 && (last[0] - 1.0).abs() < 1e-15);
+                for (end, rest) in [first, last].into_iter().zip(rest) {
+                    assert_eq!(end[1].abs() < 1e-15, rest, "{end:?}");
+                    if rest {
+                        assert_eq!(end[2].abs() < 1e-14, ramp > 0.0, "{end:?}");
+                    }
+                }
+                assert!((1..100).all(|k| shape.at(f64::from(k) / 100.0)[1] > 0.0));
+                let u = shape.place(0.3);
+                assert!((shape.at(u)[0] - 0.3).abs() < 1e-14);
+            }
+        }
+    }
+}

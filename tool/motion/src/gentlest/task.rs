@@ -1,0 +1,456 @@
+//! A move solved on one mesh after another, in numbers of its own.
+
+use jred::machine::motion::{End, Polynomial};
+use jred::mechanism::TrainOutput;
+use jred::{Domain, Reducible as _};
+use jred_machine::model::motion::Phase;
+use jred_sizing::cycle::form::loads_of;
+
+use super::cost::Cost;
+use super::mesh::{GAUSS, Mesh};
+use super::solve::{self, Minimum, Problem};
+use super::torque::Torque;
+use super::{
+    FIRST, Fault, GAP, Gentle, MOST, Objective, Optimum, PEAK_POWER, Reason, Travel, bound,
+};
+use crate::way::{Place, Way};
+
+/// Most steps down to a time that is too short, and halvings after that.
+const LONGEST: u32 = 60;
+const HALVINGS: u32 = 24;
+
+/// Ranges of the loads over which bends are rounded, one after another, as shares of the largest load.
+const RANGES: [f64; 2] = [1e-1, 1e-2];
+
+/// Range of the torque over which the bend of the drawn power is rounded, as a share of the torque's unit.
+const ROUNDING: f64 = 1e-3;
+
+/// The square of the torque.
+const PLAIN: Cost = Cost {
+    power: 2,
+    drawn: 0.0,
+    rounding: 0.0,
+};
+
+/// Shares of the way at which a load begins or ends or a cam's segments meet, without its ends.
+pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
+    let machine = &way.file.machine;
+    let mut shares = Vec::new();
+    for edge in (0..).map_while(|k| machine.edge(k)) {
+        let share = |place: f64| (place - travel.start) / travel.distance;
+        if machine.domain() != Domain::Turn {
+            shares.push(share(edge));
+            continue;
+        }
+        let turn = std::f64::consts::TAU;
+        let [low, high] = [0.0, travel.distance].map(|way| (travel.start + way - edge) / turn);
+        let (first, last) = (low.min(high).floor() as i64, low.max(high).ceil() as i64);
+        // More passages than elements are no places to cut at.
+        for k in (first..=last).take(MOST) {
+            shares.push(share(edge + k as f64 * turn));
+        }
+    }
+    shares.retain(|share| *share > 1e-9 && *share < 1.0 - 1e-9);
+    shares
+}
+
+/// The unknowns of a finer mesh.
+fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
+    finer.sample(|element, u| {
+        // From inside the finer element, so that an edge has the slope of its own side.
+        let [from, to] = finer.elements[element].span;
+        let inside = 0.5 * (from + to);
+        let at = mesh.elements.partition_point(|e| e.span[1] <= inside);
+        let at = at.min(mesh.elements.len() - 1);
+        let [w, slope, _] = solve::pace_at(mesh, x, at, u);
+        [w, slope]
+    })
+}
+
+/// A move with its objective.
+pub(super) struct Task<'a> {
+    pub(super) way: &'a Way<'a>,
+    pub(super) travel: &'a Travel,
+    pub(super) objective: Objective,
+    pub(super) edges: Vec<f64>,
+}
+
+/// One of the problems that are solved one after another, the last of which is meant.
+#[derive(Clone, Copy, Debug)]
+struct Stage {
+    cost: Cost,
+    /// Share of the largest load.
+    range: f64,
+}
+
+/// A task in numbers of its own: for a time in which it moves.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    /// N·m
+    unit: f64,
+    /// Largest load (N·m).
+    load: f64,
+    /// Whether the torque bends.
+    bends: bool,
+}
+
+/// A solution on a mesh.
+pub(super) struct Solved<'t> {
+    task: &'t Task<'t>,
+    /// s
+    pub(super) moving: f64,
+    scale: Scale,
+    stage: Stage,
+    mesh: Mesh,
+    pub(super) found: Minimum,
+}
+
+/// Where the motion waits because that costs less than to move slowly.
+pub(super) struct Waits {
+    duration: f64,
+    at_end: bool,
+    /// Torque that holds the machine there (N·m).
+    torque: f64,
+}
+
+impl Waits {
+    pub(super) fn new(duration: f64, held: &[f64; 2]) -> Self {
+        let at_end = held[1].abs() <= held[0].abs();
+        Self {
+            duration,
+            at_end,
+            torque: held[usize::from(at_end)],
+        }
+    }
+}
+
+impl Task<'_> {
+    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted.
+    pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
+        let file = self.way.file;
+        let torque = |phi: f64| -> Result<f64, Fault> {
+            let bare = file.bare_reduction(phi)?;
+            let input = file.drive_train.input(&TrainOutput {
+                torque: bare.torque(0.0, 0.0).total(),
+                ..TrainOutput::default()
+            });
+            let coefficients = &self.way.actuator.coefficients;
+            Ok(coefficients.torque(&loads_of(0.0, input.torque, 0.0)))
+        };
+        let Travel {
+            start, distance, ..
+        } = *self.travel;
+        Ok([torque(start)?, torque(start + distance)?])
+    }
+
+    /// The time (s) after which waiting is better than to go on moving: where a second more costs what holding costs.
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<f64, Fault> {
+        let mut last: Option<Solved> = None;
+        let mut high = self.travel.duration;
+        // First down to a time that is too short, then between.
+        let mut low: Option<f64> = None;
+        let mut halvings = 0;
+        for _ in 0..LONGEST {
+            if halvings == HALVINGS {
+                break;
+            }
+            let middle = low.map_or(0.8 * high, |low| (low * high).sqrt());
+            halvings += u32::from(low.is_some());
+            let solved = self.solve(middle, FIRST, last.as_ref())?;
+            let short = solved.as_ref().map(|solved| solved.excess(held) <= 0.0);
+            if short == Some(true) {
+                low = Some(middle);
+            } else {
+                high = middle;
+            }
+            last = solved.or(last);
+        }
+        low.ok_or(Fault::NotFound)
+    }
+
+    /// Scale of the torques, from the motion with w = 1.
+    fn scale(&self, mesh: &Mesh, moving: f64) -> Result<Scale, Fault> {
+        let x = mesh.sample(|_, _| [1.0, 0.0]);
+        let mut scale = Scale {
+            unit: 1.0,
+            load: 0.0,
+            bends: false,
+        };
+        let stage = Stage {
+            cost: PLAIN,
+            range: 0.0,
+        };
+        let problem = self.problem(mesh, moving, &scale, &stage);
+        let (mut squares, mut load, mut bends) = (0.0, 0.0f64, false);
+        for (index, station) in mesh.stations.iter().enumerate() {
+            let ([speed, acceleration], torque) = problem.torque(&x, index);
+            if !torque.value.is_finite() {
+                return Err(Fault::Figure("torque", torque.value));
+            }
+            if torque.by_acceleration <= 0.0 {
+                return Err(Fault::NoInertia);
+            }
+            squares += station.weight * torque.value * torque.value;
+            let place = &station.place;
+            let of_speed = 0.5 * place.inertia_slope * speed * speed + place.viscous * speed;
+            load =
+                load.max((place.inertia * acceleration).abs() + place.load.abs() + of_speed.abs());
+            let big = 1e6 * (1.0 + load);
+            let [back, on] = [-big, big].map(|load| {
+                let place = Place { load, ..*place };
+                Torque::exact(self.way, &place, speed, acceleration).by_load
+            });
+            bends |= back < on * (1.0 - 1e-9);
+        }
+        if squares > 0.0 {
+            scale.unit = squares.sqrt();
+        }
+        Ok(Scale {
+            load,
+            bends,
+            ..scale
+        })
+    }
+
+    /// The cost that is meant, in numbers of its own.
+    fn goal(&self, scale: &Scale, moving: f64) -> Result<Stage, Fault> {
+        let cost = match self.objective {
+            Objective::Rms => PLAIN,
+            Objective::Energy { copper } => {
+                if !(copper > 0.0 && copper.is_finite()) {
+                    return Err(Fault::Figure("copper loss", copper));
+                }
+                Cost {
+                    drawn: self.way.motor_speed(1.0) / (copper * scale.unit * moving),
+                    rounding: ROUNDING,
+                    ..PLAIN
+                }
+            }
+            Objective::Peak => Cost {
+                power: PEAK_POWER,
+                ..PLAIN
+            },
+        };
+        let range = if scale.bends { RANGES[1] } else { 0.0 };
+        Ok(Stage { cost, range })
+    }
+
+    fn problem<'p>(
+        &'p self,
+        mesh: &'p Mesh,
+        moving: f64,
+        scale: &Scale,
+        stage: &Stage,
+    ) -> Problem<'p> {
+        Problem {
+            way: self.way,
+            mesh,
+            duration: moving,
+            unit: scale.unit,
+            cost: stage.cost,
+            range: stage.range * scale.load,
+            smooth: if scale.bends {
+                RANGES[1] * scale.load
+            } else {
+                0.0
+            },
+            length: self.travel.distance.abs(),
+            course: [self.travel.start, self.travel.distance],
+        }
+    }
+
+    /// The solution on a mesh, from another one's if there is one. `None`: the method did not come to its end.
+    pub(super) fn solve<'t>(
+        &'t self,
+        moving: f64,
+        parts: usize,
+        from: Option<&Solved>,
+    ) -> Result<Option<Solved<'t>>, Fault> {
+        let travel = Travel {
+            duration: moving,
+            ..*self.travel
+        };
+        let mesh = Mesh::new(self.way, &travel, &self.edges, parts)?;
+        let scale = self.scale(&mesh, moving)?;
+        let stage = self.goal(&scale, moving)?;
+        let mut found = from.and_then(|from| {
+            let x = refined(&from.mesh, &from.found.x, &mesh);
+            self.problem(&mesh, moving, &scale, &stage).minimise(&x)
+        });
+        if found.as_ref().is_none_or(|found| !found.converged) {
+            let mut x = mesh.sample(|_, _| [1.0, 0.0]);
+            for stage in Self::stages(&scale, &stage) {
+                found = self.problem(&mesh, moving, &scale, &stage).minimise(&x);
+                if let Some(found) = &found {
+                    x.clone_from(&found.x);
+                }
+            }
+        }
+        let found = found.filter(|found| found.converged);
+        Ok(found.map(|found| Solved {
+            task: self,
+            moving,
+            scale,
+            stage,
+            mesh,
+            found,
+        }))
+    }
+
+    /// From the easiest problem to the one that is meant.
+    fn stages(scale: &Scale, goal: &Stage) -> Vec<Stage> {
+        let mut stages = Vec::new();
+        let plain = Cost {
+            power: 2,
+            ..goal.cost
+        };
+        let ranges = if scale.bends { &RANGES[..] } else { &[0.0] };
+        for &range in ranges {
+            let cost = Cost {
+                rounding: 1e-1,
+                ..plain
+            };
+            stages.push(Stage { cost, range });
+        }
+        if goal.cost.drawn > 0.0 {
+            for rounding in [1e-1, 1e-2, ROUNDING] {
+                let cost = Cost { rounding, ..plain };
+                stages.push(Stage { cost, ..*goal });
+            }
+        }
+        let mut power = 2;
+        while power < goal.cost.power {
+            power *= 2;
+            let cost = Cost { power, ..goal.cost };
+            stages.push(Stage { cost, ..*goal });
+        }
+        stages
+    }
+}
+
+impl Solved<'_> {
+    /// What a second more costs above what a second of holding costs, in numbers of its own.
+    fn excess(&self, held: &[f64; 2]) -> f64 {
+        let least = held.map(f64::abs).into_iter().fold(f64::INFINITY, f64::min);
+        let [holding, ..] = self.stage.cost.torque(least / self.scale.unit);
+        -self.found.multiplier - holding
+    }
+
+    /// Whether waiting is better than to move for so long.
+    pub(super) fn waits(&self, held: &[f64; 2]) -> bool {
+        self.excess(held) > 1e-6 * self.found.cost
+    }
+
+    pub(super) fn finish(self, change: f64, waits: &Waits) -> Result<Gentle, Fault> {
+        let Self {
+            task,
+            moving,
+            scale,
+            stage,
+            mesh,
+            found,
+        } = self;
+        let way = task.way;
+        // What is meant, without rounding.
+        let exact = Stage {
+            range: 0.0,
+            cost: Cost {
+                rounding: 0.0,
+                ..stage.cost
+            },
+        };
+        let rounded = task.problem(&mesh, moving, &scale, &stage);
+        let problem = task.problem(&mesh, moving, &scale, &exact);
+        let cost = problem.value(&found.x).ok_or(Fault::NotFound)?;
+        // In N²·m²·s, J; of the peak in s.
+        let size = match task.objective {
+            Objective::Rms => scale.unit * scale.unit,
+            Objective::Energy { copper } => copper * scale.unit * scale.unit,
+            Objective::Peak => 1.0,
+        };
+        let [holding, ..] = exact.cost.torque(waits.torque / scale.unit);
+        let held = size * holding * waits.duration;
+        let viscous = mesh.stations.iter().any(|s| s.place.viscous > 0.0)
+            || way.actuator.coefficients.0[3] > 0.0;
+        // Of a wait that costs nothing the multiplier is zero.
+        let waiting = waits.duration > 0.0;
+        let multiplier = if waiting { -holding } else { found.multiplier };
+        let whole = task.travel.ends().ramp == 0.0;
+        let bound = if whole && task.objective != Objective::Peak {
+            let bound = bound::value([&problem, &rounded], &found, multiplier)?;
+            let bound = size * moving * bound + held;
+            // One that is negative says nothing.
+            (bound >= 0.0).then_some(bound)
+        } else {
+            None
+        };
+        let cost = size * moving * cost + held;
+        let convex = !viscous && !scale.bends && multiplier >= -1e-9 * found.cost;
+        let proved = convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
+        let optimum = if proved {
+            Optimum::Global
+        } else if viscous {
+            Optimum::Local(Reason::Viscous)
+        } else if scale.bends {
+            Optimum::Local(Reason::Losses)
+        } else if multiplier < 0.0 {
+            Optimum::Local(Reason::LongTime)
+        } else {
+            Optimum::Local(Reason::Bound)
+        };
+        let peak = found.cost.powf(1.0 / f64::from(PEAK_POWER)) * scale.unit;
+        let least_peak = (task.objective == Objective::Peak && proved).then_some(peak);
+        let mut phases = phases(task.travel.distance, moving, &mesh, &found.x);
+        if waiting {
+            let still = Phase {
+                duration: waits.duration,
+                polynomial: Polynomial::constant_jerk([0.0; 3]),
+            };
+            let place = if waits.at_end { phases.len() } else { 0 };
+            phases.insert(place, still);
+        }
+        Ok(Gentle {
+            travel: *task.travel,
+            moving,
+            waits_at_end: waits.at_end,
+            cost,
+            bound,
+            least_peak,
+            per_second: -multiplier * size,
+            optimum,
+            discretisation: change,
+            elements: mesh.elements.len(),
+            phases,
+        })
+    }
+}
+
+/// The motion as polynomials of fifth degree, one for each cell.
+fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
+    let mut phases = Vec::with_capacity(mesh.cells.len());
+    for &(index, [from, to]) in &mesh.cells {
+        let h = to - from;
+        let time: f64 = GAUSS
+            .iter()
+            .map(|[z, weight]| {
+                let [w, ..] = solve::pace_at(mesh, x, index, from + z * h);
+                weight * h / w.sqrt()
+            })
+            .sum();
+        let state = |u: f64| {
+            let [g, slope, bend] = mesh.shape.at(u);
+            let [w, change, _] = solve::pace_at(mesh, x, index, u);
+            let speed = distance * slope * w.sqrt() / duration;
+            let acceleration = distance * (bend * w + 0.5 * slope * change) / (duration * duration);
+            (distance * g, End::new(speed, acceleration))
+        };
+        let (start, first) = state(from);
+        let (end, last) = state(to);
+        let span = time * duration;
+        phases.push(Phase {
+            duration: span,
+            polynomial: Polynomial::between(end - start, span, first, last),
+        });
+    }
+    phases
+}

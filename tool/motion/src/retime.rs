@@ -1,0 +1,410 @@
+//! The moves of a machine file, each in the time that it has, in the gentlest way; beside it the motion laws.
+
+use jred::Error;
+use jred::machine::motion::Law;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::{Motion, Phase, Segment};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::motor::winding::CurrentCurve;
+
+use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Travel};
+use crate::moves::{self, Move, NoMoves, Part};
+use crate::trace::{Node, Trace};
+use crate::way::{Actuator, Way};
+
+use self::even::constant_energy;
+
+mod even;
+
+/// The laws of VDI 2143 between two rests, by the names of machine files.
+pub const LAWS: [(&str, Law); 9] = [
+    (
+        "parabola",
+        Law::Trapezoid {
+            accelerate: 0.5,
+            decelerate: 0.5,
+        },
+    ),
+    (
+        "trapezoid",
+        Law::Trapezoid {
+            accelerate: 1.0 / 3.0,
+            decelerate: 1.0 / 3.0,
+        },
+    ),
+    ("simple-sine", Law::SimpleSine),
+    ("cycloidal", Law::Cycloidal),
+    ("modified-sine", Law::ModifiedSine),
+    ("modified-trapezoid", Law::ModifiedTrapezoid),
+    ("gutman", Law::Gutman),
+    ("polynomial-345", Law::Polynomial345),
+    ("polynomial-4567", Law::Polynomial4567),
+];
+
+/// Temperature of the winding (°C) at which the copper loss is taken.
+pub const WINDING: f64 = 20.0;
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// What moves the machine.
+    pub actuator: Actuator,
+    /// Copper loss per square of the torque (W/(N·m)²), where it is known.
+    pub copper: Option<f64>,
+    /// What is to be least.
+    pub goal: Goal,
+    /// Share of a move's time over which its acceleration rises and falls; 0: it jumps at rest.
+    pub ramp: f64,
+    /// Time steps of the duty.
+    pub steps: usize,
+}
+
+jred_machine::words! {
+    /// What is to be least, over the cycle.
+    pub enum Goal default Rms {
+        /// RMS torque: the heat in the motor.
+        Rms = "rms",
+        /// Copper loss and the mechanical work that the motor delivers; what flows back is not deducted.
+        Energy = "energy",
+        /// Largest torque.
+        Peak = "peak",
+    }
+}
+
+/// Copper loss per square of the torque of a drive's motor (W/(N·m)²), its winding at 20 °C, up to the torque where the iron saturates.
+/// `None`: resistance or torque constant is not stated.
+pub fn copper(drive: &Drive) -> Option<f64> {
+    let constant = CurrentCurve::of(drive.motor)?.torque_constant();
+    let resistance = drive.motor.winding.loss_resistance(WINDING)?;
+    Some(resistance / (constant * constant))
+}
+
+/// What a motion asks of the motor, or of the input of the drive train.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// RMS torque over the cycle (N·m).
+    pub rms: f64,
+    /// Largest magnitude of the torque (N·m).
+    pub peak: f64,
+    /// Mechanical work that the motor delivers in a cycle (J); what flows back is not deducted.
+    pub drawn: f64,
+    /// Copper loss in a cycle (J).
+    pub copper: Option<f64>,
+    /// Largest speed (rad/s).
+    pub speed: f64,
+    /// Largest share of the drive's short-time torque; infinite beyond its largest speed.
+    pub used: f64,
+}
+
+impl Figures {
+    /// The figure that is to be least.
+    pub fn of(&self, goal: Goal) -> f64 {
+        match goal {
+            Goal::Rms => self.rms,
+            Goal::Peak => self.peak,
+            Goal::Energy => self.drawn + self.copper.unwrap_or(0.0),
+        }
+    }
+}
+
+/// A motion of the comparison.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it asks.
+    pub figures: Figures,
+}
+
+/// The result.
+#[derive(Clone, Debug)]
+pub struct Retimed {
+    /// The motion of the file.
+    pub own: Figures,
+    /// The laws, or of a rotation without rest the classical motions.
+    pub laws: Vec<Row>,
+    /// The gentlest motion.
+    pub best: Figures,
+    /// Its moves, one after another.
+    pub moves: Vec<Gentle>,
+    /// Lower bound of the figure that is to be least, for all motions with these moves in these times.
+    pub bound: Option<f64>,
+    /// Whether it turns without rest.
+    pub endless: bool,
+    /// The motion.
+    pub motion: Motion,
+    /// The same as nodes over the time.
+    pub trace: Trace,
+}
+
+impl Retimed {
+    /// What is known of the optimum: of all moves the least.
+    pub fn optimum(&self) -> Optimum {
+        let all = self.moves.iter().map(|gentle| gentle.optimum);
+        all.fold(Optimum::Global, |all, own| match all {
+            Optimum::Global => own,
+            Optimum::Local(_) => all,
+        })
+    }
+
+    /// The law with the smallest figure.
+    pub fn best_law(&self, goal: Goal) -> Option<&Row> {
+        let by = |a: &&Row, b: &&Row| a.figures.of(goal).total_cmp(&b.figures.of(goal));
+        self.laws.iter().min_by(by)
+    }
+}
+
+/// Why there is no result.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// The machine cannot be placed somewhere.
+    Machine(Error),
+    /// The motion is not made of moves, nor does it turn for ever.
+    NoMoves(NoMoves),
+    /// The figures of the copper loss are not known.
+    NoCopper,
+    /// A move of the motion, by its number from 1 on.
+    Move(usize, Move, Fault),
+}
+
+impl From<Error> for Obstacle {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
+    }
+}
+
+/// Share of the speed by which start and end of an endless motion may differ.
+const CLOSED: f64 = 1e-6;
+
+/// The motion of a file in the gentlest way, beside the laws.
+///
+/// # Errors
+/// See [`Obstacle`].
+pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<Retimed, Obstacle> {
+    let objective = match (request.goal, request.copper) {
+        (Goal::Rms, _) => Objective::Rms,
+        (Goal::Peak, _) => Objective::Peak,
+        (Goal::Energy, Some(copper)) => Objective::Energy { copper },
+        (Goal::Energy, None) => return Err(Obstacle::NoCopper),
+    };
+    let parts = match moves::parts(motion) {
+        Ok(parts) => parts,
+        Err(why) => vec![ring(motion).ok_or(Obstacle::NoMoves(why))?],
+    };
+    let endless = moves::parts(motion).is_err();
+    let asked = Asked {
+        file,
+        request,
+        cyclic: motion.cyclic,
+        start: motion.at(0.0).phi,
+    };
+    let mut gentle = Vec::new();
+    for part in &parts {
+        let Part::Move(step) = part else { continue };
+        let travel = Travel {
+            start: step.from,
+            distance: step.to - step.from,
+            duration: step.duration,
+            speeds: [0.0; 2],
+            ramp: request.ramp,
+            ring: endless,
+        };
+        let way = asked.way(step);
+        let found = gentlest::gentlest(&way, &travel, objective);
+        let number = gentle.len() + 1;
+        gentle.push(found.map_err(|fault| Obstacle::Move(number, *step, fault))?);
+    }
+    let mut found = gentle.iter();
+    let best = asked.motion(&parts, |step| {
+        let phases = found.next().map(|gentle| gentle.phases.clone());
+        Segment::phases(step.to - step.from, phases.unwrap_or_default())
+    })?;
+    let laws = if endless {
+        asked.classical(&parts)?
+    } else {
+        let rows = LAWS.into_iter().map(|(name, law)| {
+            let motion = asked.motion(&parts, |step| {
+                Segment::law(step.to - step.from, step.duration, law)
+            })?;
+            let figures = asked.figures(&motion)?;
+            Ok(Row { name, figures })
+        });
+        rows.collect::<Result<_, Error>>()?
+    };
+    let figures = asked.figures(&best)?;
+    let duration = best.duration();
+    let bound = bound(&gentle, &figures, duration, request.goal);
+    Ok(Retimed {
+        own: asked.figures(motion)?,
+        laws,
+        best: figures,
+        bound,
+        endless,
+        trace: trace(file, &parts, &gentle),
+        moves: gentle,
+        motion: best,
+    })
+}
+
+/// A motion that turns for ever as one move.
+fn ring(motion: &Motion) -> Option<Part> {
+    let duration = motion.duration();
+    let [start, end] = [motion.at(0.0), motion.at(duration)];
+    let closed = (end.omega - start.omega).abs() <= CLOSED * start.omega.abs();
+    (motion.cyclic && closed && start.omega != 0.0).then_some(Part::Move(Move {
+        from: start.phi,
+        to: end.phi,
+        duration,
+    }))
+}
+
+/// The bound of all moves together, with what the pauses cost.
+fn bound(moves: &[Gentle], figures: &Figures, duration: f64, goal: Goal) -> Option<f64> {
+    if goal == Goal::Peak {
+        let least = moves.iter().map(|gentle| gentle.least_peak);
+        return least
+            .collect::<Option<Vec<f64>>>()
+            .map(|all| all.into_iter().fold(0.0, f64::max));
+    }
+    let mut missing = 0.0;
+    for gentle in moves {
+        missing += (gentle.cost - gentle.bound?).max(0.0);
+    }
+    Some(match goal {
+        Goal::Rms => (figures.rms * figures.rms - missing / duration)
+            .max(0.0)
+            .sqrt(),
+        _ => figures.of(goal) - missing,
+    })
+}
+
+/// The machine with what is asked.
+struct Asked<'a> {
+    file: &'a MachineFile,
+    request: &'a Request,
+    cyclic: bool,
+    start: f64,
+}
+
+impl Asked<'_> {
+    fn way(&self, step: &Move) -> Way<'_> {
+        let direction = (step.to - step.from).signum();
+        Way::new(self.file, self.request.actuator.clone(), direction)
+    }
+
+    /// The same parts with other moves.
+    fn motion(
+        &self,
+        parts: &[Part],
+        mut with: impl FnMut(&Move) -> Segment,
+    ) -> Result<Motion, Error> {
+        let segments: Vec<Segment> = parts
+            .iter()
+            .map(|part| match part {
+                Part::Move(step) => with(step),
+                Part::Dwell { duration, .. } => Segment::dwell(*duration),
+            })
+            .collect();
+        let motion = Motion::segments(self.start, &segments, self.cyclic);
+        motion.map_err(|(_, error)| error.into())
+    }
+
+    fn figures(&self, motion: &Motion) -> Result<Figures, Error> {
+        let duty = Duty::new(self.file, motion, self.request.steps)?;
+        let cycle = Cycle::new(&duty);
+        let Actuator {
+            coefficients,
+            ratio,
+            envelope,
+        } = &self.request.actuator;
+        let rms = cycle.rms_torque(coefficients);
+        let [drawn, _] = cycle.energies(coefficients, *ratio);
+        let copper = (self.request.copper).map(|copper| copper * rms * rms * cycle.duration());
+        Ok(Figures {
+            rms,
+            peak: cycle.peak_torque(coefficients),
+            drawn,
+            copper,
+            speed: cycle.peak_speed() * ratio,
+            used: cycle.peak(coefficients, *ratio, envelope).used,
+        })
+    }
+
+    /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
+    fn classical(&self, parts: &[Part]) -> Result<Vec<Row>, Error> {
+        let steady = self.motion(parts, |step| {
+            let distance = step.to - step.from;
+            Segment::constant_speed(distance, step.duration, distance / step.duration)
+        })?;
+        let mut even = Vec::new();
+        for part in parts {
+            if let Part::Move(step) = part {
+                even = constant_energy(&self.way(step), step)?;
+            }
+        }
+        let even = self.motion(parts, |step| {
+            Segment::phases(step.to - step.from, even.clone())
+        })?;
+        Ok(vec![
+            Row {
+                name: "constant speed",
+                figures: self.figures(&steady)?,
+            },
+            Row {
+                name: "constant kinetic energy",
+                figures: self.figures(&even)?,
+            },
+        ])
+    }
+}
+
+/// The motion as nodes.
+fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Trace {
+    let coordinate = file.machine.mechanism().coordinate();
+    let mut trace = Trace::new(coordinate, Vec::new());
+    let mut moves = moves.iter();
+    for part in parts {
+        match part {
+            Part::Dwell { at, duration } => {
+                if trace.nodes().is_empty() {
+                    trace = Trace::from_rest(coordinate, *at);
+                }
+                trace.dwell(*duration);
+            }
+            Part::Move(step) => {
+                let phases = moves.next().map_or(&[][..], |gentle| &gentle.phases);
+                trace.then(&nodes(step.from, phases));
+            }
+        }
+    }
+    trace
+}
+
+fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
+    let mut nodes: Vec<Node> = Vec::with_capacity(phases.len() + 1);
+    let (mut t, mut phi) = (0.0, from);
+    for phase in phases {
+        let [_, omega, alpha, _] = phase.polynomial.at(0.0);
+        match nodes.last_mut() {
+            Some(node) => node.alpha[1] = alpha,
+            None => nodes.push(Node {
+                t,
+                phi,
+                omega,
+                alpha: [0.0, alpha],
+            }),
+        }
+        let [way, omega, alpha, _] = phase.polynomial.at(phase.duration);
+        t += phase.duration;
+        phi += way;
+        nodes.push(Node {
+            t,
+            phi,
+            omega,
+            alpha: [alpha, 0.0],
+        });
+    }
+    nodes
+}

@@ -1,0 +1,57 @@
+//! A rotation at constant kinetic energy.
+
+use jred::Error;
+use jred::machine::motion::{End, Polynomial};
+use jred_machine::model::motion::Phase;
+use jred_machine::number::numerics::gauss;
+
+use crate::moves::Move;
+use crate::way::{Place, Way};
+
+/// Parts of a turn at constant kinetic energy.
+const PARTS: usize = 512;
+
+/// ω ∝ 1/√J, J with rotor, gearbox and drive train, as one torque moves them all.
+pub(super) fn constant_energy(way: &Way, step: &Move) -> Result<Vec<Phase>, Error> {
+    let distance = step.to - step.from;
+    // Inertia and its slope along the way.
+    let inertia = |share: f64| -> Result<[f64; 2], Error> {
+        let place = way.place(step.from + distance * share)?;
+        let whole = way.demand(&place, 0.0, 0.0).per_acceleration;
+        let bare = Place {
+            inertia: 0.0,
+            load: place.load,
+            ..place
+        };
+        let without = way.demand(&bare, 0.0, 0.0).per_acceleration;
+        let by_load = (whole - without) / place.inertia;
+        Ok([whole, by_load * place.inertia_slope])
+    };
+    let mut times = Vec::with_capacity(PARTS);
+    let mut ends = Vec::with_capacity(PARTS + 1);
+    for k in 0..=PARTS {
+        ends.push(inertia(k as f64 / PARTS as f64)?);
+    }
+    for k in 0..PARTS {
+        let root = |share: f64| Ok::<_, Error>(inertia(share)?[0].sqrt());
+        let ends = [k, k + 1].map(|k| k as f64 / PARTS as f64);
+        let time = distance.abs() * gauss(&root, ends)?;
+        times.push(time);
+    }
+    let scale = step.duration / times.iter().sum::<f64>();
+    let state = |[whole, slope]: [f64; 2]| {
+        let speed = 1.0 / (scale * whole.sqrt());
+        let acceleration = -0.5 * speed * speed * slope / whole;
+        End::new(distance.signum() * speed, distance.signum() * acceleration)
+    };
+    let phases = times.iter().zip(ends.windows(2)).map(|(time, ends)| Phase {
+        duration: scale * time,
+        polynomial: Polynomial::between(
+            distance / PARTS as f64,
+            scale * time,
+            state(ends[0]),
+            state(ends[1]),
+        ),
+    });
+    Ok(phases.collect())
+}
