@@ -3,7 +3,9 @@
 pub mod bus;
 mod core_error;
 pub mod fastest;
+mod drive;
 pub mod ratio;
+pub mod retime;
 pub mod sensitivity;
 pub mod size;
 pub mod split;
@@ -74,6 +76,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Simulate(options) => run_simulate(options),
         options::Command::Steady(options) => steady::steady(options),
         options::Command::Fastest(options) => fastest::fastest(options),
+        options::Command::Retime(options) => retime::retime(options),
         options::Command::Export(options) => run_export(options),
         options::Command::Rules(options) => print(&list::rule_list::show(
             options.set.as_deref(),
@@ -99,6 +102,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Simulate(_) => "following the motion",
         Command::Steady(_) => "seeking the steady cycle",
         Command::Fastest(_) => "seeking the fastest motion",
+        Command::Retime(_) => "seeking the gentlest motion",
         Command::Export(_) => "seeking the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",

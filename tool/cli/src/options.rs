@@ -3,6 +3,8 @@
 pub mod bus;
 pub mod catalogue;
 pub mod fastest;
+pub mod drive;
+pub mod retime;
 pub mod search;
 mod word;
 
@@ -61,6 +63,8 @@ pub enum Command {
     Steady(Steady),
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
     Fastest(fastest::Fastest),
+    /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, beside all motion laws.
+    Retime(retime::Retime),
     /// Write the smallest firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.

@@ -19,6 +19,7 @@ fn help_of_every_command() {
         "simulate",
         "steady",
         "fastest",
+        "retime",
         "export",
         "rules",
         "split",

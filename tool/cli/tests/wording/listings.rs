@@ -406,6 +406,41 @@ fn fastest() {
 }
 
 #[test]
+fn retime() {
+    let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];
+    let desk = Desk::new().with_machines(&machines);
+    let with = |file: &'static str, more: &[&'static str]| {
+        [&["retime", file, "--steps", "500"], more].concat()
+    };
+    let drive = [
+        "--motor",
+        "sgmsh-30a",
+        "--gearbox",
+        "npt025mf-5",
+        "--catalogue",
+        "drives",
+    ];
+    compare(
+        "retime",
+        &desk.runs(&[
+            &with("press.toml", &[]),
+            &with("press.toml", &drive),
+            &with(
+                "press.toml",
+                &[&drive[..], &["--objective", "peak"]].concat(),
+            ),
+            &with("press.toml", &["--ends", "zero", "--ramp", "5 %"]),
+            &with(
+                "vertical-axis.toml",
+                &["--out", "motion.csv", "--cam", "cam.csv"],
+            ),
+            &with("scotch-yoke.toml", &[]),
+            &with("press.toml", &["--format", "csv", "--rows", "16"]),
+        ]),
+    );
+}
+
+#[test]
 fn split() {
     let desk = Desk::new();
     let split = ["split", "--ratio", "30", "--stages"];

@@ -8,6 +8,7 @@ pub mod front;
 pub mod inspection;
 pub mod listing;
 pub mod ratio;
+pub mod retime;
 pub mod rule_list;
 pub mod sensitivity;
 pub mod simulation;

@@ -1,0 +1,145 @@
+//! `jred retime`: the gentlest motion.
+
+use std::path::Path;
+
+use miette::{Report, Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::{Done, drive, print_parts};
+use crate::options::retime::{Ends, Retime};
+use crate::output;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::number::rounding::short;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_motion::gentlest::{Fault, without_drive};
+use jred_motion::moves::{Move, NoMoves};
+use jred_motion::retime::{self, Obstacle, Request};
+use jred_motion::way::Actuator;
+use jred_report::list;
+use jred_sizing::motor::envelope::Envelope;
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or no motion of moves and pauses.
+pub fn retime(options: &Retime) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    output::check([("--out", &options.out), ("--cam", &options.cam)])?;
+    variator::refuse(&file, "retime")?;
+    let motion = file.required_motion()?;
+    let catalogue = drive::catalogue(&options.drive, &file)?;
+    let drive = catalogue.as_ref();
+    let drive = drive.map(|catalogue| drive::named(&options.drive, catalogue));
+    let drive = drive.transpose()?;
+    let actuator = drive.map_or_else(without_drive, |drive| {
+        let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+        Actuator::new(&drive, envelope)
+    });
+    let request = Request {
+        actuator,
+        copper: drive.as_ref().and_then(retime::copper),
+        goal: options.objective,
+        ramp: match options.ends {
+            Ends::Free => 0.0,
+            Ends::Zero => options.ramp,
+        },
+        steps: options.steps as usize,
+    };
+    let retimed = retime::retime(&file, motion, &request).map_err(|obstacle| {
+        report(
+            &options.file,
+            options.drive.motor.as_deref(),
+            &file,
+            &obstacle,
+        )
+    })?;
+    let rows = options.rows as usize;
+    let mut written = String::new();
+    for (path, what, text) in [
+        (&options.out, "motion", retimed.trace.profile(rows)),
+        (&options.cam, "cam table", retimed.trace.cam(rows)),
+    ] {
+        if let Some(path) = path {
+            output::write(path, text.as_bytes())?;
+            written += &[what, " written to ", &plain::path(path), "\n"].concat();
+        }
+    }
+    let shown = list::retime::Shown {
+        file: &file,
+        drive: drive.map(|drive| drive.name()),
+        request: &request,
+        retimed: &retimed,
+        rows,
+        written,
+    };
+    print_parts([list::retime::write(&shown, options.format)])?;
+    let exceeds = retimed.best.used > 1.0;
+    Ok(if exceeds { Done::Violated } else { Done::Holds })
+}
+
+/// Why there is no motion.
+fn report(
+    path: &Path,
+    motor: Option<&str>,
+    file: &MachineFile,
+    obstacle: &Obstacle,
+) -> Report {
+    let name = plain::path(path);
+    match obstacle {
+        Obstacle::Machine(error) => core_report(*error),
+        Obstacle::NoMoves(NoMoves::Still) => miette!(
+            help = "give a motion with at least one move",
+            "nothing moves in the motion of {name}"
+        ),
+        Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
+            let coordinate = file.machine.mechanism().coordinate();
+            let unit = coordinate.speed_unit();
+            miette!(
+                help = "a motion that is to be made anew begins and ends at rest; or it is cyclic and turns on with the speed that it \
+                        begins with",
+                "the motion of {name} {} at {} {unit}",
+                if *at_end { "ends" } else { "begins" },
+                short(*speed)
+            )
+        }
+        Obstacle::NoCopper => match motor {
+            None => miette!(
+                help = "name the drive: --motor KEY, and --gearbox KEY if it has one",
+                "the energy contains the copper loss of a motor, and no motor is given"
+            ),
+            Some(motor) => miette!(
+                help = "fill in resistance and torque constant in the catalogue (docs/catalogue.md), or use --objective rms",
+                "the copper loss of {motor:?} is not known: the catalogue does not state its resistance or its torque constant"
+            ),
+        },
+        Obstacle::Move(number, step, fault) => of_move(*number, step, fault, file),
+    }
+}
+
+fn of_move(number: usize, step: &Move, fault: &Fault, file: &MachineFile) -> Report {
+    let coordinate = file.machine.mechanism().coordinate();
+    let place = format!(
+        "move {number} of the motion, from {} to {} in {} s",
+        coordinate.place(step.from),
+        coordinate.place(step.to),
+        short(step.duration)
+    );
+    match fault {
+        Fault::Machine(error) => core_report(*error),
+        Fault::Figure(what, value) => miette!(
+            help =
+                "give a move with a distance and a duration that are not extremely small or large",
+            "{place}: the {what} {value} cannot be used"
+        ),
+        Fault::NoInertia => miette!(
+            help = "give the links a mass or an inertia",
+            "{place}: nothing that moves has inertia"
+        ),
+        Fault::NotFound => miette!(
+            help = "try --ends zero, or another --objective",
+            "{place}: the search for the gentlest motion did not come to an end"
+        ),
+    }
+}

@@ -1,0 +1,72 @@
+//! `jred retime`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::drive::OneDrive;
+use super::word::word;
+use super::{MOST_STEPS, output_file};
+use jred_motion::retime::Goal;
+use jred_report::table::output::Format;
+
+jred_machine::words! {
+    /// How a move begins and ends.
+    pub enum Ends default Free {
+        /// The acceleration jumps at rest: the least of all motions.
+        Free = "free",
+        /// The acceleration is zero at rest and continuous: for machines that must not be shaken.
+        Zero = "zero",
+    }
+}
+
+/// `jred retime`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 done; 1 the motion needs more torque or speed than the drive has; 2 bad input."
+)]
+pub struct Retime {
+    /// Machine file.
+    pub file: PathBuf,
+    /// What is to be least.
+    #[arg(long, value_parser = word::<Goal>(), default_value_t)]
+    pub objective: Goal,
+    /// How a move begins and ends.
+    #[arg(long, value_parser = word::<Ends>(), default_value_t)]
+    pub ends: Ends,
+    /// With --ends zero: share of a move's time for the acceleration to rise, e.g. "10 %". The motion has so many pieces.
+    #[arg(long, value_name = "SHARE", default_value = "10 %", value_parser = ramp)]
+    pub ramp: f64,
+    /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".
+    #[arg(long, value_name = "CSV", value_parser = output_file())]
+    pub out: Option<PathBuf>,
+    /// Write it to this file as a table for an electronic cam.
+    #[arg(long, value_name = "CSV", value_parser = output_file())]
+    pub cam: Option<PathBuf>,
+    /// Rows of these files.
+    #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    pub rows: u32,
+    /// Output format.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+    /// Number of time steps per cycle, of the figures in the table.
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=MOST_STEPS))]
+    pub steps: u32,
+    /// The drive that moves the machine.
+    #[command(flatten)]
+    pub drive: OneDrive,
+}
+
+/// A ramp's share of a move.
+fn ramp(text: &str) -> Result<f64, String> {
+    let parsed = match text.strip_suffix('%') {
+        Some(percent) => percent.trim().parse::<f64>().map(|x| x / 100.0),
+        None => text.parse(),
+    };
+    let share = parsed.map_err(|_| "write a share such as 0.1 or \"10 %\"")?;
+    if (0.02..=0.25).contains(&share) {
+        Ok(share)
+    } else {
+        Err("it must be from 2 % to 25 %".to_owned())
+    }
+}
