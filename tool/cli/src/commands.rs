@@ -10,6 +10,7 @@ pub mod sensitivity;
 pub mod size;
 pub mod split;
 pub mod steady;
+mod suited;
 pub mod tolerance;
 pub mod vary;
 

@@ -136,6 +136,16 @@ pub struct Check {
     pub format: CheckFormat,
 }
 
+jred_machine::words! {
+    /// Which motion drives are judged with.
+    pub enum Moved default Own {
+        /// That of the machine file.
+        Own = "own",
+        /// The same moves in the same times with the least RMS torque for the smallest drive that is suitable with such a motion; see `jred retime`.
+        Best = "best",
+    }
+}
+
 /// `jred size`
 #[derive(Debug, Args)]
 #[command(
@@ -147,6 +157,9 @@ pub struct Size {
     /// Catalogue, rules and time steps.
     #[command(flatten)]
     pub supply: search::SizingOptions,
+    /// Which motion the drives are judged with.
+    #[arg(long, value_parser = word::<Moved>(), default_value_t, conflicts_with = "rank")]
+    pub motion: Moved,
     /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
     /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [

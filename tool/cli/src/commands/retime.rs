@@ -80,7 +80,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
 }
 
 /// Why there is no motion.
-fn report(
+pub(super) fn report(
     path: &Path,
     motor: Option<&str>,
     file: &MachineFile,

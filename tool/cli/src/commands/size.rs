@@ -5,13 +5,15 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
+use crate::commands::suited::Judging;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, print};
-use crate::options::Size;
+use crate::options::{Moved, Size};
 use crate::output;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::warnings::warnings;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
 use jred_machine::model::variator;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
@@ -43,10 +45,22 @@ pub fn size(options: &Size) -> Result<Done> {
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
+    let motors = catalogue.prepare(&file.site);
+    if options.motion == Moved::Best {
+        let judging = Judging {
+            options,
+            file: &file,
+            own: motion,
+            filter: &filter,
+            catalogue: &catalogue,
+            motors: &motors,
+        };
+        file.motion = suited(&judging)?.or(file.motion);
+    }
+    let motion = file.required_motion()?;
     let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
     let cycle = Cycle::new(&duty);
     let warnings = warnings(&file).map_err(core_report)?;
-    let motors = catalogue.prepare(&file.site);
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
     let gaps = options.search.apply(&filter, &mut selection);
     let selection = selection;
@@ -124,6 +138,17 @@ pub fn size(options: &Size) -> Result<Done> {
     } else {
         Done::Holds
     })
+}
+
+/// The motion that suits the best drive, said before the list; `None`: the file's stays.
+fn suited(judging: &Judging) -> Result<Option<Motion>> {
+    let (best, says) = judging.best()?;
+    if judging.options.format == Format::Table {
+        print(&format!("{says}\n\n"))?;
+    } else {
+        output::say(&says);
+    }
+    Ok(best)
 }
 
 /// The Pareto front of the drives that violate no rule.

@@ -28,6 +28,7 @@ fn size() {
     let size = |more: &[&str]| press.run(&sized(&[&["size", "press.toml"], more].concat()));
     compare("size", &size(&[]));
     compare("size-explain", &size(&["--explain", "--nearest", "1"]));
+    compare("size-motion", &size(&["--motion", "best", "--top", "3"]));
     compare("size-all", &size(&["--all"]));
     compare(
         "size-why",
