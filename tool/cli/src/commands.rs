@@ -3,7 +3,6 @@
 pub mod bus;
 mod core_error;
 pub mod fastest;
-mod drive;
 pub mod ratio;
 pub mod retime;
 pub mod sensitivity;

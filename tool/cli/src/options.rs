@@ -3,7 +3,6 @@
 pub mod bus;
 pub mod catalogue;
 pub mod fastest;
-pub mod drive;
 pub mod retime;
 pub mod search;
 mod word;

@@ -7,6 +7,7 @@ mod catalogues;
 mod help;
 mod listings;
 mod machine_files;
+mod motions;
 mod options;
 mod reports;
 

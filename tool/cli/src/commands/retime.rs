@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive, print_parts};
+use crate::commands::{Done, print_parts};
 use crate::options::retime::{Ends, Retime};
 use crate::output;
 use jred_machine::model::machine::MachineFile;
@@ -19,6 +19,8 @@ use jred_motion::retime::{self, Obstacle, Request};
 use jred_motion::way::Actuator;
 use jred_report::list;
 use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::study::common::named;
 
 /// Runs the command.
 ///
@@ -26,13 +28,22 @@ use jred_sizing::motor::envelope::Envelope;
 /// Bad input, or no motion of moves and pauses.
 pub fn retime(options: &Retime) -> Result<Done> {
     let file = read::read(&options.file)?;
-    output::check([("--out", &options.out), ("--cam", &options.cam)])?;
+    output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "retime")?;
+    file.refuse_scheduled("retime")?;
     let motion = file.required_motion()?;
-    let catalogue = drive::catalogue(&options.drive, &file)?;
-    let drive = catalogue.as_ref();
-    let drive = drive.map(|catalogue| drive::named(&options.drive, catalogue));
-    let drive = drive.transpose()?;
+    let catalogue = match &options.drive {
+        Some(name) => {
+            let mut catalogue = options.catalogue.open()?;
+            fit_input(&mut catalogue, &file)?;
+            Some((catalogue, name))
+        }
+        None => None,
+    };
+    let drive = match &catalogue {
+        Some((catalogue, name)) => Some(named(catalogue, name)?.1),
+        None => None,
+    };
     let actuator = drive.map_or_else(without_drive, |drive| {
         let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
         Actuator::new(&drive, envelope)
@@ -47,18 +58,12 @@ pub fn retime(options: &Retime) -> Result<Done> {
         },
         steps: options.steps as usize,
     };
-    let retimed = retime::retime(&file, motion, &request).map_err(|obstacle| {
-        report(
-            &options.file,
-            options.drive.motor.as_deref(),
-            &file,
-            &obstacle,
-        )
-    })?;
+    let retimed = retime::retime(&file, motion, &request)
+        .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
     let rows = options.rows as usize;
     let mut written = String::new();
     for (path, what, text) in [
-        (&options.out, "motion", retimed.trace.profile(rows)),
+        (&options.profile, "motion", retimed.trace.profile(rows)),
         (&options.cam, "cam table", retimed.trace.cam(rows)),
     ] {
         if let Some(path) = path {
@@ -106,7 +111,7 @@ pub(super) fn report(
         }
         Obstacle::NoCopper => match motor {
             None => miette!(
-                help = "name the drive: --motor KEY, and --gearbox KEY if it has one",
+                help = "name the drive: --drive MOTOR+GEARBOX",
                 "the energy contains the copper loss of a motor, and no motor is given"
             ),
             Some(motor) => miette!(

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::drive::OneDrive;
+use super::catalogue::CatalogueFiles;
 use super::word::word;
 use super::{MOST_STEPS, output_file};
 use jred_motion::retime::Goal;
@@ -39,7 +39,7 @@ pub struct Retime {
     pub ramp: f64,
     /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".
     #[arg(long, value_name = "CSV", value_parser = output_file())]
-    pub out: Option<PathBuf>,
+    pub profile: Option<PathBuf>,
     /// Write it to this file as a table for an electronic cam.
     #[arg(long, value_name = "CSV", value_parser = output_file())]
     pub cam: Option<PathBuf>,
@@ -52,9 +52,12 @@ pub struct Retime {
     /// Number of time steps per cycle, of the figures in the table.
     #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=MOST_STEPS))]
     pub steps: u32,
-    /// The drive that moves the machine.
+    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the torque is that at the input of the drive train.
+    #[arg(long, value_name = "MOTOR+GEARBOX")]
+    pub drive: Option<String>,
+    /// What drives are made of.
     #[command(flatten)]
-    pub drive: OneDrive,
+    pub catalogue: CatalogueFiles,
 }
 
 /// A ramp's share of a move.

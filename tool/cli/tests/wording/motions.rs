@@ -1,0 +1,142 @@
+//! What the commands that follow a motion, or make one, print.
+
+use super::{Desk, compare};
+
+#[test]
+fn simulate() {
+    let short = |name: &str| {
+        let text = Desk::machine(name).replacen("\"5 ms\"", "\"400 ms\"", 1);
+        text.replacen("\"10 ms\"", "\"1 s\"", 1)
+    };
+    let desk = Desk::new()
+        .with("press.toml", short("press.toml"))
+        .with("variator-press.toml", short("variator-press.toml"));
+    compare(
+        "simulate",
+        &desk.runs(&[
+            &["simulate", "press.toml"],
+            &["simulate", "variator-press.toml"],
+        ]),
+    );
+}
+
+#[test]
+fn steady() {
+    let desk = Desk::new().with_machines(&["eccentric-press.toml", "press.toml"]);
+    compare(
+        "steady",
+        &desk.runs(&[
+            &["steady", "eccentric-press.toml", "--positions", "6"],
+            &[
+                "steady",
+                "eccentric-press.toml",
+                "--delta",
+                "0.05",
+                "--positions",
+                "4",
+            ],
+            &["steady", "press.toml", "--delta", "0.9", "--positions", "4"],
+        ]),
+    );
+}
+
+/// Moves of a motion with a drive of the catalogue, a single move with plain limits, and the ways that cannot be gone.
+#[test]
+fn fastest() {
+    let desk = Desk::new().with_machines(&[
+        "press.toml",
+        "hoist.toml",
+        "conveyor.toml",
+        "linear-gripper.toml",
+        "variator-press.toml",
+    ]);
+    let press = ["fastest", "press.toml", "--catalogue", "drives"];
+    let plain = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
+    let way = ["--from", "180 deg", "--to", "300 deg"];
+    let with = |parts: &[&[&'static str]]| parts.concat();
+    compare(
+        "fastest",
+        &desk.runs(&[
+            &press,
+            &with(&[
+                &press,
+                &[
+                    "--drive",
+                    "sgmsh-15a+npt025mf-5",
+                    "--profile",
+                    "p.csv",
+                    "--cam",
+                    "c.csv",
+                ],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--max-speed", "100 rpm", "--max-acceleration", "80 rad/s^2"],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--format", "csv", "--instants", "2"],
+            ]),
+            &with(&[
+                &press[..2],
+                &plain,
+                &way,
+                &["--format", "json", "--instants", "2"],
+            ]),
+            &with(&[
+                &press[..2],
+                &["--torque", "0.1 N m", "--motor-speed", "3000 rpm"],
+                &way,
+            ]),
+            &with(&[
+                &["fastest", "hoist.toml"],
+                &["--torque", "2 N m", "--motor-speed", "3000 rpm"],
+            ]),
+            &with(&[&press[..2], &plain, &way, &["--from-speed", "2000 rpm"]]),
+            &with(&[&press[..2], &plain, &way, &["--to-speed", "2000 rpm"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 deg", "--to", "10 deg"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 deg"]]),
+            &with(&[&press[..2], &plain, &["--from", "10 mm", "--to", "20 mm"]]),
+            &with(&[&press[..2], &plain, &way, &["--from-speed=-2 rpm"]]),
+            &with(&[
+                &press[..2],
+                &["--torque", "-1 N m", "--motor-speed", "3000 rpm"],
+            ]),
+            &with(&[&press, &["--drive", "sgmsh-15b"]]),
+            &with(&[&["fastest", "conveyor.toml"], &plain]),
+            &with(&[&["fastest", "variator-press.toml"], &plain]),
+        ]),
+    );
+}
+
+#[test]
+fn retime() {
+    let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];
+    let desk = Desk::new().with_machines(&machines);
+    let with = |file: &'static str, more: &[&'static str]| {
+        [&["retime", file, "--steps", "500"], more].concat()
+    };
+    let drive = ["--drive", "sgmsh-30a+npt025mf-5", "--catalogue", "drives"];
+    compare(
+        "retime",
+        &desk.runs(&[
+            &with("press.toml", &[]),
+            &with("press.toml", &drive),
+            &with(
+                "press.toml",
+                &[&drive[..], &["--objective", "peak"]].concat(),
+            ),
+            &with("press.toml", &["--ends", "zero", "--ramp", "5 %"]),
+            &with(
+                "vertical-axis.toml",
+                &["--profile", "motion.csv", "--cam", "cam.csv"],
+            ),
+            &with("scotch-yoke.toml", &[]),
+            &with("press.toml", &["--format", "csv", "--rows", "16"]),
+        ]),
+    );
+}
