@@ -122,10 +122,20 @@ fn csv_begins_with_the_drive_asked_for() {
         ranks.dedup();
         ranks.into_iter().map(str::to_owned).collect::<Vec<_>>()
     };
+    // The first of each class of certainty stands below the list.
+    let firsts = json["certainties"].as_array().unwrap().iter();
+    let below = firsts.map(|class| class["rank"].as_u64().unwrap());
+    let below: Vec<String> = below
+        .filter(|rank| *rank > 3)
+        .map(|rank| rank.to_string())
+        .collect();
+    assert_eq!(below.len(), 2);
+    let with =
+        |listed: &[&'static str]| -> Vec<&str> { [listed, &[&below[0], &below[1], ""]].concat() };
     // In the list, behind it, and refused: the others keep their ranks.
-    assert_eq!(asked(&json["fit"][1], "2"), ["1", "3", ""]);
-    assert_eq!(asked(&json["fit"][4], "5"), ["1", "2", "3", ""]);
-    assert_eq!(asked(&json["refused"][9], ""), ["1", "2", "3", ""]);
+    assert_eq!(asked(&json["fit"][1], "2"), with(&["1", "3"]));
+    assert_eq!(asked(&json["fit"][4], "5"), with(&["1", "2", "3"]));
+    assert_eq!(asked(&json["refused"][9], ""), with(&["1", "2", "3"]));
 }
 
 /// Two outputs are two files, and stdout is none.
@@ -169,7 +179,8 @@ fn a_drive_that_the_filter_took_out() {
     assert!(jred_with(&why).ends(0).err.is_empty());
 }
 
-/// `--top 1` in CSV: the rules of one ranked drive, then of the closest refused ones; `--nearest 0` leaves these out.
+/// `--top 1` in CSV: the rules of one ranked drive and of the first ones of the two other classes of certainty, then of the closest
+/// refused ones; `--nearest 0` leaves these out.
 #[test]
 fn the_closest_refused_drives_can_be_left_out() {
     let press = press_file();
@@ -183,6 +194,6 @@ fn the_closest_refused_drives_can_be_left_out() {
         let ranked = names.iter().filter(|name| name.starts_with("1,")).count();
         (ranked, names.len() - ranked)
     };
-    assert_eq!(drives("0"), (1, 0));
-    assert_eq!(drives("3"), (1, 3));
+    assert_eq!(drives("0"), (1, 2));
+    assert_eq!(drives("3"), (1, 5));
 }

@@ -89,7 +89,11 @@ fn a_slide_behind_a_screw_has_its_own_units() {
     within("row", speed[2], largest, 1e-4 * largest);
     let forces = row("force at the drive link [N], without drive train");
     within("row", forces[2], force, 1e-4 * force);
-    assert!(page.contains("drive train&#39;s input [N m]"));
+    assert!(
+        page.contains(
+            "torque at the input of the drive train, losses and drive train included [N m]"
+        )
+    );
     assert!(page.contains("Parts of the reduced force"));
 }
 

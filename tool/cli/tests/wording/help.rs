@@ -33,5 +33,5 @@ fn help_of_every_command() {
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;
     let commands = jred_cli::options::Cli::command();
-    assert_eq!(commands.get_subcommands().count(), 15);
+    assert_eq!(commands.get_subcommands().count(), 16);
 }
