@@ -47,15 +47,15 @@ pub fn size(options: &Size) -> Result<Done> {
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
     if options.motion == Moved::Best {
-        let judging = Judging {
+        let best = suited(&Judging {
             options,
             file: &file,
             own: motion,
             filter: &filter,
             catalogue: &catalogue,
             motors: &motors,
-        };
-        file.motion = suited(&judging)?.or(file.motion);
+        })?;
+        file.motion = best.or(file.motion);
     }
     let motion = file.required_motion()?;
     let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
@@ -79,16 +79,9 @@ pub fn size(options: &Size) -> Result<Done> {
         let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
         output::write(path, page.as_bytes())?;
     }
-    let list = listing::List {
-        top: options.top,
-        nearest: options.nearest,
-        refused: options.refused,
-        all: options.all,
-    };
-    let asked = match &options.why {
-        Some(name) => asked_for(name, options, &selection)?,
-        None => None,
-    };
+    let asked = options.why.as_deref();
+    let asked = asked.map(|name| asked_for(name, options, &selection));
+    let asked = asked.transpose()?.flatten();
     let asked = asked.as_ref();
     let meter = match &options.meter {
         Some(path) => write_meter(path, options, asked, &file, &selection)?,
@@ -96,48 +89,85 @@ pub fn size(options: &Size) -> Result<Done> {
     };
     let explanation = explanation(options, asked, &file, &duty, &selection)?;
     let explanation = explanation.as_ref();
-    match options.format {
-        Format::Table => {
-            print(&listing::text(
-                list,
-                &file,
-                &duty,
-                &selection,
-                &warnings,
-                asked,
-                explanation,
-            ))?;
-            if let Some(path) = &options.report {
-                print(&format!("report written to {}\n", plain::path(path)))?;
-            }
-            if let Some(path) = options.meter.as_ref().filter(|_| meter) {
-                print(&format!(
-                    "limits for the duty meter written to {}\n",
-                    plain::path(path)
-                ))?;
-            }
-        }
-        Format::Csv => {
-            output::print_parts(listing::csv(list, &selection, asked))?;
-        }
-        Format::Json => {
-            let parts = listing::json(
-                list,
-                &file,
-                &duty,
-                &selection,
-                &warnings,
-                asked,
-                explanation,
-            );
-            output::print_parts(parts)?;
-        }
-    }
+    let answer = Answer {
+        options,
+        file: &file,
+        duty: &duty,
+        selection: &selection,
+        warnings: &warnings,
+        asked,
+        explanation,
+        meter,
+    };
+    answer.print()?;
     Ok(if selection.fit.is_empty() {
         Done::Violated
     } else {
         Done::Holds
     })
+}
+
+/// What the command found.
+struct Answer<'a, 'c> {
+    options: &'a Size,
+    file: &'a MachineFile,
+    duty: &'a Duty,
+    selection: &'a Selection<'c>,
+    warnings: &'a [String],
+    asked: Option<&'a listing::Asked<'c>>,
+    explanation: Option<&'a listing::Explanation>,
+    /// Whether limits for the duty meter were written.
+    meter: bool,
+}
+
+impl Answer<'_, '_> {
+    fn print(&self) -> Result<()> {
+        let options = self.options;
+        let list = listing::List {
+            top: options.top,
+            nearest: options.nearest,
+            refused: options.refused,
+            all: options.all,
+        };
+        match options.format {
+            Format::Table => {
+                print(&listing::text(
+                    list,
+                    self.file,
+                    self.duty,
+                    self.selection,
+                    self.warnings,
+                    self.asked,
+                    self.explanation,
+                ))?;
+                if let Some(path) = &options.report {
+                    print(&format!("report written to {}\n", plain::path(path)))?;
+                }
+                if let Some(path) = options.meter.as_ref().filter(|_| self.meter) {
+                    print(&format!(
+                        "limits for the duty meter written to {}\n",
+                        plain::path(path)
+                    ))?;
+                }
+            }
+            Format::Csv => {
+                output::print_parts(listing::csv(list, self.selection, self.asked))?;
+            }
+            Format::Json => {
+                let parts = listing::json(
+                    list,
+                    self.file,
+                    self.duty,
+                    self.selection,
+                    self.warnings,
+                    self.asked,
+                    self.explanation,
+                );
+                output::print_parts(parts)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The motion that suits the best drive, said before the list; `None`: the file's stays.
