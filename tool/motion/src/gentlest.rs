@@ -7,7 +7,7 @@
 //! In x = v² it is ∫ c(T)/√x dφ with T a straight line in (x′, x) at each φ: T²/√x and 1/√x are convex, so a stationary motion is the
 //! global optimum. Three things disturb that: viscous friction (√x enters T), the losses of gears (T bends where the power changes its
 //! direction), and a time longer than the motion would take of itself (the multiplier of the time is negative, as where a weight must be
-//! held). Whatever holds, [`bound`] gives a lower bound for all motions from a verification function, and the gap to it.
+//! held). Whatever holds, [`bound`](self) gives a lower bound for all motions from a verification function, and the gap to it.
 //!
 //! - [`shape`](self): the path over a parameter along which w, the square of the pace, is smooth up to rest.
 //! - [`mesh`](self): w in cubic pieces, the machine at Gauss points.

@@ -68,6 +68,12 @@ impl Sample {
         self.speed
     }
 
+    /// Whether power flows back to the motor, by more than a rounding of its torque.
+    #[inline]
+    fn gives_back(&self, c: &Coefficients, slack: f64) -> bool {
+        self.speed * c.torque(&self.loads()) < -slack * self.speed.abs()
+    }
+
     /// Torque at the gearbox output (N·m).
     #[inline]
     pub const fn output_torque(&self) -> f64 {
@@ -88,6 +94,8 @@ pub struct Cycle {
     mean_speed: f64,
     peak_output_torque: f64,
     mean_loads: [f64; LOADS],
+    /// The samples at which the machine, and its inertia alone, give most power back: most drives that take any back do so at one of them.
+    giving: [Option<usize>; 2],
     /// Largest magnitudes of the loads.
     largest: [f64; LOADS],
     torque: Factor,
@@ -152,6 +160,10 @@ impl Cycle {
             peak_output_torque: duty.figures(|i| i.input_torque).peak(),
             smooth: duty.smooth.clone(),
             mean_loads: mean_loads.map(|sum| sum / duty.duration),
+            giving: [
+                least(&samples, |sample| sample.output_torque * sample.speed),
+                least(&samples, |sample| sample.alpha * sample.speed),
+            ],
             torque: Factor::of_loads(&samples),
             power: Factor::of_powers(&samples),
             front: Front::new(&tree, &samples, &largest),
@@ -269,7 +281,7 @@ impl Cycle {
 
     /// Whether energy flows back to the motor at any instant; cheaper than [`Cycle::energies`].
     pub fn regenerates(&self, coefficients: &Coefficients) -> bool {
-        self.stretches().regenerates(coefficients)
+        self.stretches().regenerates(coefficients, self.giving)
     }
 
     /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's
@@ -372,4 +384,11 @@ impl Cycle {
             },
         }
     }
+}
+
+/// The sample with the least of a figure.
+fn least(samples: &[Sample], figure: impl Fn(&Sample) -> f64) -> Option<usize> {
+    let all = samples.iter().map(figure).enumerate();
+    all.min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(index, _)| index)
 }

@@ -101,11 +101,11 @@ impl Stretches<'_> {
         }
     }
 
-    /// Whether any sample's power is negative, by more than rounding.
-    pub(super) fn regenerates(self, c: &Coefficients) -> bool {
+    /// Whether any sample's power is negative, by more than rounding; `first` are looked at first.
+    pub(super) fn regenerates(self, c: &Coefficients, first: [Option<usize>; 2]) -> bool {
         fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
             let node = &stretches.tree.nodes[index];
-            let back = |s: &Sample| s.speed() * c.torque(&s.loads()) < -slack * s.speed().abs();
+            let back = |s: &Sample| s.gives_back(c, slack);
             if [node.first, node.last]
                 .iter()
                 .any(|k| back(&stretches.samples[*k as usize]))
@@ -133,6 +133,10 @@ impl Stretches<'_> {
             return false;
         }
         let slack = self.slack(c);
+        let mut first = first.into_iter().flatten();
+        if first.any(|k| self.samples[k].gives_back(c, slack)) {
+            return true;
+        }
         match self.front.against_speed(&c.0, slack) {
             Ok(known) => known,
             Err(open) => (0..self.front.len)

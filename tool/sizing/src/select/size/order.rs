@@ -53,6 +53,11 @@ impl Order {
         Self::from(&candidate.drive, &candidate.outcome, candidate.id)
     }
 
+    /// Which drive.
+    pub(super) const fn id(&self) -> DriveId {
+        self.id
+    }
+
     /// The size of the motor of a drive that fits, and whether there is a warning.
     pub(super) const fn size(&self) -> u64 {
         self.first

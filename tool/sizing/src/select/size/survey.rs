@@ -58,10 +58,7 @@ impl<'c> Survey<'c> {
         class.offer(drive.bound.size(), &[drive.placed()]);
         self.partly_checked += usize::from(!outcome.not_checked.is_empty());
         for rule in outcome.not_checked.iter() {
-            self.gaps[rule as usize].join(Gap {
-                count: 1,
-                example: Some(*drive),
-            });
+            self.gaps[rule as usize].add(drive);
         }
     }
 
@@ -111,10 +108,22 @@ impl<'c> Class<'c> {
     }
 }
 
-impl Gap<'_> {
+impl<'c> Gap<'c> {
+    /// The example is the first in the catalogue, however the work is divided.
+    fn add(&mut self, drive: &Unranked<'c>) {
+        self.count += 1;
+        if self
+            .example
+            .is_none_or(|first| drive.bound.id() < first.bound.id())
+        {
+            self.example = Some(*drive);
+        }
+    }
+
     fn join(&mut self, other: Self) {
-        self.count += other.count;
-        let both = [self.example, other.example].into_iter().flatten();
-        self.example = both.min_by_key(|drive| drive.bound);
+        if let Some(drive) = &other.example {
+            self.add(drive);
+            self.count += other.count - 1;
+        }
     }
 }
