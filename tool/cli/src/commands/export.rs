@@ -1,0 +1,162 @@
+//! `jred export`: the table for the firmware.
+
+use miette::{Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::{Done, print, warn};
+use crate::options;
+use crate::output;
+use jred::Reducible as _;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Task};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_report::list::alternatives;
+
+/// Where the pieces of the table meet; nowhere without `--pieces`.
+fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
+    let edges = match options.pieces.as_deref() {
+        None => return Ok(Vec::new()),
+        Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
+        Some(list) => {
+            let coordinate = file.machine.mechanism().coordinate();
+            read::drive_positions(list, file.machine.domain(), coordinate).map_err(|why| {
+                miette!(
+                    help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
+                    "--pieces {list:?} cannot be used: {why}"
+                )
+            })?
+        }
+    };
+    if edges.is_empty() {
+        return Err(miette!(
+            help =
+                "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
+            "{} has no load with between, no disc cam and no Geneva drive, so there are no edges for --pieces auto",
+            plain::path(&options.file)
+        ));
+    }
+    Ok(edges)
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub(super) fn run(options: &options::Export) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    output::check([("--out", &options.out)])?;
+    variator::refuse(&file, "export")?;
+    let reciprocal = match options.reciprocal {
+        Choice::Auto => options.forward && options.number != Number::F32,
+        Choice::Yes => true,
+        Choice::No => false,
+    };
+    if reciprocal && options.number == Number::F32 {
+        return Err(miette!(
+            help = "remove --reciprocal, or use --type i32",
+            "f32 tables have no curve of 1/J: in floating point, the tick divides"
+        ));
+    }
+    let layouts = options.number.layouts();
+    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
+        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
+        return Err(miette!(
+            help = format!("remove --layout, or use one of: {}", names.join(", ")),
+            "{} tables have no layout {}",
+            options.number.name(),
+            options.layout.name()
+        ));
+    }
+    let whole = match options.layout {
+        LayoutChoice::Harmonic => Some("harmonics describe"),
+        LayoutChoice::SliderCrank => Some("a closed form describes"),
+        _ => None,
+    };
+    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
+        return Err(miette!(
+            help = "remove --pieces, or take another --layout",
+            "{whole} a whole turn, not a piece of one"
+        ));
+    }
+    let coordinate = file.machine.mechanism().coordinate();
+    let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
+        let value = text.as_deref().map(|text| {
+            read(text, coordinate)
+                .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
+        });
+        value.transpose()
+    };
+    let torque_error = quantity("torque-error", &options.torque_error, read::drive_effort)?;
+    let omega = quantity("omega", &options.omega, read::largest_speed)?;
+    let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
+    let (omega, alpha) = range([omega, alpha], &file)?;
+    let task = Task {
+        number: options.number,
+        layout: options.layout,
+        forward: options.forward,
+        reciprocal,
+        torque_error,
+        max_bytes: options.max_bytes,
+        max_cells: options.max_cells,
+        omega,
+        alpha,
+        rotor: options.rotor_inertia.unwrap_or(0.0),
+        edges: edges(options, &file)?,
+        machine: options.machine_id,
+    };
+    let export = match Export::new(&file, task) {
+        Ok(export) => export,
+        Err(Failure::NotReached(why)) => {
+            output::say(&why);
+            return Ok(Done::Violated);
+        }
+        Err(Failure::Impossible { message, help }) => {
+            return Err(miette!(help = help, "{message}"));
+        }
+        Err(Failure::Machine(error)) => return Err(core_report(error)),
+    };
+    if let Some(out) = &options.out {
+        let bytes = export.write(options.format).ok_or_else(|| {
+            miette!(
+                help = "use --format rust, c or json",
+                "one image cannot hold the tables of several pieces"
+            )
+        })?;
+        output::write(out, &bytes)?;
+    }
+    warn(&file, [omega, 0.0])?;
+    match (&options.out, options.format) {
+        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
+        (None, _) => print(&format!(
+            "{}\n{}nothing written: use --out to write a file\n",
+            export.summary(),
+            alternatives::alternatives(&export)
+        )),
+        (Some(out), _) => print(&format!(
+            "{}\n{}written to {}\n",
+            export.summary(),
+            alternatives::alternatives(&export),
+            plain::path(out)
+        )),
+    }
+}
+
+/// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
+/// without a motion, the speed reached within a radian stands in.
+fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
+    match (given, &file.motion) {
+        ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),
+        ([Some(omega), None], None) => return Ok((omega, omega * omega)),
+        _ => {}
+    }
+    let motion = file.motion_or("the table needs a largest speed: give --omega, or ")?;
+    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).map_err(core_report)?;
+    let [omega, alpha] = given;
+    let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
+    let moved = duty.figures(|i| i.alpha).peak();
+    let own = if moved > 0.0 { moved } else { omega * omega };
+    Ok((omega, alpha.unwrap_or(own)))
+}

@@ -1,0 +1,214 @@
+//! `jred reduce`: the reduced link, its parts and the forces.
+
+use miette::{Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::{Done, print_parts, warn};
+use crate::options;
+use crate::output;
+use jred::Reducible as _;
+use jred_machine::analysis::reduce;
+use jred_machine::analysis::reduce::{Over, Sets, reduce};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_report::page;
+use jred_report::table::output as sheet;
+use jred_report::table::output::Format;
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub(super) fn run(options: &options::Reduce) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    output::check([("--report", &options.report)])?;
+    variator::refuse(&file, "reduce")?;
+    if options.over == Over::Time {
+        if options.speed.is_some() {
+            return Err(miette!(
+                help = "use either --over time or --speed",
+                "with --over time, the motion of the machine file gives the speed"
+            ));
+        }
+        file.required_motion()?;
+    }
+    let state = state(options, &file)?;
+    let at = states(options, &file)?;
+    let given = at.iter().flatten().any(|at| at.state.is_some());
+    let moves = file.motion.is_some() || state.is_some() || given;
+    if (options.reactions || options.energy) && !moves {
+        let instead = "forces and energies need a speed: give one, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or ";
+        file.motion_or(instead)?;
+    }
+    let sets = Sets {
+        curves: !(options.points || options.reactions || options.energy),
+        links: options.links,
+        points: options.points,
+        reactions: options.reactions,
+        energy: options.energy,
+    };
+    let request = reduce::Request {
+        over: options.over,
+        positions: options.positions as usize,
+        sets,
+        state,
+    };
+    check_size(&file, &request)?;
+    let largest = if sets.reactions && at.is_none() {
+        reduce::largest(&file, &request).map_err(core_report)?
+    } else {
+        Vec::new()
+    };
+    let columns = match &at {
+        Some(at) => reduce::reduce_at(&file, &request, at),
+        None => reduce(&file, &request),
+    };
+    let columns = columns.map_err(core_report)?;
+    if let Some(state) = state {
+        warn(&file, state)?;
+    }
+    if let Some(path) = &options.report {
+        let name = plain::path(&options.file);
+        let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
+        output::write(path, page.as_bytes())?;
+    }
+    let missing = match &at {
+        Some(at) => reduce::not_contained_at(&file, &request, at),
+        None => reduce::not_contained(&file, &request),
+    };
+    if !missing.is_empty() && !matches!(options.format, Format::Table) {
+        let missing = missing.join("; ");
+        output::say(&format!(
+            "warning: {NOT_CONTAINED}{missing}: use --over time"
+        ));
+    }
+    let passed = !(moves && columns.has_empty_cells());
+    let title = reduce_title(&file, sets, (passed, at.is_some()), &missing);
+    match options.format {
+        Format::Table => {
+            let mut text = String::new();
+            if !largest.is_empty() {
+                let sentences: Vec<String> =
+                    largest.iter().map(reduce::Largest::sentence).collect();
+                text += "largest: ";
+                text += &sentences.join("; ");
+                text += "\n";
+            }
+            if let Some(path) = &options.report {
+                text += "report written to ";
+                text += &plain::path(path);
+                text += "\n";
+            }
+            print_parts(sheet::parts(&columns, Format::Table, &title).chain([text]))
+        }
+        Format::Json if sets.reactions => {
+            let mut after = serde_json::Map::new();
+            after.insert("title".into(), title.into());
+            after.insert("largest".into(), serde_json::json!(largest));
+            print_parts(sheet::json_parts(&columns, serde_json::Map::new(), after))
+        }
+        Format::Csv | Format::Json => print_parts(sheet::parts(&columns, options.format, &title)),
+    }
+}
+
+/// What goes by the motion, and is not in rows without it.
+const NOT_CONTAINED: &str = "not contained where no motion passes: ";
+
+/// The lines above a listing: what it is, and what is not in it, because the motion does not pass every position, or at single positions
+/// because they have no time.
+fn reduce_title(
+    file: &MachineFile,
+    sets: Sets,
+    (passed, single): (bool, bool),
+    missing: &[String],
+) -> String {
+    let mut title = if sets.curves {
+        format!(
+            "{}: reduced to the drive link, flywheel and drive train included",
+            file.title
+        )
+    } else {
+        file.title.clone()
+    };
+    if sets.reactions {
+        title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
+                  drive train turn with the drive link";
+    }
+    if !passed {
+        title += if single {
+            "\nthe motion does not pass every position exactly once: give speeds with the positions"
+        } else {
+            "\nthe motion does not pass every position exactly once: use --over time"
+        };
+    }
+    if !missing.is_empty() {
+        title += "\n";
+        title += NOT_CONTAINED;
+        title += &missing.join("; ");
+        title += ": use --over time";
+    }
+    title
+}
+
+/// Most numbers that are held at once: 320 MB.
+const MOST_NUMBERS: usize = 20_000_000;
+
+/// Refuses more numbers than are held.
+fn check_size(file: &MachineFile, request: &reduce::Request) -> Result<()> {
+    let two = reduce::Request {
+        positions: 2,
+        ..*request
+    };
+    // A machine that cannot take these positions is refused where it cannot take one of its own.
+    let Ok(columns) = reduce(file, &two) else {
+        return Ok(());
+    };
+    let columns = columns.heads().len();
+    let most = MOST_NUMBERS / columns.max(1);
+    if request.positions <= most {
+        return Ok(());
+    }
+    Err(miette!(
+        help = format!("use --positions {most} or fewer"),
+        "{} positions of {columns} columns are too many numbers; at most {MOST_NUMBERS}",
+        request.positions
+    ))
+}
+
+/// Speed and acceleration of the command line.
+fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2]>> {
+    let Some(speed) = &options.speed else {
+        return Ok(None);
+    };
+    let coordinate = file.machine.mechanism().coordinate();
+    let refused = |name: &str, text: &str, why: &str| {
+        miette!("--{name} {} cannot be used: {why}", plain::quoted(text))
+    };
+    let omega =
+        read::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
+    let alpha = match &options.accel {
+        Some(accel) => read::drive_acceleration(accel, coordinate)
+            .map_err(|why| refused("accel", accel, &why))?,
+        None => 0.0,
+    };
+    Ok(Some([omega, alpha]))
+}
+
+/// The positions of the command line, and their states.
+fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<reduce::At>>> {
+    let Some(text) = &options.at else {
+        return Ok(None);
+    };
+    let domain = file.machine.domain();
+    let states = read::drive_states(text, domain, file.machine.mechanism().coordinate());
+    let states = states.map_err(|why| {
+        miette!(
+            help = "write positions with commas between them, such as \"30 deg, 60 deg\", each with its speed and acceleration, if you like: \"30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm\"",
+            "--at {} cannot be used: {why}",
+            plain::quoted(text)
+        )
+    })?;
+    Ok(Some(states))
+}
