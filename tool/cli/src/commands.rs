@@ -30,6 +30,8 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_report::list;
 use jred_report::list::inspection;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::motor::envelope::Prepared;
 
 /// How a command ended without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,4 +133,12 @@ fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
         output::say(&words);
     }
     Ok(())
+}
+
+/// Warns of a drive that is not made for the supply.
+fn warn_of_supply(drive: &Drive, file: &MachineFile) {
+    let limits = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    if let Some(unfit) = limits.unfit(&file.rules) {
+        output::say(&format!("warning: {unfit}"));
+    }
 }

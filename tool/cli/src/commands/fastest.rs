@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, warn_of_supply};
 use crate::options::fastest::Fastest as Options;
 use crate::output;
 use crate::output::print_parts;
@@ -201,6 +201,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
         ChosenDrive::choose(&study, None, &filter, None)?
     };
     let drive = drive.drive();
+    warn_of_supply(&drive, file);
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
     for assumption in envelope.assumptions() {
         output::say(&format!("warning: {assumption}"));

@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, print_parts};
+use crate::commands::{Done, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, Retime};
 use crate::output;
 use jred_machine::model::machine::MachineFile;
@@ -44,6 +44,9 @@ pub fn retime(options: &Retime) -> Result<Done> {
         Some((catalogue, name)) => Some(named(catalogue, name)?.1),
         None => None,
     };
+    if let Some(drive) = &drive {
+        warn_of_supply(drive, &file);
+    }
     let actuator = drive.map_or_else(without_drive, |drive| {
         let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
         Actuator::new(&drive, envelope)

@@ -12,7 +12,7 @@ mod variator;
 pub(super) mod watch;
 
 pub use error::SimulationError;
-pub use simulated::{Rest, Simulated};
+pub use simulated::{Impacts, Rest, Simulated};
 
 use crate::model::machine::MachineFile;
 use crate::model::simulation::Simulation;

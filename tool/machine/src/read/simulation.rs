@@ -103,7 +103,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         None => TOLERANCE,
     };
     let control = control::control(&section, around, at, &torque)?;
-    let halt = control::halt(&section, around)?;
+    let halt = control::halt(&section, around, duration.si)?;
     let end_stops = control::end_stops(&section, around, start_angle)?;
     section.finish()?;
     Ok(Some(Simulation {

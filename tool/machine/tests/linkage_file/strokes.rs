@@ -243,7 +243,7 @@ fn free_motions_of_a_sliding_drive() {
         .unwrap_err();
     let text = error.to_string();
     assert!(
-        text.contains("end of its stroke, s = 800 mm, before t = 0."),
+        text.contains("end of its stroke, s = 800 mm, at t = 0.10"),
         "{text}"
     );
 

@@ -83,6 +83,11 @@ fn bad_controllers_and_stops_are_refused() {
             "\"800 mm\"], restitution = 1",
             &["restitution", "between"],
         ),
+        (
+            "time = \"0.5 s\"",
+            "time = \"5 s\"",
+            &["5 s", "after the end of the simulation"],
+        ),
         ("time = \"0.5 s\"", "time = \"-1 s\"", &["time", "-1 s"]),
         (
             "time = \"0.5 s\"",
@@ -123,4 +128,6 @@ fn rows_before_an_error_are_kept() {
     assert_eq!(found.columns.rows().len(), 10);
     let why = found.ended.unwrap().to_string();
     assert!(why.contains("end of its stroke"), "{why}");
+    // √(2·0.9/200) s and √(2·0.9·200) m/s, whatever the output step.
+    assert!(why.contains("t = 0.094868 s, at 18.97 m/s"), "{why}");
 }

@@ -72,6 +72,19 @@ fn a_bouncing_slide_comes_to_rest_at_its_stop() {
     }
     assert_eq!(speeds.last(), Some(&0.0));
     assert!(imbalance(&found) < budget::BALANCE);
+    let file = parse(&text).unwrap();
+    let whole = analysis::simulate::simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
+    let impacts = whole.impacts.unwrap();
+    near("first impact", impacts.time, first, budget::CLOSED_MOTION);
+    near(
+        "its speed",
+        impacts.speed,
+        alpha * first,
+        budget::CLOSED_MOTION,
+    );
+    within("its place", impacts.position, 1.0, budget::CLOSED_MOTION);
+    // Flights of 2⁻ᵏ of the first down to a microsecond: the one of 2⁻²⁰ is none.
+    assert!((19..=22).contains(&impacts.count), "{}", impacts.count);
     // All of the work is lost in impacts.
     let lost = found.get("losses [J]");
     near(

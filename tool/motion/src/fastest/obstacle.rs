@@ -154,7 +154,7 @@ impl NoMotion {
                         "allow a larger deceleration".to_owned()
                     }
                     _ => format!(
-                        "take a motor with {missing} {unit} more at low speed, a larger gear ratio, or start with more speed"
+                        "take a motor with more torque at low speed ({missing} {unit} more would hold the machine there; less may do, as kinetic energy helps), a larger gear ratio, or start with more speed"
                     ),
                 }
             }

@@ -185,7 +185,7 @@ impl Answer<'_> {
             "accuracy",
             &format!(
                 "duration within {:.0e} s; limits satisfied within {:.0e} between the nodes",
-                error.sum::<f64>().max(1e-16),
+                error.sum::<f64>().max(1e-12 * cycle.trace.duration()),
                 worst.fold(LEAST_EXCESS, f64::max)
             ),
         );

@@ -29,8 +29,14 @@ pub fn write<'s>(
     match format {
         Format::Csv => parts(&found.columns, format, ""),
         Format::Table => {
-            let title = rest(simulation, found, coordinate)
-                .map_or(title.clone(), |rest| format!("{title}\n{rest}"));
+            let lines = [
+                impacts(found, coordinate),
+                rest(simulation, found, coordinate),
+            ];
+            let title = lines
+                .into_iter()
+                .flatten()
+                .fold(title, |title, line| title + "\n" + &line);
             parts(&found.columns, format, &title)
         }
         Format::Json => {
@@ -41,6 +47,21 @@ pub fn write<'s>(
                 json!({ "time [s]": rest.time, way: coordinate.shown(rest.way) })
             });
             let mut after = Map::new();
+            if let Some(impacts) = found.impacts {
+                let (position, speed) = (
+                    format!("position [{}]", coordinate.unit()),
+                    format!("speed [{}]", coordinate.speed_unit()),
+                );
+                let first = json!({
+                    "time [s]": impacts.time,
+                    position: coordinate.shown(impacts.position),
+                    speed: impacts.speed,
+                });
+                after.insert(
+                    "impacts".into(),
+                    json!({ "count": impacts.count, "first": first }),
+                );
+            }
             if simulation.halt.is_some() {
                 after.insert("rest".into(), json!(rest));
             }
@@ -50,6 +71,22 @@ pub fn write<'s>(
             Box::new(json_parts(&found.columns, before, after))
         }
     }
+}
+
+/// The sentence about end stops.
+fn impacts(found: &Simulated, coordinate: Coordinate) -> Option<String> {
+    let impacts = found.impacts?;
+    let all = match impacts.count {
+        1 => String::new(),
+        count => format!("; {count} impacts in all"),
+    };
+    Some(format!(
+        "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
+        coordinate.place(impacts.position),
+        short(impacts.time),
+        short(impacts.speed),
+        coordinate.speed_unit()
+    ))
 }
 
 /// The sentence about the stop.

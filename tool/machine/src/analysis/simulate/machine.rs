@@ -1,7 +1,7 @@
 //! A machine whose motor drives it through a fixed ratio.
 
 use jred::mechanism::TrainOutput;
-use jred::{Error, Reduction};
+use jred::{Domain, Error, Reducible as _, Reduction};
 
 use super::SimulationError;
 use super::run::{self, Row};
@@ -114,11 +114,12 @@ impl<'a> Plant<'a> {
         self.halted(t, direction, || self.motor(omega)[0])
     }
 
-    /// The reduced link at a position; behind an end stop, into which a step of the integrator may reach, that of the stop.
+    /// The reduced link at a position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that there.
     pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
-        let phi = match self.simulation.end_stops {
-            Some(stops) => phi.clamp(stops.from, stops.to),
-            None => phi,
+        let phi = match (self.simulation.end_stops, self.file.machine.domain()) {
+            (Some(stops), _) => phi.clamp(stops.from, stops.to),
+            (None, Domain::Stroke { from, to }) => phi.clamp(from, to),
+            (None, Domain::Turn) => phi,
         };
         Ok(self.file.machine.bare_reduction(phi)?)
     }

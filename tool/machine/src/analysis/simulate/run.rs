@@ -2,11 +2,11 @@
 
 mod stops;
 
-use jred::Error;
+use jred::{Domain, Error, Reducible as _};
 
 use super::SimulationError;
 use super::error::stopped;
-use super::simulated::{Rest, Simulated};
+use super::simulated::{Impacts, Rest, Simulated};
 use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
@@ -113,6 +113,8 @@ pub(super) fn run<const N: usize>(
         },
         watch: Watch::new(file),
         stops: simulation.end_stops,
+        ends: ends_of(file, simulation),
+        impacts: None,
         direction: 0.0,
         inside: [f64::NEG_INFINITY, f64::INFINITY],
         halt: None,
@@ -151,8 +153,21 @@ pub(super) fn run<const N: usize>(
     Ok(Simulated {
         columns,
         rest: run.rest,
+        impacts: run.impacts,
         ended,
     })
+}
+
+/// The end stops, or the ends of the stroke, which are passed by a rounding only.
+fn ends_of(file: &MachineFile, simulation: &Simulation) -> Option<[f64; 2]> {
+    match (simulation.end_stops, file.machine.domain()) {
+        (Some(stops), _) => Some([stops.from, stops.to]),
+        (None, Domain::Stroke { from, to }) => {
+            let slack = 1e-9 * (to - from);
+            Some([from - slack, to + slack])
+        }
+        (None, Domain::Turn) => None,
+    }
 }
 
 struct Run<'a, P> {
@@ -163,6 +178,9 @@ struct Run<'a, P> {
     watch: Watch<'a>,
     /// What stops the drive link.
     stops: Option<EndStops>,
+    /// Where its way ends.
+    ends: Option<[f64; 2]>,
+    impacts: Option<Impacts>,
     direction: f64,
     /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
     inside: [f64; 2],
@@ -310,9 +328,8 @@ impl<P> Run<'_, P> {
             |x, y| self.is_over(t + x, y),
         );
         let mut steps = steps.map_err(|error| stopped(t, error))?;
-        for (x, y) in &mut steps {
+        for (x, _) in &mut steps {
             *x += t;
-            self.within_stroke(*x, y)?;
         }
         Ok(steps)
     }

@@ -10,6 +10,8 @@ pub struct Simulated {
     pub columns: Columns,
     /// Where the drive link came to rest first after the motor was switched off.
     pub rest: Option<Rest>,
+    /// The impacts on end stops.
+    pub impacts: Option<Impacts>,
     /// Why the motion ends before its time.
     pub ended: Option<SimulationError>,
 }
@@ -21,6 +23,19 @@ pub struct Rest {
     pub time: f64,
     /// Way since then (rad, or m).
     pub way: f64,
+}
+
+/// Impacts on end stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impacts {
+    /// Time of the first (s).
+    pub time: f64,
+    /// Its position (rad, or m).
+    pub position: f64,
+    /// Its speed (rad/s, or m/s).
+    pub speed: f64,
+    /// Number of impacts.
+    pub count: u32,
 }
 
 impl Simulated {

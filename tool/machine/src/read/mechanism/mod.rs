@@ -231,7 +231,9 @@ fn inclination([x, y]: [f64; 2]) -> String {
         (true, true) => ", x downwards",
         _ => "",
     };
-    format!("{lies}{upwards}, by the key gravity, as in gravity = {{ inclination = \"90 deg\" }}")
+    format!(
+        "{lies}{upwards}; the key gravity says so, and gravity = {{ inclination = \"90 deg\" }} makes it vertical"
+    )
 }
 
 /// Share of gravity below which a component is a rounding.

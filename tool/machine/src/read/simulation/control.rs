@@ -118,13 +118,20 @@ fn limits(control: &Item, torque: &Characteristic) -> Result<()> {
         .help("give torque, torque_speed or dc_motor with speeds and torques that are not negative"))
 }
 
-/// The stop in the middle of the motion.
-pub(super) fn halt(simulation: &Section, around: Around) -> Result<Option<Halt>> {
+/// The stop in the middle of a motion of this length (s).
+pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Result<Option<Halt>> {
     let Some(item) = simulation.get("stop") else {
         return Ok(None);
     };
     let section = around.part(&item, "[simulation.stop]")?;
-    let time = section.quantity("time", &TIME)?.not_negative()?;
+    let given = section.quantity("time", &TIME)?;
+    if given.si > duration {
+        let what = format!("is {}, after the end of the simulation", given.shown());
+        return Err(given
+            .problem(&what, "never reached")
+            .help("stop earlier, or give a longer `duration`"));
+    }
+    let time = given.not_negative()?;
     let (key, kind) = if around.pushes() {
         ("brake_force", &FORCE)
     } else {

@@ -14,7 +14,10 @@
 use crate::catalogue::{Amplifier, Catalogue, Motor};
 use crate::motor::supply::Voltages;
 use crate::motor::winding::CurrentCurve;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::{RuleSet, Verdict};
 use jred_machine::model::site::Site;
+use jred_machine::number::rounding::short;
 use jred_machine::units::{Sentence, Vocabulary};
 
 mod bound;
@@ -146,6 +149,22 @@ impl Prepared {
             envelope: builder.build(),
             amplified: Box::default(),
         }
+    }
+
+    /// That motor or amplifier is not made for the voltage of the supply, if that is known.
+    pub fn unfit(&self, rules: &RuleSet) -> Option<String> {
+        let motor = ("motor", Rule::MotorVoltage, Some(self.voltages.motor));
+        let amplifier = ("amplifier", Rule::AmplifierVoltage, self.voltages.amplifier);
+        let mut parts = [motor, amplifier].into_iter();
+        let refused = |rule, finding| rules.verdict(rule, finding) == Verdict::Fail;
+        parts.find_map(|(part, rule, finding)| {
+            let finding = finding.filter(|finding| refused(rule, *finding))?;
+            Some(format!(
+                "the {part} is not made for this supply: up to {} V on the bus, {} V allowed; `jred size` refuses the drive",
+                short(finding.value),
+                short(finding.rating)
+            ))
+        })
     }
 
     /// With the same motor's limits on each of these amplifiers.

@@ -1,21 +1,22 @@
 //! The ends of the drive link's way: stops that it bounces from or rests at, and the end of a stroke without any.
 
-use jred::{Domain, Error, Reducible as _};
+use jred::Error;
 
 use super::{Plant, Run};
-use crate::analysis::simulate::SimulationError;
+use crate::analysis::simulate::{Impacts, SimulationError};
+use crate::number::rounding::short;
 
 /// A rebound from an end stop that is back within this time (s) is none.
 const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 impl<P> Run<'_, P> {
-    /// The end stop that a drive link in motion has passed.
+    /// The end of its way that a drive link in motion has passed: an end stop, or the end of the stroke.
     pub(super) fn stop_behind(&self, [phi, omega]: [f64; 2]) -> Option<f64> {
-        let stops = self.stops?;
-        if phi > stops.to && omega > 0.0 {
-            Some(stops.to)
-        } else if phi < stops.from && omega < 0.0 {
-            Some(stops.from)
+        let [from, to] = self.ends?;
+        if phi > to && omega > 0.0 {
+            Some(to)
+        } else if phi < from && omega < 0.0 {
+            Some(from)
         } else {
             None
         }
@@ -33,7 +34,7 @@ impl<P> Run<'_, P> {
     }
 
     /// The state after the drive link has hit an end stop at a position with a speed; the energy of the impact is lost. A rebound that
-    /// would be back at once rests.
+    /// would be back at once rests. At the end of a stroke without a stop nothing says what happens: an error.
     pub(super) fn impact<const N: usize>(
         &mut self,
         t: f64,
@@ -43,7 +44,22 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        let restitution = self.stops.map_or(0.0, |stops| stops.restitution);
+        let Some(stops) = self.stops else {
+            let coordinate = self.file.machine.mechanism().coordinate();
+            return Err(SimulationError::EndOfStroke {
+                t,
+                end: coordinate.place(stop),
+                speed: format!("{} {}", short(omega.abs()), coordinate.speed_unit()),
+            });
+        };
+        let restitution = stops.restitution;
+        let impact = self.impacts.get_or_insert(Impacts {
+            time: t,
+            position: stop,
+            speed: omega.abs(),
+            count: 0,
+        });
+        impact.count += 1;
         let kinetic = |y: &[f64; N]| -> Result<f64, Error> {
             Ok(self.plant.row(self.direction, self.within(t), y)?.kinetic)
         };
@@ -63,35 +79,5 @@ impl<P> Run<'_, P> {
             self.direction = away;
         }
         Ok(after)
-    }
-
-    /// Refuses to go on where the drive link has passed the end of its stroke: what stops it there is not in the file.
-    pub(super) fn within_stroke<const N: usize>(
-        &self,
-        t: f64,
-        y: &[f64; N],
-    ) -> Result<(), SimulationError>
-    where
-        P: Plant<N>,
-    {
-        let Domain::Stroke { from, to } = self.file.machine.domain() else {
-            return Ok(());
-        };
-        let [phi, omega] = self.plant.link(t, y)?;
-        let slack = 1e-9 * (to - from);
-        // Stops lie within the stroke, and a step that passes one is cut there.
-        if self.stops.is_some() || (from - slack..=to + slack).contains(&phi) {
-            return Ok(());
-        }
-        let coordinate = self.file.machine.mechanism().coordinate();
-        Err(SimulationError::EndOfStroke {
-            t,
-            end: coordinate.place(if phi < from { from } else { to }),
-            speed: format!(
-                "{} {}",
-                (omega * 1e6).round() / 1e6,
-                coordinate.speed_unit()
-            ),
-        })
     }
 }
