@@ -253,6 +253,27 @@ fn coefficients_of_vdi_2143() {
     }
 }
 
+/// A part without time has no jerk of its own, and none that is not a number.
+#[test]
+fn parts_without_time_have_no_jerk() {
+    for [sine, constant, cosine] in [
+        [0.0, 0.5, 0.5],
+        [0.5, 0.5, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+    ] {
+        let law = Law::SineConstantCosine {
+            sine,
+            constant,
+            cosine,
+        };
+        for z in [0.0f64, 0.25, 0.5, 0.75, 1.0] {
+            assert!(law.jerk(z).is_finite(), "{law:?} at {z}: {}", law.jerk(z));
+        }
+    }
+}
+
 /// Members of the family of sine, constant and cosine acceleration: the traditional laws, value by value, and the figures printed
 /// for others: <http://mechdesigner.support/mt-motion-cam-law-sine-constant-cosine-cv.htm>.
 #[test]

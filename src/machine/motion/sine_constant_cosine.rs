@@ -153,11 +153,11 @@ impl<R: Real> Half<R> {
         // In the second half what comes after a break is what comes before it in the mirror.
         let before = |end: R| place < end || (second && place <= end);
         let [p, q] = self.arcs;
-        if before(self.ends[0]) {
+        if p > c(0.0) && before(self.ends[0]) {
             self.most / p * (place / p).sin_cos().1
         } else if before(self.ends[1]) {
             c(0.0)
-        } else if before(self.ends[2]) {
+        } else if q > c(0.0) && before(self.ends[2]) {
             -self.most / q * ((place - self.ends[1]) / q).sin_cos().0
         } else {
             c(0.0)

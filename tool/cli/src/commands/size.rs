@@ -47,6 +47,7 @@ pub fn size(options: &Size) -> Result<Done> {
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
     if options.motion == Moved::Best {
+        file.refuse_scheduled("size --motion best")?;
         let best = suited(&Judging {
             options,
             file: &file,

@@ -102,7 +102,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         Some(item) => item.number([1e-13, 1e-3], "1e-12")?,
         None => TOLERANCE,
     };
-    let control = control::control(&section, around, at, &torque)?;
+    let control = control::control(&section, around, (at, duration.si), &torque)?;
     let halt = control::halt(&section, around, duration.si)?;
     let end_stops = control::end_stops(&section, around, start_angle)?;
     section.finish()?;

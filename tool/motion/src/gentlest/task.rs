@@ -336,9 +336,10 @@ impl Solved<'_> {
         -self.found.multiplier - holding
     }
 
-    /// Whether waiting is better than to move for so long.
+    /// Whether waiting is better than to move for so long. For the peak it never is: a slower motion has the lower one, and the
+    /// integral of the 64th power tells nothing about pauses.
     pub(super) fn waits(&self, held: &[f64; 2]) -> bool {
-        self.excess(held) > 1e-6 * self.found.cost
+        self.task.objective != Objective::Peak && self.excess(held) > 1e-6 * self.found.cost
     }
 
     pub(super) fn finish(self, change: f64, waits: &Waits) -> Result<Gentle, Fault> {
@@ -399,7 +400,9 @@ impl Solved<'_> {
             Optimum::Local(Reason::Bound)
         };
         let peak = found.cost.powf(1.0 / f64::from(PEAK_POWER)) * scale.unit;
-        let least_peak = (task.objective == Objective::Peak && proved).then_some(peak);
+        // Of all motions, not of those with ramps of one form or with a wait.
+        let of_all = task.objective == Objective::Peak && whole && !waiting;
+        let least_peak = (of_all && proved).then_some(peak);
         let mut phases = phases(task.travel.distance, moving, &mesh, &found.x);
         if waiting {
             let still = Phase {

@@ -239,7 +239,7 @@ fn optimum(shown: &Shown, words: &Vocabulary) -> String {
 const fn why(reason: Reason) -> &'static str {
     match reason {
         Reason::LongTime => {
-            "the time is longer than the motion takes of itself, so that lingering may be better"
+            "the time is longer than the motion takes of itself, so that it may be better to stay long where little resists"
         }
         Reason::Viscous => "viscous friction makes the problem non-convex",
         Reason::Losses => "the losses of gears make the problem non-convex",

@@ -6,11 +6,15 @@ use crate::model::characteristic::Characteristic;
 use crate::model::motion::Motion;
 use crate::model::simulation::{Control, EndStops, FeedForward, Halt, Shaft};
 
+use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{FORCE, GAIN, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+
+/// The most cycles that are followed: each has its corners.
+const MOST_CYCLES: f64 = 1000.0;
 
 /// A stop that gives back more than this would bounce without end.
 const MOST_RESTITUTION: f64 = 0.99;
@@ -41,24 +45,32 @@ impl Around<'_> {
     }
 }
 
-/// The controller, for a motor at a shaft with a torque over the speed.
+/// The controller, for a motor at a shaft over so long (s), with a torque over the speed.
 pub(super) fn control(
     simulation: &Section,
     around: Around,
-    at: Shaft,
+    (at, duration): (Shaft, f64),
     torque: &Characteristic,
 ) -> Result<Option<Control>> {
     let Some(item) = simulation.get("control") else {
         return Ok(None);
     };
     let section = around.part(&item, "[simulation.control]")?;
-    if around.motion.is_none() {
+    let Some(motion) = around.motion else {
         return Err(section
             .problem(
                 "[simulation.control] has no motion to follow",
                 "this controller",
             )
             .help("add a [motion] to the file: it is the reference"));
+    };
+    let cycles = duration / motion.duration();
+    if motion.cyclic && cycles > MOST_CYCLES {
+        let what = format!("follows {} cycles of [motion]", figure(cycles.floor()));
+        return Err(item.problem(&what, "this controller").help(format!(
+            "at most {MOST_CYCLES} are possible: give a `duration` of {} s at most",
+            figure(MOST_CYCLES * motion.duration())
+        )));
     }
     if at == Shaft::DriveLink && !around.drive_train.stages().is_empty() {
         return Err(section
