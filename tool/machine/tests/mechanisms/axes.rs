@@ -271,8 +271,14 @@ fn facts_of_an_axis() {
     let text = crate::reading::text_of("belt-axis.toml");
     for (gravity, words) in [
         ("{ inclination = \"0 deg\" }", "horizontal; the key"),
-        ("{ inclination = \"90 deg\" }", "vertical, x upwards; the key"),
-        ("{ inclination = \"-90 deg\" }", "vertical, x downwards; the key"),
+        (
+            "{ inclination = \"90 deg\" }",
+            "vertical, x upwards; the key",
+        ),
+        (
+            "{ inclination = \"-90 deg\" }",
+            "vertical, x downwards; the key",
+        ),
         ("{ inclination = \"30 deg\" }", "x rises by 30 deg; the key"),
         ("[\"0 m/s^2\", \"-9.81 m/s^2\"]", "horizontal; the key"),
         ("[\"0 m/s^2\", \"0 m/s^2\"]", "without gravity"),
