@@ -1,5 +1,7 @@
 //! `[simulation]`: the motor of a free motion, its controller, and what stops it.
 
+use jred::{Domain, Reducible as _};
+
 use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
@@ -55,6 +57,15 @@ impl Simulation {
             at: Shaft::Motor,
             rotor_inertia: 0.0,
             tolerance: 1e-12,
+        }
+    }
+
+    /// Where the drive link's way ends: its end stops, or the ends of the stroke.
+    pub fn ends(&self, file: &MachineFile) -> Option<[f64; 2]> {
+        match (self.end_stops, file.machine.domain()) {
+            (Some(stops), _) => Some([stops.from, stops.to]),
+            (None, Domain::Stroke { from, to }) => Some([from, to]),
+            (None, Domain::Turn) => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A machine whose motor drives it through a fixed ratio.
 
 use jred::mechanism::TrainOutput;
-use jred::{Domain, Error, Reducible as _, Reduction};
+use jred::{Error, Reduction};
 
 use super::SimulationError;
 use super::run::{self, Row};
@@ -19,6 +19,8 @@ pub(in crate::analysis) struct Plant<'a> {
     file: &'a MachineFile,
     simulation: &'a Simulation,
     coordinate: Coordinate,
+    /// Where the drive link's way ends.
+    ends: Option<[f64; 2]>,
 }
 
 /// Derivatives and forces at one state.
@@ -36,6 +38,7 @@ impl<'a> Plant<'a> {
             file,
             simulation,
             coordinate: file.machine.mechanism().coordinate(),
+            ends: simulation.ends(file),
         }
     }
 
@@ -116,10 +119,9 @@ impl<'a> Plant<'a> {
 
     /// The reduced link at a position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that there.
     pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
-        let phi = match (self.simulation.end_stops, self.file.machine.domain()) {
-            (Some(stops), _) => phi.clamp(stops.from, stops.to),
-            (None, Domain::Stroke { from, to }) => phi.clamp(from, to),
-            (None, Domain::Turn) => phi,
+        let phi = match self.ends {
+            Some([from, to]) => phi.clamp(from, to),
+            None => phi,
         };
         Ok(self.file.machine.bare_reduction(phi)?)
     }

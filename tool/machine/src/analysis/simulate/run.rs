@@ -2,7 +2,7 @@
 
 mod stops;
 
-use jred::{Domain, Error, Reducible as _};
+use jred::Error;
 
 use super::SimulationError;
 use super::error::stopped;
@@ -113,7 +113,15 @@ pub(super) fn run<const N: usize>(
         },
         watch: Watch::new(file),
         stops: simulation.end_stops,
-        ends: ends_of(file, simulation),
+        ends: simulation.ends(file).map(|[from, to]| {
+            // The end of a stroke may be passed by a rounding.
+            let slack = if simulation.end_stops.is_some() {
+                0.0
+            } else {
+                1e-9 * (to - from)
+            };
+            [from - slack, to + slack]
+        }),
         impacts: None,
         direction: 0.0,
         inside: [f64::NEG_INFINITY, f64::INFINITY],
@@ -156,18 +164,6 @@ pub(super) fn run<const N: usize>(
         impacts: run.impacts,
         ended,
     })
-}
-
-/// The end stops, or the ends of the stroke, which are passed by a rounding only.
-fn ends_of(file: &MachineFile, simulation: &Simulation) -> Option<[f64; 2]> {
-    match (simulation.end_stops, file.machine.domain()) {
-        (Some(stops), _) => Some([stops.from, stops.to]),
-        (None, Domain::Stroke { from, to }) => {
-            let slack = 1e-9 * (to - from);
-            Some([from - slack, to + slack])
-        }
-        (None, Domain::Turn) => None,
-    }
 }
 
 struct Run<'a, P> {
