@@ -120,6 +120,16 @@ impl Trace {
         }
     }
 
+    /// The way (rad, or m) between the nodes around a time, at its end those before: its sign is the direction, 0 where the machine stands.
+    pub fn heading(&self, t: f64) -> f64 {
+        let next = self.nodes.partition_point(|node| node.t <= t);
+        let next = next.clamp(1, self.nodes.len().max(2) - 1);
+        match (self.nodes.get(next - 1), self.nodes.get(next)) {
+            (Some(a), Some(b)) => b.phi - a.phi,
+            _ => 0.0,
+        }
+    }
+
     /// Equal times over the motion, both ends included.
     fn rows(&self, count: usize) -> impl Iterator<Item = (f64, State<f64>)> {
         let (end, last) = (self.duration(), count.max(2) - 1);

@@ -12,6 +12,7 @@
 //! at the drive link, and the losses of the drive train. T rises with a, in straight lines that meet where the power at a stage
 //! changes its direction.
 
+use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
 use jred_machine::model::coordinate::Coordinate;
@@ -261,5 +262,38 @@ impl<'a> Way<'a> {
                 torque
             }
         })
+    }
+}
+
+/// The machine with its drive in both directions: for a motion that turns round.
+#[derive(Clone, Debug)]
+pub struct BothWays<'a>([Way<'a>; 2]);
+
+impl<'a> BothWays<'a> {
+    /// Under a drive.
+    pub fn new(file: &'a MachineFile, actuator: &Actuator) -> Self {
+        Self([1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction)))
+    }
+
+    /// The way in which φ grows.
+    pub const fn forwards(&self) -> &Way<'a> {
+        &self.0[0]
+    }
+
+    /// The motor torque (N·m) of a state, positive where it pushes towards growing φ: what holds the machine where it stands without
+    /// an acceleration. `heading` has the sign of the motion that the state is part of, which friction needs where it begins or ends.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn torque(&self, state: &State<f64>, heading: f64) -> Result<f64, Error> {
+        let State { phi, omega, alpha } = *state;
+        let back = if omega == 0.0 { heading } else { omega } < 0.0;
+        let way = &self.0[usize::from(back)];
+        let place = way.place(phi)?;
+        if omega == 0.0 && alpha == 0.0 {
+            return Ok(way.holding(&place));
+        }
+        let demand = way.demand(&place, omega.abs(), alpha * way.direction);
+        Ok(demand.torque * way.direction)
     }
 }

@@ -1,13 +1,14 @@
 //! All moves of a motion made as fast as possible, its pauses kept.
 
 use jred::Error;
+use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 
 use super::field::{Binding, Limits};
 use super::{Fastest, NoMotion, Task, solve};
 use crate::moves::Part;
-use crate::trace::Trace;
-use crate::way::{Actuator, Way};
+use crate::trace::{Node, Trace};
+use crate::way::{Actuator, BothWays, Way};
 
 /// Share by which torque and speed of the motor are raised to see what they are worth.
 pub const MORE: f64 = 0.1;
@@ -193,34 +194,24 @@ fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Li
 /// # Errors
 /// The mechanism cannot be placed somewhere.
 pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<MotorLoad, Error> {
-    let ways = [1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction));
-    let [forwards, _] = &ways;
-    let torque = |phi: f64, omega: f64, alpha: f64| -> Result<f64, Error> {
-        let way = &ways[usize::from(omega < 0.0)];
-        let place = way.place(phi)?;
-        Ok(if omega == 0.0 {
-            way.holding(&place)
-        } else {
-            way.demand(&place, omega.abs(), alpha * way.direction)
-                .torque
-        })
-    };
+    let ways = BothWays::new(file, actuator);
+    let forwards = ways.forwards();
     let (mut squares, mut turns) = (0.0, 0.0);
     let mut peaks = [0.0_f64; 2];
     for pair in trace.nodes().windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        let step = b.t - a.t;
+        let (step, heading) = (b.t - a.t, b.phi - a.phi);
         if step <= 0.0 {
             continue;
         }
         for share in GAUSS {
-            let state = trace.at(a.t + share * step);
-            let motor = torque(state.phi, state.omega, state.alpha)?;
+            let motor = ways.torque(&trace.at(a.t + share * step), heading)?;
             squares += 0.5 * step * motor * motor;
         }
-        turns += (b.phi - a.phi).abs();
+        turns += heading.abs();
         for (node, alpha) in [(a, a.alpha[1]), (b, b.alpha[0])] {
-            let motor = torque(node.phi, node.omega, alpha)?;
+            let Node { phi, omega, .. } = *node;
+            let motor = ways.torque(&State { phi, omega, alpha }, heading)?;
             peaks[0] = peaks[0].max(motor.abs());
             peaks[1] = peaks[1].max(forwards.motor_speed(node.omega.abs()));
         }

@@ -1,10 +1,8 @@
 //! A move solved on one mesh after another, in numbers of its own.
 
 use jred::machine::motion::{End, Polynomial};
-use jred::mechanism::TrainOutput;
 use jred::{Domain, Reducible as _};
 use jred_machine::model::motion::Phase;
-use jred_sizing::cycle::form::loads_of;
 
 use super::cost::Cost;
 use super::mesh::{GAUSS, Mesh};
@@ -127,16 +125,7 @@ impl Waits {
 impl Task<'_> {
     /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
-        let file = self.way.file;
-        let torque = |phi: f64| -> Result<f64, Fault> {
-            let bare = file.bare_reduction(phi)?;
-            let input = file.drive_train.input(&TrainOutput {
-                torque: bare.torque(0.0, 0.0).total(),
-                ..TrainOutput::default()
-            });
-            let coefficients = &self.way.actuator.coefficients;
-            Ok(coefficients.torque(&loads_of(0.0, input.torque, 0.0)))
-        };
+        let torque = |phi: f64| Ok::<_, Fault>(self.way.holding(&self.way.place(phi)?));
         let Travel {
             start, distance, ..
         } = *self.travel;

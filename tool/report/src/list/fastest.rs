@@ -14,7 +14,7 @@ use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::number::words::counted;
 use jred_motion::fastest::cycle::{Cost, Cycle, MORE, Made};
 use jred_motion::fastest::{Binding, Phase};
-use jred_motion::way::{Actuator, Way};
+use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::study::cell::Cell;
 
 /// Name and version of the form in JSON.
@@ -74,29 +74,20 @@ impl Answer<'_> {
             Column::new(Quantity::MotorEffort, "motor torque", effort),
             Column::other("motor speed", motor_speed),
         ]);
-        let ways = [1.0, -1.0].map(|sign| Way::new(self.file, self.actuator.clone(), sign));
+        let ways = BothWays::new(self.file, self.actuator);
         let trace = &self.cycle.trace;
         let last = self.instants.max(2) - 1;
         for k in 0..=last {
             let t = trace.duration() * k as f64 / last as f64;
             let state = trace.at(t);
-            let way = &ways[usize::from(state.omega < 0.0)];
-            let place = way.place(state.phi)?;
-            let torque = if state.omega == 0.0 && state.alpha == 0.0 {
-                way.holding(&place)
-            } else {
-                let sign = way.direction;
-                way.demand(&place, state.omega.abs(), state.alpha * sign)
-                    .torque
-                    * sign
-            };
+            let torque = ways.torque(&state, trace.heading(t))?;
             columns.push([
                 t,
                 coordinate.shown(state.phi),
                 state.omega,
                 state.alpha,
                 torque,
-                way.motor_speed(state.omega),
+                ways.forwards().motor_speed(state.omega),
             ]);
         }
         Ok(columns)
