@@ -23,7 +23,7 @@ pub use walk::Assembly;
 use crate::machine::error::MachineError;
 use crate::machine::joint::{Body, Joint, MAX_JOINTS};
 use crate::machine::link::{Frame, Link};
-use crate::machine::mechanism::MAX_LINKS;
+use crate::machine::mechanism::{Frames, MAX_LINKS};
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::finite;
@@ -205,7 +205,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 
     /// Checks an approximate drawing: one pose a link.
-    fn drawing(&self, drawing: &[Pose]) -> Result<[Frame; LINKS], LinkageError> {
+    fn drawing(&self, drawing: &[Pose]) -> Result<Frames, LinkageError> {
         if drawing.len() != self.links.len() {
             return Err(RangeError::BufferTooShort {
                 needed: self.links.len(),
@@ -213,14 +213,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             }
             .into());
         }
-        let mut frames = [Frame::GROUND; LINKS];
-        for (frame, pose) in frames.iter_mut().zip(drawing) {
+        for pose in drawing {
             finite("x in the drawing", pose.x)?;
             finite("y in the drawing", pose.y)?;
             finite("angle in the drawing", pose.psi)?;
-            *frame = pose.frame();
         }
-        Ok(frames)
+        Ok(drawing.iter().map(Pose::frame).collect())
     }
 }
 

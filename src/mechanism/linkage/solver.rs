@@ -19,10 +19,9 @@ const LONGEST_TURN: f64 = 0.5;
 /// A group whose columns span less than this is at a dead point.
 pub(super) const DEAD: f64 = 1e-9;
 
-/// Where all links are, and how well the drive moves them.
+/// How well the drive moves the links where they were placed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Solved<const LINKS: usize> {
-    pub(super) frames: [Frame; LINKS],
+pub(super) struct Solved {
     /// The smallest |det A|/Π‖column‖ of a group's Jacobian A: 0 at a dead point, at most 1.
     pub(super) quality: f64,
     /// The pair where it is smallest.
@@ -61,9 +60,9 @@ pub(super) fn evaluate<const CAMS: usize>(
 }
 
 /// Memory for the factors of all groups, one after the other.
-struct Factors<const LINKS: usize> {
-    matrix: [[[[f64; 3]; 3]; LINKS]; LINKS],
-    pivots: [[usize; 3]; LINKS],
+struct Factors<'a> {
+    matrices: &'a mut [f64],
+    pivots: &'a mut [usize],
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
@@ -83,24 +82,41 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
     }
 
-    /// Positions and transfer functions at `phi`, from links that are nearly there.
-    pub(super) fn solve(
+    /// Positions and transfer functions at `phi`, of links that are nearly there.
+    pub(super) fn solve(&self, phi: f64, frames: &mut [Frame]) -> Result<Solved, Unsolved> {
+        let mut pivots = [[0; 3]; LINKS];
+        let pivots = pivots.as_flattened_mut();
+        // Small groups, as nearly always, or one of all coordinates, whose memory takes longer to clear than they to solve.
+        let mut matrices = [[0.0; 9]; LINKS];
+        let matrices = matrices.as_flattened_mut();
+        if self.structure.entries() <= matrices.len() {
+            return self.solve_in(&mut Factors { matrices, pivots }, phi, frames);
+        }
+        self.solve_at_large(pivots, phi, frames)
+    }
+
+    #[inline(never)]
+    fn solve_at_large(
         &self,
+        pivots: &mut [usize],
         phi: f64,
-        frames: [Frame; LINKS],
-    ) -> Result<Solved<LINKS>, Unsolved> {
-        let mut factors = Factors {
-            matrix: [[[[0.0; 3]; 3]; LINKS]; LINKS],
-            pivots: [[0; 3]; LINKS],
-        };
-        let mut matrices = factors
-            .matrix
-            .as_flattened_mut()
-            .as_flattened_mut()
-            .as_flattened_mut();
-        let mut pivots = factors.pivots.as_flattened_mut();
+        frames: &mut [Frame],
+    ) -> Result<Solved, Unsolved> {
+        let mut matrices = [[[[0.0; 3]; 3]; LINKS]; LINKS];
+        let matrices = matrices.as_flattened_mut().as_flattened_mut();
+        let matrices = matrices.as_flattened_mut();
+        self.solve_in(&mut Factors { matrices, pivots }, phi, frames)
+    }
+
+    fn solve_in(
+        &self,
+        factors: &mut Factors<'_>,
+        phi: f64,
+        frames: &mut [Frame],
+    ) -> Result<Solved, Unsolved> {
+        let mut matrices = &mut *factors.matrices;
+        let mut pivots = &mut *factors.pivots;
         let mut solved = Solved {
-            frames,
             quality: 1.0,
             weakest: self.drive,
             signs: 0,
@@ -108,7 +124,6 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         };
         let mut step = [[0.0; 3]; LINKS];
         for (k, group) in self.structure.groups().enumerate() {
-            let frames = &mut solved.frames;
             if let Some((equation, c, sign)) = self.explicit(group) {
                 let step = sign * self.order::<0>(equation, frames, Transfer::constant(phi));
                 frames[usize::from(c.link)].shift(c.axis, step);
@@ -131,7 +146,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
                 solved.weakest = self.pair_of(group);
             }
         }
-        self.differentiate(phi, &mut solved.frames, &factors);
+        self.differentiate(phi, frames, factors);
         Ok(solved)
     }
 
@@ -141,7 +156,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         &self,
         group: Group,
         phi: f64,
-        frames: &mut [Frame; LINKS],
+        frames: &mut [Frame],
         matrix: &mut [f64],
         pivots: &mut [usize],
         step: &mut [f64],
@@ -224,10 +239,9 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 
     /// Transfer functions of first, second and third order: (77), (78) and one order more, group by group. With the
     /// order sought still zero, an equation's derivative of that order is the right-hand side, with the opposite sign.
-    fn differentiate(&self, phi: f64, frames: &mut [Frame; LINKS], factors: &Factors<LINKS>) {
+    fn differentiate(&self, phi: f64, frames: &mut [Frame], factors: &Factors<'_>) {
         let phi = Transfer::variable(phi);
-        let mut matrices = factors.matrix.as_flattened().as_flattened().as_flattened();
-        let mut pivots = factors.pivots.as_flattened();
+        let (mut matrices, mut pivots) = (&*factors.matrices, &*factors.pivots);
         for group in self.structure.groups() {
             if let Some((equation, c, sign)) = self.explicit(group) {
                 let frame = usize::from(c.link);
@@ -252,7 +266,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         &self,
         group: Group,
         phi: Transfer,
-        frames: &mut [Frame; LINKS],
+        frames: &mut [Frame],
         (matrix, pivots): (&[f64], &[usize]),
     ) {
         let coordinates = self.structure.coordinates(group);

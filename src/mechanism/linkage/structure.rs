@@ -210,6 +210,13 @@ impl<const LINKS: usize> Structure<LINKS> {
         self.groups.iter().copied()
     }
 
+    /// Entries of the Jacobians of all groups that have one.
+    pub(super) fn entries(&self) -> usize {
+        let explicit = |group: &Group| matches!(group.method, Method::Explicit { .. });
+        let solved = self.groups().filter(|group| !explicit(group));
+        solved.map(|group| usize::from(group.size).pow(2)).sum()
+    }
+
     /// The equations of a group.
     pub(super) fn equations(&self, group: Group) -> &[Equation] {
         let start = usize::from(group.start);

@@ -76,27 +76,27 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             }
             .into());
         }
-        let first = self
-            .solve(phi, self.drawing(drawing)?)
-            .map_err(|why| why.at(phi))?;
+        let mut frames = self.drawing(drawing)?;
+        let first = self.solve(phi, &mut frames).map_err(|why| why.at(phi))?;
         let from = domain.position(0.0);
-        let mut now = self.walk(phi, first, from, span)?;
+        let mut now = self.walk(phi, (first, &mut frames), from, span)?;
         let signs = now.signs;
-        let start = now.frames;
+        let start = frames.clone();
         let mut stations = [[[[0.0; 2]; 3]; LINKS]; STATIONS];
         let mut before = from;
         for (k, station) in stations.iter_mut().enumerate() {
             let next = domain.position(k as f64 / (STATIONS - 1) as f64);
-            now = self.walk(before, now, next, span)?;
+            now = self.walk(before, (now, &mut frames), next, span)?;
             before = next;
-            for (slot, frame) in station.iter_mut().zip(&now.frames) {
+            for (slot, frame) in station.iter_mut().zip(&frames) {
                 *slot = [frame.x, frame.y, frame.psi].map(|c| [c.value, c.d1]);
             }
         }
         let mut turn = [0.0; LINKS];
         if domain == Domain::Turn {
-            for (link, advance) in turn.iter_mut().enumerate().take(self.links.len()) {
-                *advance = self.closes(link, &start[link], &now.frames[link])?;
+            let ends = start.iter().zip(&frames).enumerate();
+            for ((link, (start, end)), advance) in ends.zip(&mut turn) {
+                *advance = self.closes(link, start, end)?;
             }
         }
         Ok(Assembly {
@@ -141,23 +141,25 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         held.all(|(equation, angles_alone)| angles_alone && !is_cam(equation.pair.into()))
     }
 
-    /// From a solved position to another φ, in steps as long as the predictor is to be trusted.
+    /// From a solved position, where the links are in `frames`, to another φ, in steps as long as the predictor is to be trusted.
     fn walk(
         &self,
         from: f64,
-        start: Solved<LINKS>,
+        (start, frames): (Solved, &mut Frames),
         to: f64,
         span: f64,
-    ) -> Result<Solved<LINKS>, PoseError> {
+    ) -> Result<Solved, PoseError> {
         let (mut phi, mut now) = (from, start);
         let mut step = to - from;
         let mut arrived = math::abs(step) == 0.0;
         while !arrived {
             let last = math::abs(to - phi) <= math::abs(step);
             let next = if last { to } else { phi + step };
-            let dead = match self.solve(next, predicted(&now.frames, next - phi)) {
+            let mut there = predicted(frames, next - phi);
+            let dead = match self.solve(next, &mut there) {
                 Ok(found) if found.signs == now.signs && found.correction <= TRUSTED => {
                     (phi, now, arrived) = (next, found, last);
+                    *frames = there;
                     step *= 2.0;
                     continue;
                 }
@@ -192,10 +194,13 @@ impl Unsolved {
 }
 
 /// The links a step `h` on, by Taylor's polynomial of third order.
-fn predicted<const LINKS: usize>(frames: &[Frame; LINKS], h: f64) -> [Frame; LINKS] {
+fn predicted(frames: &Frames, h: f64) -> Frames {
     let on =
         |c: Transfer| Transfer::constant(c.value + h * (c.d1 + h / 2.0 * (c.d2 + h / 3.0 * c.d3)));
-    frames.map(|frame| Frame::turned([on(frame.x), on(frame.y)], on(frame.psi)))
+    frames
+        .iter()
+        .map(|frame| Frame::turned([on(frame.x), on(frame.y)], on(frame.psi)))
+        .collect()
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize>
@@ -221,12 +226,13 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     /// # Errors
     /// Those of [`frames`](Mechanism::frames).
     pub fn quality(&self, phi: f64) -> Result<(f64, usize), PoseError> {
-        let (solved, _) = self.solved(phi)?;
+        let mut frames = Frames::new();
+        let (solved, _) = self.solved(phi, &mut frames)?;
         Ok((solved.quality, solved.weakest))
     }
 
-    /// The links at `phi`, without the whole turns, which are returned separately.
-    fn solved(&self, phi: f64) -> Result<(Solved<LINKS>, f64), PoseError> {
+    /// Puts the links at `phi` into `frames`, without the whole turns, which are returned.
+    fn solved(&self, phi: f64, frames: &mut Frames) -> Result<(Solved, f64), PoseError> {
         let phi = finite("drive position", phi)?;
         let (turns, phi) = match self.domain {
             Domain::Turn => {
@@ -238,7 +244,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
         let cells = (STATIONS - 1) as f64;
         let place = (phi - self.domain.position(0.0)) / self.domain.span() * cells;
         let cell = (math::floor(place).max(0.0) as usize).min(STATIONS - 2);
-        let frames = self.between(cell, place - cell as f64);
+        self.between(cell, place - cell as f64, frames);
         if let Ok(solved) = self.linkage.solve(phi, frames)
             && solved.signs == self.signs
             && solved.correction <= TRUSTED
@@ -247,15 +253,16 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
         }
         // Few stations, or a dead point nearby: follow the linkage from the station.
         let start = self.domain.position(cell as f64 / cells);
-        let station = self.linkage.solve(start, self.between(cell, 0.0));
-        let solved = station
-            .map_err(|why| why.at(start))
-            .and_then(|station| self.linkage.walk(start, station, phi, self.domain.span()))?;
+        self.between(cell, 0.0, frames);
+        let station = self.linkage.solve(start, frames);
+        let station = station.map_err(|why| why.at(start))?;
+        let span = self.domain.span();
+        let solved = self.linkage.walk(start, (station, frames), phi, span)?;
         Ok((solved, turns))
     }
 
     /// The links in a cell, u = 0 to 1, by Hermite's cubic polynomial.
-    fn between(&self, cell: usize, u: f64) -> [Frame; LINKS] {
+    fn between(&self, cell: usize, u: f64, frames: &mut Frames) {
         let width = self.domain.span() / (STATIONS - 1) as f64;
         let (one, u2) = (1.0 - u, u * u);
         let weights = [
@@ -264,7 +271,9 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
             u2 * (3.0 - 2.0 * u),
             -u2 * one * width,
         ];
-        core::array::from_fn(|link| {
+        let count = self.linkage.links.len();
+        frames.clear();
+        frames.extend((0..count).map(|link| {
             let [x, y, psi] = core::array::from_fn(|axis| {
                 let [a, b] = [cell, cell + 1].map(|k| self.stations[k][link][axis]);
                 Transfer::constant(
@@ -272,7 +281,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
                 )
             });
             Frame::turned([x, y], psi)
-        })
+        }));
     }
 }
 
@@ -288,16 +297,12 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
-        let (solved, turns) = self.solved(phi)?;
-        let count = self.linkage.links.len();
-        let advanced = |(frame, turn): (&Frame, &f64)| frame.advanced(turns * turn);
-        Ok(solved
-            .frames
-            .iter()
-            .zip(&self.turn)
-            .take(count)
-            .map(advanced)
-            .collect())
+        let mut frames = Frames::new();
+        let (_, turns) = self.solved(phi, &mut frames)?;
+        for (frame, turn) in frames.iter_mut().zip(&self.turn) {
+            *frame = frame.advanced(turns * turn);
+        }
+        Ok(frames)
     }
 }
 

@@ -111,10 +111,12 @@ impl Raw<'_> {
                 break;
             }
             speeds.push(speed(place(k))?);
-            // Between places it may stand where its speed is least.
+            // Between places it may stand where its speed is least, unless that hardly changes: a curve that touches zero there rises
+            // at least four times as far as it is high, to one of its neighbours.
             if let [.., a, b, c] = speeds[..]
                 && b <= a
                 && b <= c
+                && b < 4.0 * (a.max(c) - b)
             {
                 let [from, to] = [place(k - 2), place(k)];
                 let slowest = numerics::least(speed, from.min(to), from.max(to))?;
