@@ -102,6 +102,31 @@ impl Element {
         Ok(Self { between, law })
     }
 
+    /// Stiffness (N/m, or N·m/rad) and free length (m), or free angle (rad), of a spring; `None` of a damper.
+    #[must_use]
+    pub const fn spring_rate(&self) -> Option<[f64; 2]> {
+        match self.law {
+            Law::Spring {
+                stiffness,
+                free_length,
+            } => Some([stiffness, free_length]),
+            Law::TorsionSpring {
+                stiffness,
+                free_angle,
+            } => Some([stiffness, free_angle]),
+            Law::Damper { .. } | Law::TorsionDamper { .. } => None,
+        }
+    }
+
+    /// Whether it acts by the angle between its bodies, not by the distance of its points.
+    #[must_use]
+    pub const fn is_torsional(&self) -> bool {
+        matches!(
+            self.law,
+            Law::TorsionSpring { .. } | Law::TorsionDamper { .. }
+        )
+    }
+
     /// The two markers.
     pub const fn between(&self) -> [Marker; 2] {
         self.between

@@ -1,5 +1,6 @@
 //! The commands: read, compute, write.
 
+pub mod balance;
 pub mod bus;
 mod core_error;
 mod export;
@@ -70,6 +71,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Steady(options) => steady::steady(options),
         options::Command::Fastest(options) => fastest::fastest(options),
         options::Command::Retime(options) => retime::retime(options),
+        options::Command::Balance(options) => balance::balance(options),
         options::Command::Export(options) => export::run(options),
         options::Command::Rules(options) => print(&list::rule_list::show(
             options.set.as_deref(),
@@ -96,6 +98,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Steady(_) => "seeking the steady cycle",
         Command::Fastest(_) => "seeking the fastest motion",
         Command::Retime(_) => "seeking the gentlest motion",
+        Command::Balance(_) => "seeking counterweights and springs",
         Command::Export(_) => "seeking the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",

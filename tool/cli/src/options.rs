@@ -1,5 +1,6 @@
 //! The command line: declarations only.
 
+pub mod balance;
 pub mod bus;
 pub mod catalogue;
 pub mod fastest;
@@ -64,6 +65,8 @@ pub enum Command {
     Fastest(fastest::Fastest),
     /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, beside all motion laws.
     Retime(retime::Retime),
+    /// Find counterweights and springs that make the torque of the drive, or the fluctuation of the reduced inertia, least.
+    Balance(balance::Balance),
     /// Write the smallest firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.

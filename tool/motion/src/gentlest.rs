@@ -28,7 +28,6 @@ mod bound;
 mod cost;
 mod mesh;
 mod shape;
-mod skyline;
 mod solve;
 mod task;
 mod torque;

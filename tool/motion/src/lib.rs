@@ -8,12 +8,15 @@
 //! 3. [`fastest`]: minimum time;
 //! 4. [`trace`]: a motion that was made, and the files that it becomes;
 //! 5. [`gentlest`]: least RMS torque, energy or peak in a given time;
-//! 6. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws.
+//! 6. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
+//! 7. [`balance`]: counterweights and springs that relieve the drive.
 #![forbid(unsafe_code)]
 
+pub mod balance;
 pub mod fastest;
 pub mod gentlest;
 pub mod moves;
 pub mod retime;
+mod skyline;
 pub mod trace;
 pub mod way;

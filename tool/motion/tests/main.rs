@@ -1,6 +1,7 @@
 //! The one test program of the package.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
+mod balance;
 mod fastest;
 mod gentlest;
 mod moves;

@@ -20,6 +20,7 @@ fn help_of_every_command() {
         "steady",
         "fastest",
         "retime",
+        "balance",
         "export",
         "rules",
         "split",
@@ -33,5 +34,5 @@ fn help_of_every_command() {
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;
     let commands = jred_cli::options::Cli::command();
-    assert_eq!(commands.get_subcommands().count(), 16);
+    assert_eq!(commands.get_subcommands().count(), 17);
 }

@@ -140,3 +140,49 @@ fn retime() {
         ]),
     );
 }
+
+#[test]
+fn balance() {
+    let press = Desk::machine("press.toml");
+    let (still, _) = press.split_once("# One turn from top").unwrap();
+    let masses =
+        |on: &str, rest: &str| format!("{press}\n[[mass]]\non = \"{on}\"\nmass = \"2 kg\"\n{rest}");
+    let desk = Desk::new()
+        .with_machines(&["press.toml", "linkage-four-bar.toml"])
+        .with("no-motion.toml", still)
+        .with("for-a-while.toml", masses("crank", "segments = [1]\n"))
+        .with("nowhere.toml", masses("wheel", ""));
+    let with = |file: &'static str, more: &[&'static str]| {
+        [&["balance", file, "--steps", "200"], more].concat()
+    };
+    let crank = ["--counterweight", "crank, 40 kg, 200 mm"];
+    compare(
+        "balance",
+        &desk.runs(&[
+            &with("press.toml", &crank),
+            &with("press.toml", &[&crank[..], &["--least", "peak"]].concat()),
+            &with(
+                "linkage-four-bar.toml",
+                &["--spring", "counterbalance", "--least", "holding"],
+            ),
+            &with(
+                "linkage-four-bar.toml",
+                &["--spring", "counterbalance", "--format", "json"],
+            ),
+            &with("press.toml", &["--counterweight", "crank, 40 kg"]),
+            &with("press.toml", &["--counterweight", "wheel, 40 kg, 200 mm"]),
+            &with("press.toml", &["--counterweight", "crank, 40 mm, 200 mm"]),
+            &with("press.toml", &[&crank[..], &crank[..]].concat()),
+            &with(
+                "press.toml",
+                &[&crank[..], &["--least", "inertia"]].concat(),
+            ),
+            &with("press.toml", &["--spring", "none"]),
+            &with("linkage-four-bar.toml", &["--spring", "none"]),
+            &with("no-motion.toml", &crank),
+            &["balance", "press.toml"],
+            &["check", "for-a-while.toml"],
+            &["check", "nowhere.toml"],
+        ]),
+    );
+}

@@ -1,9 +1,10 @@
 //! A machine as described by a machine file, checked and in SI units.
 
-use jred::machine::Mechanism as _;
+use jred::machine::{Element, Mechanism as _};
 use jred::mechanism::Train;
 use jred::{Error, Machine, Reduction};
 
+use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
@@ -157,6 +158,42 @@ impl MachineFile {
         Ok(torques.sum())
     }
 
+    /// Puts masses on links, and other springs in the place of those with these numbers; `None`: no spring.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn rebuild<'a>(
+        &mut self,
+        masses: impl IntoIterator<Item = &'a Attached>,
+        springs: impl IntoIterator<Item = (usize, Option<Element>)>,
+    ) -> Result<(), Error> {
+        let mut elements: Vec<Option<NamedElement>> = self.elements.drain(..).map(Some).collect();
+        for (number, spring) in springs {
+            if let Some(slot) = elements.get_mut(number) {
+                *slot = spring
+                    .zip(slot.take())
+                    .map(|(element, named)| NamedElement {
+                        element,
+                        name: named.name,
+                    });
+            }
+        }
+        self.elements = elements.into_iter().flatten().collect();
+        let mechanism = laden(self.machine.mechanism(), masses)?;
+        let mut machine = Machine::new(mechanism)
+            .with_gravity(self.machine.gravity())?
+            .with_flywheel(self.machine.flywheel())?;
+        for named in &self.loads {
+            machine = machine.with_load(named.load)?;
+        }
+        for named in &self.elements {
+            machine = machine.with_element(named.element)?;
+        }
+        self.schedule = self.schedule.of_machine(&machine, self.motion.as_ref())?;
+        self.machine = self.schedule.at_no_time().cloned().unwrap_or(machine);
+        Ok(())
+    }
+
     /// The machine with its drive train reduced to the drive link: what the motor's gearbox has to move.
     ///
     /// # Errors
@@ -166,7 +203,7 @@ impl MachineFile {
     }
 
     /// Inertia of the drive train reduced to the drive link (kg·m², or kg).
-    fn train_inertia(&self) -> f64 {
+    pub fn train_inertia(&self) -> f64 {
         let ratio = self.drive_train.ratio();
         self.drive_train.inertia_at_input() * ratio * ratio
     }

@@ -4,9 +4,10 @@
 //! At every instant the machine is one of a few: each of them has the same links, joints and loads in the same order, of which some
 //! are without force, and some links are heavier by what they carry.
 
-use jred::machine::{Action, Frames, Jointed, Joints, Load, Mechanism, PoseError};
-use jred::{Domain, Error, Link, Machine};
+use jred::machine::{Action, Load};
+use jred::{Error, Machine};
 
+use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 
@@ -100,80 +101,12 @@ pub struct Scheduled {
 pub struct Payload {
     /// Its name.
     pub name: String,
-    /// Index of the link.
-    pub link: usize,
-    /// Where its centre of mass is in the link's frame (m).
-    pub at: [f64; 2],
-    /// Mass (kg).
-    pub mass: f64,
-    /// Moment of inertia about its own centre of mass (kg·m²).
-    pub inertia: f64,
+    /// What is carried.
+    pub mass: Attached,
     /// When it is carried.
     pub when: When,
     /// The same in words, for reports.
     pub words: String,
-}
-
-impl Payload {
-    /// The link with the payload on it: one rigid body.
-    ///
-    /// # Errors
-    /// A sum that is not finite.
-    fn on(&self, link: &Link) -> Result<Link, Error> {
-        let (own, mass) = (link.mass(), link.mass() + self.mass);
-        let com = [0, 1].map(|k| (own * link.com()[k] + self.mass * self.at[k]) / mass);
-        let off = |at: [f64; 2]| (at[0] - com[0]).powi(2) + (at[1] - com[1]).powi(2);
-        let steiner = own * off(link.com()) + self.mass * off(self.at);
-        Ok(Link::new(jred::machine::MassProperties {
-            mass,
-            inertia: link.inertia() + self.inertia + steiner,
-            com,
-        })?)
-    }
-}
-
-/// A mechanism some of whose links carry something.
-#[derive(Clone, Debug)]
-pub(crate) struct Laden {
-    inner: AnyMechanism,
-    links: Vec<Link>,
-}
-
-impl Laden {
-    /// The links with what they carry.
-    fn new(inner: AnyMechanism, payloads: &[&Payload]) -> Result<Self, Error> {
-        let mut links = inner.links().to_vec();
-        for payload in payloads {
-            if let Some(link) = links.get_mut(payload.link) {
-                *link = payload.on(link)?;
-            }
-        }
-        Ok(Self { inner, links })
-    }
-}
-
-impl Mechanism for Laden {
-    fn links(&self) -> &[Link] {
-        &self.links
-    }
-    fn domain(&self) -> Domain {
-        self.inner.domain()
-    }
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
-        self.inner.frames(phi)
-    }
-    fn edge(&self, k: usize) -> Option<f64> {
-        self.inner.edge(k)
-    }
-}
-
-impl Jointed for Laden {
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
-        self.inner.joints(phi, frames)
-    }
-    fn drive(&self) -> usize {
-        self.inner.drive()
-    }
 }
 
 /// What a load does at an instant.
@@ -239,6 +172,21 @@ impl Schedule {
             schedule.variants.push((state, variant));
         }
         Ok(schedule)
+    }
+
+    /// The same schedule of another machine with the same loads.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn of_machine(
+        &self,
+        machine: &Machine<AnyMechanism>,
+        motion: Option<&Motion>,
+    ) -> Result<Self, Error> {
+        if self.is_empty() {
+            return Ok(Self::default());
+        }
+        Self::new(machine, self.loads.clone(), self.payloads.clone(), motion)
     }
 
     /// The loads that do not always act, or have a value of their own at rest.
@@ -336,16 +284,9 @@ impl Schedule {
         machine: &Machine<AnyMechanism>,
         (shares, carried): &State,
     ) -> Result<Machine<AnyMechanism>, Error> {
-        let payloads: Vec<&Payload> = (self.payloads.iter().zip(carried))
-            .filter_map(|(payload, carried)| carried.then_some(payload))
-            .collect();
-        let mechanism = machine.mechanism().clone();
-        let mechanism = if payloads.is_empty() {
-            mechanism
-        } else {
-            let laden = Laden::new(mechanism.clone(), &payloads)?;
-            mechanism.with_inner(laden)
-        };
+        let masses = (self.payloads.iter().zip(carried))
+            .filter_map(|(payload, carried)| carried.then_some(&payload.mass));
+        let mechanism = laden(machine.mechanism(), masses)?;
         let mut made = Machine::new(mechanism)
             .with_gravity(machine.gravity())?
             .with_flywheel(machine.flywheel())?;

@@ -68,6 +68,14 @@ pub fn mass_argument(text: &str) -> Result<f64, String> {
     positive(text, &MASS)
 }
 
+/// A length greater than zero, such as "250 mm" (m).
+///
+/// # Errors
+/// A message for the command line.
+pub fn length_argument(text: &str) -> Result<f64, String> {
+    positive(text, &LENGTH)
+}
+
 /// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" of one that slides.
 ///
 /// # Errors

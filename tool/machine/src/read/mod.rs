@@ -15,6 +15,7 @@ mod elements;
 mod law;
 mod load_table;
 mod loads;
+mod mass;
 mod mechanism;
 mod motion;
 mod profile;
@@ -32,7 +33,8 @@ mod window;
 
 pub use argument::{
     Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, drive_states,
-    inertia_argument, largest_acceleration, largest_speed, mass_argument, torque_argument,
+    inertia_argument, largest_acceleration, largest_speed, length_argument, mass_argument,
+    torque_argument,
 };
 pub use mechanism::mechanism_types;
 
@@ -215,6 +217,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
             .problem("is for a rotating drive link, but the drive link of this mechanism slides", "nothing turns with it")
             .help("add a mass that slides with the drive link to its body; rotating parts belong to a stage of [[drive_train]]"));
     }
+    let mechanism = mass::read(&root, mechanism)?;
     let (mechanism, tables) = load_table::read(&root, mechanism, drive_link, gravity, files)?;
     let (loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;

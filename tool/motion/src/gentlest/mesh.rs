@@ -7,8 +7,8 @@
 use jred::Error;
 
 use super::shape::Shape;
-use super::skyline::Skyline;
 use super::{Ends, Travel};
+use crate::skyline::Skyline;
 use crate::way::{Place, Way};
 
 /// Gauss and Legendre's five points in (0, 1), and their weights.

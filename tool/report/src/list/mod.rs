@@ -1,6 +1,7 @@
 //! The answers of the commands, for reading, as CSV and as JSON.
 
 pub mod alternatives;
+pub mod balance;
 pub mod bus_json;
 pub mod bus_text;
 pub mod fastest;

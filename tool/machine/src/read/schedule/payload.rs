@@ -8,10 +8,10 @@ use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::model::schedule::Payload;
 use crate::number::rounding::{figure, short};
+use crate::read::mass::attached;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, LENGTH, MASS};
 
 /// The most payloads of a machine.
 const MOST: usize = 16;
@@ -67,21 +67,7 @@ fn check_once(payloads: [&Payload; 2], sections: [&Section; 2]) -> Result<()> {
 }
 
 fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) -> Result<Payload> {
-    let mechanism = machine.mechanism();
-    let links = &mechanism.link_names()[..mechanism.own_links()];
-    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
-    let on = section.require("on", &example)?;
-    let link = on.choice(links)?;
-    let name = match section.get("name") {
-        Some(item) => item.text("workpiece")?.to_owned(),
-        None => format!("payload on {}", on.text("slider")?),
-    };
-    let at = section.point("at", &LENGTH)?;
-    let mass = section.quantity("mass", &MASS)?.positive()?;
-    let inertia = match section.optional("inertia", &INERTIA)? {
-        Some(value) => value.not_negative()?,
-        None => 0.0,
-    };
+    let (name, mass) = attached(section, machine.mechanism(), "payload")?;
     let while_moving = match section.get("while_moving") {
         Some(item) => item.flag()?,
         None => false,
@@ -101,16 +87,17 @@ fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) 
     let Some(item) = &part.item else {
         return Err(section.missing(
             "segments",
-            "segments = [2, 3], over which it is carried, or during = [\"0.2 s\", \"0.5 s\"]; a mass that is always there belongs to its link",
+            "segments = [2, 3], over which it is carried, or during = [\"0.2 s\", \"0.5 s\"]; a mass that is always there is a [[mass]]",
         ));
     };
     let payload = Payload {
         name,
-        link,
-        at,
         mass,
-        inertia,
-        words: format!("of {} kg is carried {}", short(mass), part.words.join(", ")),
+        words: format!(
+            "of {} kg is carried {}",
+            short(mass.mass),
+            part.words.join(", ")
+        ),
         when: part.when,
     };
     let motion = course.required(item)?;
@@ -158,9 +145,9 @@ fn check_at_rest(
             item.problem(&format!("cannot be used: {error}"), "here")
                 .help(error.cure().to_string())
         })?;
-        let frame = frames.get(payload.link);
+        let frame = frames.get(payload.mass.link);
         let [x, y, turn] = frame.map_or([0.0; 3], |frame| {
-            let [x, y] = frame.point(payload.at);
+            let [x, y] = frame.point(payload.mass.at);
             [x, y, frame.psi].map(|c| c.velocity(state.omega))
         });
         Ok::<_, Problem>([x.hypot(y), turn.abs()])
@@ -175,7 +162,7 @@ fn check_at_rest(
     let events = [("picked up", ends[0]), ("set down", ends[1])];
     for (what, t) in events.into_iter().filter(|(_, t)| !at_ends(t)) {
         let [speed, turn] = speeds(t)?;
-        let turns = payload.inertia > 0.0 && turn > AT_REST * most[1];
+        let turns = payload.mass.inertia > 0.0 && turn > AT_REST * most[1];
         if speed > AT_REST * most[0] || turns {
             let moving = if speed > AT_REST * most[0] {
                 format!("{} m/s", short(speed))

@@ -5,7 +5,7 @@
 
 /// The lower half of a symmetric matrix.
 #[derive(Clone, Debug)]
-pub(super) struct Skyline {
+pub(crate) struct Skyline {
     /// Column in which each row begins.
     first: Vec<usize>,
     /// Where each row begins in `values`; one more than there are rows.
@@ -15,7 +15,7 @@ pub(super) struct Skyline {
 
 impl Skyline {
     /// A matrix of zeros whose rows begin in these columns.
-    pub(super) fn new(first: Vec<usize>) -> Self {
+    pub(crate) fn new(first: Vec<usize>) -> Self {
         let mut start = vec![0];
         let mut end = 0;
         for (row, first) in first.iter().enumerate() {
@@ -30,18 +30,18 @@ impl Skyline {
     }
 
     /// Sets all entries to zero.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.values.fill(0.0);
     }
 
     /// Adds to an entry, and to its mirror image.
-    pub(super) fn add(&mut self, i: usize, j: usize, value: f64) {
+    pub(crate) fn add(&mut self, i: usize, j: usize, value: f64) {
         let (row, column) = (i.max(j), i.min(j));
         self.values[self.start[row] + column - self.first[row]] += value;
     }
 
     /// The diagonal.
-    pub(super) fn diagonal(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn diagonal(&self) -> impl Iterator<Item = f64> + '_ {
         self.start.iter().skip(1).map(|end| self.values[end - 1])
     }
 
@@ -50,7 +50,7 @@ impl Skyline {
     }
 
     /// The factors; also the number of negative pivots. `None`: a pivot is zero, or not a number.
-    pub(super) fn factor(mut self) -> Option<(Factors, usize)> {
+    pub(crate) fn factor(mut self) -> Option<(Factors, usize)> {
         let mut negative = 0;
         for i in 0..self.first.len() {
             let first = self.first[i];
@@ -85,11 +85,11 @@ impl Skyline {
 
 /// L and D of a factored matrix.
 #[derive(Clone, Debug)]
-pub(super) struct Factors(Skyline);
+pub(crate) struct Factors(Skyline);
 
 impl Factors {
     /// Solves for one right side.
-    pub(super) fn solve(&self, right: &mut [f64]) {
+    pub(crate) fn solve(&self, right: &mut [f64]) {
         let Self(matrix) = self;
         let rows = matrix.first.len();
         for i in 0..rows {

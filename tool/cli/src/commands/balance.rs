@@ -1,0 +1,141 @@
+//! `jred balance`: counterweights and springs that relieve the drive.
+
+use miette::{Report, Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::{Done, print_parts};
+use crate::options;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_motion::balance::{self, Counterweight, Fault, Goal, Request};
+use jred_report::list;
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or nothing to balance.
+pub fn balance(options: &options::balance::Balance) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    variator::refuse(&file, "balance")?;
+    let all = options.counterweight.iter();
+    let counterweights = all.map(|text| counterweight(text, &file));
+    let mut request = Request {
+        goal: options.least,
+        counterweights: counterweights.collect::<Result<_>>()?,
+        springs: Vec::new(),
+        steps: options.steps as usize,
+    };
+    for name in &options.spring {
+        let number = spring(name, &file)?;
+        if request.springs.contains(&number) {
+            return Err(miette!("--spring {name:?} is given twice"));
+        }
+        request.springs.push(number);
+    }
+    let links = request.counterweights.iter().map(|c| c.link);
+    for (k, link) in links.clone().enumerate() {
+        if links.clone().take(k).any(|earlier| earlier == link) {
+            return Err(miette!(
+                help = "give the sum of both as the most of one",
+                "two counterweights are on {:?}",
+                file.machine.mechanism().link_names()[link]
+            ));
+        }
+    }
+    let balanced = balance::balance(&file, &request).map_err(|fault| report(options, &fault))?;
+    let shown = list::balance::Shown {
+        file: &file,
+        request: &request,
+        balanced: &balanced,
+    };
+    print_parts([list::balance::write(&shown, options.format)])?;
+    Ok(Done::Holds)
+}
+
+fn report(options: &options::balance::Balance, fault: &Fault) -> Report {
+    let name = plain::path(&options.file);
+    match fault {
+        Fault::Machine(error) => core_report(*error),
+        Fault::NoMotion => miette!(
+            help = "add a [motion], or give --least holding or --least inertia, which need none",
+            "{name} has no [motion], over which the torque is to be least"
+        ),
+        Fault::Nothing => match options.least {
+            Goal::Inertia => miette!(
+                "the reduced inertia of {name} is the same at every position: there is nothing to balance"
+            ),
+            _ => miette!("the drive of {name} gives no torque: there is nothing to balance"),
+        },
+        Fault::NoEffect => miette!(
+            help = match options.least {
+                Goal::Inertia =>
+                    "choose a link whose speed changes over the turn; springs have no inertia",
+                Goal::Holding =>
+                    "choose a link that rises and falls, or a spring whose length changes",
+                _ => "choose a link that moves, or a spring whose length changes",
+            },
+            "no counterweight and no spring that is sought changes what is to be least"
+        ),
+    }
+}
+
+/// "crank, 20 kg, 250 mm".
+fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
+    let given = format!("--counterweight {text:?}");
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let mechanism = file.machine.mechanism();
+    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let example = links.first().map_or("crank", String::as_str);
+    let &[link, most, reach] = parts.as_slice() else {
+        return Err(miette!(
+            help = format!(
+                "write the link, the most the counterweight may weigh, and how far it may reach from the origin of the link's frame: \
+                 \"{example}, 20 kg, 250 mm\""
+            ),
+            "{given} has {} parts instead of three",
+            parts.len()
+        ));
+    };
+    let Some(number) = links.iter().position(|name| name == link) else {
+        return Err(miette!(
+            help = format!("its links are {}", links.join(", ")),
+            "{given}: the mechanism has no link {link:?}"
+        ));
+    };
+    let quantity = |read: fn(&str) -> Result<f64, String>, text: &str| {
+        read(text).map_err(|why| miette!("{given}: {why}"))
+    };
+    Ok(Counterweight {
+        link: number,
+        most: quantity(read::mass_argument, most)?,
+        reach: quantity(read::length_argument, reach)?,
+    })
+}
+
+/// The number of a spring.
+fn spring(name: &str, file: &MachineFile) -> Result<usize> {
+    let springs = || {
+        let all = file.elements.iter().enumerate();
+        all.filter(|(_, named)| named.element.spring_rate().is_some())
+    };
+    if let Some((number, _)) = springs().find(|(_, named)| named.name == name) {
+        return Ok(number);
+    }
+    let names: Vec<String> = springs()
+        .map(|(_, named)| format!("{:?}", named.name))
+        .collect();
+    Err(if names.is_empty() {
+        miette!(
+            help =
+                "add a [[spring]] with its ends and rough values; docs/machine-file.md shows how",
+            "--spring {name:?}: the machine has no spring"
+        )
+    } else {
+        miette!(
+            help = format!("its springs are {}", names.join(", ")),
+            "--spring {name:?}: the machine has no spring of this name"
+        )
+    })
+}

@@ -1,0 +1,38 @@
+//! `jred balance`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::MOST_STEPS;
+use super::word::word;
+use jred_motion::balance::Goal;
+use jred_report::list::inspection::Format;
+
+/// `jred balance`
+#[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 done; 2 bad input.")]
+pub struct Balance {
+    /// Machine file.
+    pub file: PathBuf,
+    /// What is to be least.
+    #[arg(long, value_parser = word::<Goal>(), default_value_t)]
+    pub least: Goal,
+    /// A link that may carry a counterweight, the most it may weigh, and how far its parts may be from the origin of the link's frame, e.g.
+    /// "crank, 20 kg, 250 mm"; may be repeated.
+    #[arg(
+        long,
+        value_name = "LINK, MASS, REACH",
+        required_unless_present = "spring"
+    )]
+    pub counterweight: Vec<String>,
+    /// A `[[spring]]` of the machine file by its name: its ends stay, its stiffness and its free length are sought; may be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub spring: Vec<String>,
+    /// Output format.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+    /// Number of time steps per cycle.
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=MOST_STEPS))]
+    pub steps: u32,
+}

@@ -1,0 +1,93 @@
+//! Masses fixed to links: one rigid body with each of them.
+
+use jred::machine::{Frames, Jointed, Joints, MassProperties, Mechanism, PoseError};
+use jred::{Domain, Error, Link};
+
+use crate::model::mechanism::AnyMechanism;
+
+/// A mass fixed to a link: a counterweight, a tool, a payload.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attached {
+    /// Index of the link.
+    pub link: usize,
+    /// Where its centre of mass is in the link's frame (m).
+    pub at: [f64; 2],
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about its own centre of mass (kg·m²).
+    pub inertia: f64,
+}
+
+impl Attached {
+    /// The link with the mass on it: one rigid body.
+    ///
+    /// # Errors
+    /// A sum that is not finite.
+    pub fn on(&self, link: &Link) -> Result<Link, Error> {
+        let (own, mass) = (link.mass(), link.mass() + self.mass);
+        if mass == 0.0 {
+            return Ok(Link::rotor(link.inertia() + self.inertia)?);
+        }
+        let com = [0, 1].map(|k| (own * link.com()[k] + self.mass * self.at[k]) / mass);
+        let off = |at: [f64; 2]| (at[0] - com[0]).powi(2) + (at[1] - com[1]).powi(2);
+        let steiner = own * off(link.com()) + self.mass * off(self.at);
+        Ok(Link::new(MassProperties {
+            mass,
+            inertia: link.inertia() + self.inertia + steiner,
+            com,
+        })?)
+    }
+}
+
+/// The mechanism with masses on its links.
+///
+/// # Errors
+/// A sum that is not finite.
+pub fn laden<'a>(
+    mechanism: &AnyMechanism,
+    masses: impl IntoIterator<Item = &'a Attached>,
+) -> Result<AnyMechanism, Error> {
+    let mut masses = masses.into_iter().peekable();
+    if masses.peek().is_none() {
+        return Ok(mechanism.clone());
+    }
+    let mut links = mechanism.links().to_vec();
+    for mass in masses {
+        if let Some(link) = links.get_mut(mass.link) {
+            *link = mass.on(link)?;
+        }
+    }
+    let inner = mechanism.clone();
+    Ok(mechanism.clone().with_inner(Laden { inner, links }))
+}
+
+/// A mechanism some of whose links carry something.
+#[derive(Clone, Debug)]
+struct Laden {
+    inner: AnyMechanism,
+    links: Vec<Link>,
+}
+
+impl Mechanism for Laden {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+    fn domain(&self) -> Domain {
+        self.inner.domain()
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        self.inner.frames(phi)
+    }
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.inner.edge(k)
+    }
+}
+
+impl Jointed for Laden {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+        self.inner.joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        self.inner.drive()
+    }
+}

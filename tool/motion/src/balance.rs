@@ -1,0 +1,199 @@
+//! Counterweights and springs that relieve the drive: of all within bounds, those with which what it gives is least.
+//!
+//! The torque of a motion is linear in the mass m of a body that is fixed to a link, in its moments S = m·(u, v) and its inertia Θ about
+//! the origin of the link's frame, and in the stiffness k and the preload k·l₀ of a spring:
+//!
+//! ```text
+//! T = J·α + ½·J′·ω² + U′ + … = T₀ + Σ p·t,   p = m, S_u, S_v, Θ, k, k·l₀
+//! m·Θ ≥ S_u² + S_v²,   m ≤ the most,   Θ ≤ R²·m,   k ≥ 0,   0 ≤ k·l₀ ≤ 3·l_max·k
+//! ```
+//!
+//! The bounds of a real body and a real spring are convex, so is the RMS or the peak of T: the result is the global optimum, with a gap
+//! that is stated. T is that at the drive link, with the inertia of the drive train and without its losses.
+
+use jred::machine::Element;
+use jred::{Error, Reducible as _};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::positions;
+use jred_machine::model::laden::Attached;
+use jred_machine::model::machine::MachineFile;
+
+use self::rows::Rows;
+use self::unknowns::{Made, Unknowns};
+
+mod barrier;
+mod rows;
+mod unknowns;
+
+/// Positions over the range at which weight and inertia are looked at.
+const POSITIONS: usize = 1440;
+
+/// Share of the largest value below which all that is left is rounding.
+const ROUNDING: f64 = 1e-9;
+
+jred_machine::words! {
+    /// What is to be least.
+    pub enum Goal default Rms {
+        /// RMS of the drive link's torque over the motion: the heat in the motor.
+        Rms = "rms",
+        /// Its largest value.
+        Peak = "peak",
+        /// RMS over the positions of the torque that holds the machine at rest: weight, springs and process loads.
+        Holding = "holding",
+        /// RMS over the positions of the reduced inertia's deviation from its mean.
+        Inertia = "inertia",
+    }
+}
+
+/// A link that may carry a counterweight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Counterweight {
+    /// Index of the link.
+    pub link: usize,
+    /// The most it may weigh (kg).
+    pub most: f64,
+    /// How far it may be from the origin of the link's frame (m).
+    pub reach: f64,
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// What is to be least.
+    pub goal: Goal,
+    /// Links that may carry something.
+    pub counterweights: Vec<Counterweight>,
+    /// Springs whose stiffness and free length are sought, as numbers of the file's elements.
+    pub springs: Vec<usize>,
+    /// Time steps of the motion.
+    pub steps: usize,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// The machine cannot be placed somewhere.
+    Machine(Error),
+    /// The motion is missing that the torque is sought for.
+    NoMotion,
+    /// There is nothing to make less: the torque, or the deviation of the inertia, is zero everywhere.
+    Nothing,
+    /// Nothing of what is sought changes it.
+    NoEffect,
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
+    }
+}
+
+/// Figures of a machine, before or after.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Figures {
+    /// RMS and peak of the drive link's torque over the motion (N·m); `None` without a motion.
+    pub torque: Option<[f64; 2]>,
+    /// RMS and peak at the input of the drive train, with its losses (N·m).
+    pub input: Option<[f64; 2]>,
+    /// RMS and peak over the positions of the torque that holds it at rest (N·m).
+    pub holding: [f64; 2],
+    /// Smallest, mean and largest reduced inertia over the positions (kg·m²).
+    pub inertia: [f64; 3],
+    /// RMS deviation of the inertia from its mean (kg·m²).
+    pub deviation: f64,
+}
+
+impl Figures {
+    /// What is to be least.
+    pub fn of(&self, goal: Goal) -> f64 {
+        let [rms, peak] = self.torque.unwrap_or_default();
+        match goal {
+            Goal::Rms => rms,
+            Goal::Peak => peak,
+            Goal::Holding => self.holding[0],
+            Goal::Inertia => self.deviation,
+        }
+    }
+}
+
+/// The best of what was asked.
+#[derive(Clone, Debug)]
+pub struct Balanced {
+    /// The counterweights, in the order of the request; `None`: none is best.
+    pub masses: Vec<Option<Attached>>,
+    /// The springs, in the order of the request; `None`: none is best.
+    pub springs: Vec<Option<Element>>,
+    /// With the springs of the file, without counterweights.
+    pub before: Figures,
+    /// With what was found.
+    pub after: Figures,
+    /// No counterweight and spring within the bounds makes it less than this.
+    pub bound: f64,
+}
+
+/// Finds them.
+///
+/// # Errors
+/// A machine that cannot be placed, no motion, nothing to balance, nothing that has an effect.
+pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault> {
+    let rows = Rows::new(file, request)?;
+    let scale = rows.base.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+    if scale <= ROUNDING * rows.largest {
+        return Err(Fault::Nothing);
+    }
+    let unknowns = Unknowns::new(file, request, &rows, scale)?;
+    let (x, least) = unknowns.least(request.goal, &rows, scale);
+    let bound = match request.goal {
+        Goal::Peak => least * scale,
+        _ => least.sqrt() * scale,
+    };
+    let Made { masses, springs } = unknowns.made(&x, &rows)?;
+    let before = figures(file, request)?;
+    let mut after = file.clone();
+    let replaced = request.springs.iter().copied().zip(springs.iter().copied());
+    after.rebuild(masses.iter().flatten(), replaced)?;
+    Ok(Balanced {
+        after: figures(&after, request)?,
+        before,
+        masses,
+        springs,
+        bound,
+    })
+}
+
+/// RMS and largest magnitude over the positions.
+fn over_positions(values: &[f64]) -> [f64; 2] {
+    let squares: f64 = values.iter().map(|v| v * v).sum();
+    let peak = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    [(squares / values.len() as f64).sqrt(), peak]
+}
+
+fn figures(file: &MachineFile, request: &Request) -> Result<Figures, Fault> {
+    let reductions = positions(file.machine.domain(), POSITIONS)
+        .map(|phi| file.machine.bare_reduction(phi))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(Error::from)?;
+    let holding: Vec<f64> = reductions.iter().map(|r| -r.load_torque()).collect();
+    let inertias: Vec<f64> = reductions.iter().map(|r| r.inertia).collect();
+    let mean = inertias.iter().sum::<f64>() / inertias.len() as f64;
+    let off: Vec<f64> = inertias.iter().map(|j| j - mean).collect();
+    let mut figures = Figures {
+        holding: over_positions(&holding),
+        inertia: [
+            inertias.iter().copied().fold(f64::INFINITY, f64::min),
+            mean,
+            inertias.iter().copied().fold(0.0, f64::max),
+        ],
+        deviation: over_positions(&off)[0],
+        ..Figures::default()
+    };
+    if let Some(motion) = &file.motion {
+        let duty = Duty::new(file, motion, request.steps)?;
+        let train = file.train_inertia();
+        let link = duty.figures(|i| i.terms.total() + train * i.alpha);
+        let input = duty.figures(|i| i.input_torque);
+        figures.torque = Some([link.rms, link.peak()]);
+        figures.input = Some([input.rms, input.peak()]);
+    }
+    Ok(figures)
+}

@@ -1,0 +1,175 @@
+//! What is to be made small, place by place, as a sum that is linear in the unknowns.
+
+use jred::machine::{Element, Frames, MassProperties, Mechanism as _};
+use jred::{Error, Link, Reducible as _};
+use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::model::coordinate::positions;
+use jred_machine::model::machine::MachineFile;
+
+use super::{Fault, Goal, POSITIONS, Request};
+
+/// What is to be made small, place by place, as a sum of what is there and of the unknowns.
+pub(super) struct Rows {
+    /// Shares of the mean.
+    pub(super) weights: Vec<f64>,
+    /// Without what is sought.
+    pub(super) base: Vec<f64>,
+    /// What one of each unknown adds: of each counterweight m, S_u, S_v, Θ; of each spring k and k·l₀.
+    pub(super) columns: Vec<Vec<f64>>,
+    /// Longest length of each spring.
+    pub(super) longest: Vec<f64>,
+    /// Largest magnitude of what is there, springs included.
+    pub(super) largest: f64,
+}
+
+/// A place, and how the machine moves there.
+struct Place {
+    weight: f64,
+    phi: f64,
+    omega: f64,
+    alpha: f64,
+    value: f64,
+}
+
+impl Rows {
+    pub(super) fn new(file: &MachineFile, request: &Request) -> Result<Self, Fault> {
+        let places = places(file, request)?;
+        let mechanism = file.machine.mechanism();
+        let elements: Vec<&Element> = (request.springs.iter())
+            .filter_map(|k| file.elements.get(*k).map(|named| &named.element))
+            .collect();
+        let count = 4 * request.counterweights.len() + 2 * elements.len();
+        let mut rows = Self {
+            weights: Vec::with_capacity(places.len()),
+            base: Vec::with_capacity(places.len()),
+            columns: vec![Vec::with_capacity(places.len()); count],
+            longest: vec![0.0; elements.len()],
+            largest: places
+                .iter()
+                .fold(0.0, |most, p| f64::max(most, p.value.abs())),
+        };
+        for place in &places {
+            let frames = mechanism.frames(place.phi).map_err(Error::from)?;
+            let mut columns = rows.columns.iter_mut();
+            let mut put = |value: f64| {
+                if let Some(column) = columns.next() {
+                    column.push(value);
+                }
+            };
+            for counterweight in &request.counterweights {
+                let parts = parts(file, request.goal, counterweight.link, &frames, place)?;
+                parts.into_iter().for_each(&mut put);
+            }
+            let mut base = place.value;
+            for (element, longest) in elements.iter().zip(&mut rows.longest) {
+                let length = element.length(&frames);
+                *longest = longest.max(length.value.abs());
+                // Springs store no kinetic energy.
+                let acts = if request.goal == Goal::Inertia {
+                    0.0
+                } else {
+                    length.d1
+                };
+                let [stiffness, free] = element.spring_rate().unwrap_or_default();
+                base -= stiffness * (length.value - free) * acts;
+                put(length.value * acts);
+                put(-acts);
+            }
+            rows.base.push(base);
+            rows.weights.push(place.weight);
+        }
+        if request.goal == Goal::Inertia {
+            rows.deviate();
+        }
+        Ok(rows)
+    }
+
+    /// Deviations from the mean instead of the values.
+    fn deviate(&mut self) {
+        let Self {
+            weights,
+            base,
+            columns,
+            ..
+        } = self;
+        for column in columns.iter_mut().chain([base]) {
+            let mean: f64 = column.iter().zip(&*weights).map(|(v, w)| v * w).sum();
+            for value in column.iter_mut() {
+                *value -= mean;
+            }
+        }
+    }
+}
+
+/// Mean of the products.
+pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    let all = weights.iter().zip(a).zip(b);
+    all.map(|((w, a), b)| w * a * b).sum()
+}
+
+/// Where the machine is looked at.
+fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
+    if matches!(request.goal, Goal::Rms | Goal::Peak) {
+        let motion = file.motion.as_ref().ok_or(Fault::NoMotion)?;
+        let duty = Duty::new(file, motion, request.steps)?;
+        let train = file.train_inertia();
+        let place = |i: &Instant| Place {
+            weight: i.weight / duty.duration,
+            phi: i.phi,
+            omega: i.omega,
+            alpha: i.alpha,
+            value: i.terms.total() + train * i.alpha,
+        };
+        return Ok(duty.instants.iter().map(place).collect());
+    }
+    let domain = file.machine.domain();
+    let place = |phi: f64| {
+        let reduction = file.machine.bare_reduction(phi).map_err(Error::from)?;
+        Ok(Place {
+            weight: 1.0 / POSITIONS as f64,
+            phi,
+            omega: 0.0,
+            alpha: 0.0,
+            value: match request.goal {
+                Goal::Inertia => reduction.inertia,
+                _ => -reduction.load_torque(),
+            },
+        })
+    };
+    positions(domain, POSITIONS).map(place).collect()
+}
+
+/// What one of m, S_u, S_v and Θ of a body on a link adds.
+fn parts(
+    file: &MachineFile,
+    goal: Goal,
+    link: usize,
+    frames: &Frames,
+    place: &Place,
+) -> Result<[f64; 4], Fault> {
+    let Some(frame) = frames.get(link) else {
+        return Ok([0.0; 4]);
+    };
+    let of = |mass: f64, com: [f64; 2], inertia: f64| -> Result<f64, Fault> {
+        let body = if mass == 0.0 {
+            Link::rotor(inertia)
+        } else {
+            Link::new(MassProperties { mass, inertia, com })
+        };
+        let body = body.map_err(Error::from)?;
+        let [j, slope, _] = body.reduced_inertia(frame);
+        let [_, potential_slope] = body.potential_energy(frame, file.machine.gravity());
+        Ok(match goal {
+            Goal::Inertia => j,
+            Goal::Holding => potential_slope,
+            Goal::Rms | Goal::Peak => {
+                j * place.alpha + 0.5 * slope * place.omega * place.omega + potential_slope
+            }
+        })
+    };
+    // A point mass of 1 kg 1 m away has moments and an inertia of 1 as well.
+    let (mass, inertia) = (of(1.0, [0.0, 0.0], 0.0)?, of(0.0, [0.0, 0.0], 1.0)?);
+    let along = of(1.0, [1.0, 0.0], 0.0)? - mass - inertia;
+    let across = of(1.0, [0.0, 1.0], 0.0)? - mass - inertia;
+    Ok([mass, along, across, inertia])
+}

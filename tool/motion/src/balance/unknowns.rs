@@ -1,0 +1,282 @@
+//! The unknowns, their bounds, and the bodies and springs that they are.
+
+use jred::machine::Element;
+use jred_machine::model::laden::Attached;
+use jred_machine::model::machine::MachineFile;
+
+use super::barrier::{Bound, Problem};
+use super::rows::{Rows, product};
+use super::{Counterweight, Fault, Goal, Request};
+
+/// Largest torque of an unknown, in terms of the largest torque of the machine: a spring that does nothing has no bound of its own.
+const MOST_TORQUE: f64 = 1e3;
+
+/// Largest free length of a spring, in terms of its longest length.
+const MOST_FREE: f64 = 3.0;
+
+/// Share of the most of a counterweight, or of the largest torque, below which it is not worth having.
+const NOTHING: f64 = 1e-4;
+
+/// Gap at which the search ends, as a share of the square, or of the peak, of what is without counterweights and springs.
+const GAP: f64 = 1e-13;
+
+/// Share by which a peak may be above its bound.
+const PEAK_GAP: f64 = 1e-9;
+
+/// Most rounds of a search for the least peak: each adds the places at which the last exceeds it.
+const MOST_ROUNDS: usize = 100;
+
+/// What is to be made small in its own unit, for unknowns in theirs.
+struct Scaled {
+    base: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Scaled {
+    fn values(&self, x: &[f64]) -> Vec<f64> {
+        let mut values = self.base.clone();
+        for (column, x) in self.columns.iter().zip(x) {
+            for (value, entry) in values.iter_mut().zip(column) {
+                *value += x * entry;
+            }
+        }
+        values
+    }
+}
+
+/// Places above a bound at which the magnitude is not less than beside them.
+fn highest(values: &[f64], bound: f64) -> Vec<usize> {
+    let size = |k: usize| values.get(k).map_or(0.0, |v| v.abs());
+    let above = (0..values.len()).filter(|&k| size(k) > bound);
+    let tops = above.filter(|&k| size(k) >= size(k.wrapping_sub(1)) && size(k) > size(k + 1));
+    tops.collect()
+}
+
+/// Bodies and springs, in the order of the request; `None`: none.
+pub(super) struct Made {
+    pub(super) masses: Vec<Option<Attached>>,
+    pub(super) springs: Vec<Option<Element>>,
+}
+
+/// The unknowns and their units: x is p by its unit.
+pub(super) struct Unknowns<'a> {
+    request: &'a Request,
+    units: Vec<f64>,
+    /// Largest free length or free angle of each spring; `None`: free in both directions.
+    free: Vec<Option<f64>>,
+    springs: Vec<Element>,
+}
+
+impl<'a> Unknowns<'a> {
+    pub(super) fn new(
+        file: &MachineFile,
+        request: &'a Request,
+        rows: &Rows,
+        scale: f64,
+    ) -> Result<Self, Fault> {
+        let largest = |column: &Vec<f64>| column.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let most: Vec<f64> = rows.columns.iter().map(largest).collect();
+        let weights = request.counterweights.iter();
+        let mut units: Vec<f64> = weights
+            .flat_map(|c| {
+                let moment = c.most * c.reach;
+                [c.most, moment, moment, moment * c.reach]
+            })
+            .collect();
+        for column in &most[units.len()..] {
+            units.push(if *column > 0.0 { scale / column } else { 1.0 });
+        }
+        let effect = most
+            .iter()
+            .zip(&units)
+            .fold(0.0, |m: f64, (c, u)| m.max(c * u));
+        if effect <= 1e-9 * scale {
+            return Err(Fault::NoEffect);
+        }
+        let found = request.springs.iter().filter_map(|k| file.elements.get(*k));
+        let springs: Vec<Element> = found.map(|named| named.element).collect();
+        let free = springs.iter().zip(&rows.longest);
+        let free = free.map(|(e, longest)| (!e.is_torsional()).then_some(MOST_FREE * longest));
+        Ok(Self {
+            request,
+            units,
+            free: free.collect(),
+            springs,
+        })
+    }
+
+    /// The best x, and a bound of what is least, in terms of `scale` or of its square, that no x is below.
+    pub(super) fn least(&self, goal: Goal, rows: &Rows, scale: f64) -> (Vec<f64>, f64) {
+        let scaled = Scaled {
+            base: rows.base.iter().map(|v| v / scale).collect(),
+            columns: (rows.columns.iter().zip(&self.units))
+                .map(|(column, unit)| column.iter().map(|v| v * unit / scale).collect())
+                .collect(),
+        };
+        match goal {
+            Goal::Peak => self.least_peak(&scaled),
+            _ => self.least_squares(&scaled, &rows.weights),
+        }
+    }
+
+    fn least_squares(&self, scaled: &Scaled, weights: &[f64]) -> (Vec<f64>, f64) {
+        let (bounds, start) = self.bounds();
+        let Scaled { base, columns } = scaled;
+        let weighted = |a: &[f64], b: &[f64]| 2.0 * product(weights, a, b);
+        let row = |a: &Vec<f64>| columns.iter().map(|b| weighted(a, b)).collect();
+        let problem = Problem {
+            curvature: columns.iter().map(row).collect(),
+            slope: columns.iter().map(|c| weighted(c, base)).collect(),
+            bounds,
+        };
+        let (x, gap) = problem.least(start, GAP);
+        // f lacks the mean square without anything.
+        let least = product(weights, base, base) + problem.value(&x) - gap;
+        (x, least.max(0.0))
+    }
+
+    /// The peak is one unknown more, which no torque exceeds: at first those of a few places, and then at every place at which one does.
+    /// What is least for some of the places is a bound for all.
+    fn least_peak(&self, scaled: &Scaled) -> (Vec<f64>, f64) {
+        let n = self.units.len();
+        let (bounds, start) = self.bounds();
+        let mut problem = Problem {
+            curvature: vec![vec![0.0; n + 1]; n + 1],
+            slope: vec![0.0; n],
+            bounds,
+        };
+        problem.slope.push(1.0);
+        let (mut best, mut bound) = ((f64::INFINITY, start.clone()), 0.0f64);
+        let mut x = start.clone();
+        for _ in 0..MOST_ROUNDS {
+            let torques = scaled.values(&x);
+            let peak = torques.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+            if peak < best.0 {
+                best = (peak, x);
+            }
+            if best.0 <= bound * (1.0 + PEAK_GAP) {
+                break;
+            }
+            for k in highest(&torques, bound) {
+                let sign = torques[k].signum();
+                let columns = scaled.columns.iter().enumerate();
+                let mut a: Vec<_> = columns.map(|(j, column)| (j, sign * column[k])).collect();
+                a.push((n, -1.0));
+                problem
+                    .bounds
+                    .push(Bound::Linear(-sign * scaled.base[k], a));
+            }
+            let highest = scaled
+                .values(&start)
+                .iter()
+                .fold(0.0, |m: f64, t| m.max(t.abs()));
+            let mut from = start.clone();
+            from.push(1.0 + highest);
+            let (found, gap) = problem.least(from, GAP);
+            bound = bound.max(problem.value(&found) - gap);
+            x = found;
+            x.truncate(n);
+        }
+        (best.1, bound)
+    }
+
+    /// The bounds of bodies and springs, and a point within them.
+    fn bounds(&self) -> (Vec<Bound>, Vec<f64>) {
+        let (mut bounds, mut start) = (Vec::new(), Vec::new());
+        for _ in &self.request.counterweights {
+            let [m, u, v, theta] = [0, 1, 2, 3].map(|k| start.len() + k);
+            bounds.push(Bound::Linear(0.0, vec![(m, -1.0)]));
+            bounds.push(Bound::Linear(1.0, vec![(m, 1.0)]));
+            bounds.push(Bound::Linear(0.0, vec![(m, -1.0), (theta, 1.0)]));
+            bounds.push(Bound::Cone([m, u, v, theta]));
+            start.extend([0.5, 0.0, 0.0, 0.25]);
+        }
+        for free in &self.free {
+            let [k, preload] = [0, 1].map(|k| start.len() + k);
+            bounds.push(Bound::Linear(0.0, vec![(k, -1.0)]));
+            bounds.push(Bound::Linear(MOST_TORQUE, vec![(k, 1.0)]));
+            let [by_k, by_preload] = [k, preload].map(|k| self.units[k]);
+            if let Some(most) = free {
+                bounds.push(Bound::Linear(0.0, vec![(preload, -1.0)]));
+                let longest = most * by_k / by_preload;
+                bounds.push(Bound::Linear(0.0, vec![(preload, 1.0), (k, -longest)]));
+                start.extend([0.5, 0.25 * longest]);
+            } else {
+                bounds.push(Bound::Linear(MOST_TORQUE, vec![(preload, 1.0)]));
+                bounds.push(Bound::Linear(MOST_TORQUE, vec![(preload, -1.0)]));
+                start.extend([0.5, 0.0]);
+            }
+        }
+        (bounds, start)
+    }
+
+    /// Bodies and springs of a point.
+    pub(super) fn made(&self, x: &[f64], rows: &Rows) -> Result<Made, Fault> {
+        let p: Vec<f64> = x
+            .iter()
+            .zip(&self.units)
+            .map(|(x, unit)| x * unit)
+            .collect();
+        let (bodies, springs) = p.split_at(4 * self.request.counterweights.len());
+        let counterweights = self
+            .request
+            .counterweights
+            .iter()
+            .zip(rows.columns.chunks(4));
+        let masses = counterweights
+            .zip(bodies.chunks(4))
+            .map(|((bound, columns), p)| body(bound, columns, p));
+        let masses = masses.collect();
+        let made = |(element, p): (&Element, &[f64])| {
+            let [k, preload] = p else { return Ok(None) };
+            if *k <= 0.0 {
+                return Ok(None);
+            }
+            let free = preload / k;
+            let between = element.between();
+            let spring = if element.is_torsional() {
+                Element::torsion_spring(between, *k, free)
+            } else {
+                Element::spring(between, *k, free)
+            };
+            spring
+                .map(Some)
+                .map_err(|error| Fault::Machine(error.into()))
+        };
+        let pairs = self.springs.iter().zip(springs.chunks(2));
+        Ok(Made {
+            masses,
+            springs: pairs.map(made).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// The lightest body with these moments and this inertia, where its mass alone does nothing, as on a link that turns about the origin of its
+/// frame; else that of its mass.
+fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attached> {
+    let &[mass, along, across, inertia] = p else {
+        return None;
+    };
+    let moment = along.hypot(across);
+    let lone = columns
+        .first()
+        .is_some_and(|mass| mass.iter().any(|v| *v != 0.0));
+    let mass = if lone {
+        mass
+    } else {
+        (moment * moment / inertia).max(inertia / (bound.reach * bound.reach))
+    };
+    let worth = mass > NOTHING * bound.most
+        && inertia > NOTHING * NOTHING * bound.most * bound.reach.powi(2);
+    if !worth {
+        return None;
+    }
+    let own = inertia - moment * moment / mass;
+    Some(Attached {
+        link: bound.link,
+        at: [along / mass, across / mass],
+        mass,
+        // What is left of the cone's edge by the search.
+        inertia: if own > 1e-4 * inertia { own } else { 0.0 },
+    })
+}

@@ -1,0 +1,245 @@
+//! Counterweights and springs against closed forms, against the machine file that they are written into, and against bodies drawn at
+//! random.
+
+use std::path::Path;
+
+use jred::Reducible as _;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::positions;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_motion::balance::{Balanced, Counterweight, Fault, Goal, Request, balance};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt as _, SeedableRng as _};
+
+const STEPS: usize = 200;
+
+fn machine(text: &str) -> MachineFile {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    read::parse("machine.toml", text, &folder).unwrap()
+}
+
+fn example(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap()
+}
+
+/// A lever of 10 kg whose centre of mass is 0.3 m from its bearing, turned evenly; what it has besides.
+fn lever(range: &str, more: &str) -> MachineFile {
+    machine(&format!(
+        "title = \"lever\"\ngravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"bearing\"\n{range}\
+         ground = {{ O = [\"0 mm\", \"0 mm\"] }}\n\
+         body = [{{ name = \"lever\", mass = \"10 kg\", inertia = \"0.2 kg m^2\", com = [\"300 mm\", \"0 mm\"], angle = \"20 deg\", \
+         points = {{ tip = [\"400 mm\", \"0 mm\"] }} }}]\n\
+         joint = [{{ name = \"bearing\", between = [\"ground.O\", \"lever\"] }}]\n{more}"
+    ))
+}
+
+/// m·g·r of the lever (N·m).
+const WEIGHT: f64 = 10.0 * 9.81 * 0.3;
+
+fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) -> Request {
+    let counterweights = counterweights.iter();
+    Request {
+        goal,
+        counterweights: counterweights
+            .map(|&(link, most, reach)| Counterweight { link, most, reach })
+            .collect(),
+        springs: springs.to_vec(),
+        steps: STEPS,
+    }
+}
+
+/// The result is at the bound: nothing is better by more than a thousandth per cent, or than the roundings of what was there.
+fn is_optimal(found: &Balanced, goal: Goal) {
+    let [before, after] = [found.before, found.after].map(|f| f.of(goal));
+    assert!(
+        found.bound <= after * (1.0 + 1e-9) && after - found.bound <= 1e-5 * after + 2e-6 * before,
+        "{after}, bound {}, before {before}",
+        found.bound
+    );
+}
+
+/// S = −m·r takes all of the weight; of the bodies that have it, nothing lighter than 3 kg·m by 0.5 m.
+#[test]
+fn a_counterweight_balances_a_lever() {
+    let file = lever(
+        "",
+        "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n",
+    );
+    for goal in [Goal::Holding, Goal::Rms, Goal::Peak] {
+        let found = balance(&file, &request(goal, &[(0, 20.0, 0.5)], &[])).unwrap();
+        is_optimal(&found, goal);
+        let Some(body) = found.masses[0] else {
+            panic!("{goal}: no counterweight");
+        };
+        let moment = body.at.map(|x| x * body.mass);
+        assert!(
+            (moment[0] + 3.0).abs() < 1e-4 && moment[1].abs() < 1e-4,
+            "{goal}: {moment:?}"
+        );
+        assert!(
+            found.after.holding[1] < 1e-4 * WEIGHT,
+            "{goal}: {:?}",
+            found.after
+        );
+        let reach = (body.at[0].hypot(body.at[1]).powi(2) + body.inertia / body.mass).sqrt();
+        assert!(
+            body.mass <= 20.0 && reach <= 0.5 * (1.0 + 1e-9),
+            "{goal}: {body:?}"
+        );
+    }
+}
+
+/// With at most 4 kg within 0.5 m a third of the weight is left: the bound is m·R.
+#[test]
+fn a_counterweight_keeps_within_its_bounds() {
+    let file = lever("", "");
+    let found = balance(&file, &request(Goal::Holding, &[(0, 4.0, 0.5)], &[])).unwrap();
+    is_optimal(&found, Goal::Holding);
+    let left = found.after.holding[1] / WEIGHT;
+    assert!((left - 1.0 / 3.0).abs() < 1e-5, "{left}");
+}
+
+/// A spring without free length, k·h·a = m·g·r, holds the lever at every angle.
+#[test]
+fn a_spring_without_free_length_holds_a_lever() {
+    let spring = "[[spring]]\nname = \"balancer\"\nbetween = [\"lever.tip\", { on = \"ground\", at = [\"0 mm\", \"500 mm\"] }]\n\
+                  stiffness = \"50 N/m\"\nfree_length = \"200 mm\"\n";
+    let file = lever("", spring);
+    let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
+    is_optimal(&found, Goal::Holding);
+    let Some([stiffness, free]) = found.springs[0].and_then(|spring| spring.spring_rate()) else {
+        panic!("no spring");
+    };
+    let wanted = WEIGHT / (0.5 * 0.4);
+    assert!(
+        (stiffness / wanted - 1.0).abs() < 1e-3 && free < 1e-3,
+        "{stiffness} N/m, {free} m"
+    );
+    assert!(found.after.holding[1] < 1e-4 * WEIGHT);
+}
+
+/// A torsion spring over a part of the turn: the straight line of least squares through the weight.
+#[test]
+fn a_torsion_spring_is_a_straight_line_of_least_squares() {
+    let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
+    let file = lever("stroke = [\"10 deg\", \"80 deg\"]\n", spring);
+    let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
+    is_optimal(&found, Goal::Holding);
+    let points: Vec<[f64; 2]> = positions(file.machine.domain(), 1440)
+        .map(|phi| [phi, -WEIGHT * phi.cos()])
+        .collect();
+    let n = points.len() as f64;
+    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
+    let over = |a: usize, b: usize| -> f64 {
+        points
+            .iter()
+            .map(|p| (p[a] - mean[a]) * (p[b] - mean[b]))
+            .sum()
+    };
+    let slope = over(0, 1) / over(0, 0);
+    let Some([stiffness, free]) = found.springs[0].and_then(|spring| spring.spring_rate()) else {
+        panic!("no spring");
+    };
+    let zero = mean[0] - mean[1] / slope;
+    assert!(
+        (stiffness / slope - 1.0).abs() < 1e-5,
+        "{stiffness}, not {slope}"
+    );
+    assert!((free - zero).abs() < 1e-5, "{free}, not {zero}");
+}
+
+/// The machine file with the body written into it.
+fn with_mass(text: &str, on: &str, at: [f64; 2], mass: f64, inertia: f64) -> MachineFile {
+    let [u, v] = at;
+    machine(&format!(
+        "{text}\n[[mass]]\non = \"{on}\"\nat = [\"{u} m\", \"{v} m\"]\nmass = \"{mass} kg\"\ninertia = \"{inertia} kg m^2\"\n"
+    ))
+}
+
+/// RMS and peak of the drive link's torque, drive train included, and the deviation of the inertia.
+fn figures(file: &MachineFile) -> [f64; 3] {
+    let duty = Duty::new(file, file.motion.as_ref().unwrap(), STEPS).unwrap();
+    let ratio = file.drive_train.ratio();
+    let train = file.drive_train.inertia_at_input() * ratio * ratio;
+    let torque = duty.figures(|i| i.terms.total() + train * i.alpha);
+    let inertias: Vec<f64> = positions(file.machine.domain(), 1440)
+        .map(|phi| file.machine.bare_reduction(phi).unwrap().inertia)
+        .collect();
+    let n = inertias.len() as f64;
+    let mean = inertias.iter().sum::<f64>() / n;
+    let squares: f64 = inertias.iter().map(|j| (j - mean).powi(2)).sum();
+    [torque.rms, torque.peak(), (squares / n).sqrt()]
+}
+
+/// On the crank of a press and the rocker and coupler of four-bars: what is found is what the file has into which it is written, and of
+/// bodies drawn at random within the bounds none is better.
+#[test]
+fn no_body_drawn_at_random_is_better() {
+    let mut random = ChaCha8Rng::seed_from_u64(71);
+    let mut better = 0;
+    for (name, on, link, most, reach) in [
+        ("press", "crank", 0, 40.0, 0.2),
+        ("four-bar", "rocker", 2, 6.0, 0.3),
+        ("four-bar", "coupler", 1, 3.0, 0.2),
+    ] {
+        let text = example(name);
+        let file = machine(&text);
+        for (k, goal) in [Goal::Rms, Goal::Peak, Goal::Inertia]
+            .into_iter()
+            .enumerate()
+        {
+            if goal == Goal::Inertia && on == "crank" {
+                continue; // The crank's own inertia is the same at every angle.
+            }
+            let found = balance(&file, &request(goal, &[(link, most, reach)], &[])).unwrap();
+            is_optimal(&found, goal);
+            if let Some(body) = found.masses[0] {
+                let written = with_mass(&text, on, body.at, body.mass, body.inertia);
+                let [of_file, said] = [figures(&written)[k], found.after.of(goal)];
+                assert!(
+                    (of_file / said - 1.0).abs() < 1e-9,
+                    "{name}, {goal}: {of_file}, {said}"
+                );
+                better += usize::from(said < 0.99 * found.before.of(goal));
+            }
+            for _ in 0..12 {
+                let mass = most * random.random_range(0.01..1.0);
+                let (distance, angle) = (
+                    random.random_range(0.0..reach),
+                    random.random_range(0.0..6.3),
+                );
+                let at = [distance * f64::cos(angle), distance * f64::sin(angle)];
+                let own =
+                    mass * (reach * reach - distance * distance) * random.random_range(0.0..1.0);
+                let other = figures(&with_mass(&text, on, at, mass, own))[k];
+                assert!(
+                    other >= found.bound * (1.0 - 1e-9),
+                    "{name}, {goal}: {other} with {mass} kg at {at:?}"
+                );
+            }
+        }
+    }
+    assert!(better >= 4, "only {better} are worth anything");
+}
+
+/// What cannot be answered.
+#[test]
+fn what_cannot_be_balanced() {
+    let still = lever("", "");
+    let fault = |file: &MachineFile, request: &Request| balance(file, request).unwrap_err();
+    assert_eq!(
+        fault(&still, &request(Goal::Rms, &[(0, 1.0, 1.0)], &[])),
+        Fault::NoMotion
+    );
+    assert_eq!(
+        fault(&still, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
+        Fault::Nothing
+    );
+    let press = machine(&example("press"));
+    assert_eq!(
+        fault(&press, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
+        Fault::NoEffect
+    );
+}
