@@ -168,3 +168,55 @@ fn what_repeats_after_two_turns_does_not_close_after_one() {
         crate::support::assert_near("after two turns", b.value, a.value, budget::LINKAGE);
     }
 }
+
+/// A parallelogram passes the line of its pins, where it can go on as a parallelogram or as an antiparallelogram: there are positions
+/// on both sides, and the error says that the branch changes, not that the crank stops.
+#[test]
+fn a_parallelogram_changes_its_branch_where_it_is_flat() {
+    let sides = [0.1, 0.3, 0.1, 0.3];
+    let refused = four_bar(sides, Domain::Turn).unwrap_err();
+    let LinkageError::Pose(PoseError::BranchChange { phi, joint }) = refused else {
+        panic!("{refused}")
+    };
+    assert!(phi.sin().abs() < 1e-6, "flat at {phi}");
+    assert!((1..=3).contains(&joint), "joint {joint}");
+    let short = Domain::stroke(0.01, std::f64::consts::PI - 0.01).unwrap();
+    let open = four_bar(sides, short).unwrap();
+    let frames = open.frames(0.02).unwrap();
+    crate::support::assert_near("coupler", frames[1].psi.value, 0.0, budget::LINKAGE);
+}
+
+/// A gear at 3 : 7 stops elsewhere after a turn of its pinion. Balanced it looks and weighs the same at any angle, and the machine
+/// repeats; with its centre of mass beside its axis it does not.
+#[test]
+fn a_wheel_that_only_rolls_may_stop_at_any_angle_if_it_is_balanced() {
+    let centre = [0.1, 0.0];
+    let radii = [0.03, 0.07];
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::ground(centre), Marker::on(1, O)),
+        Pair::Gears {
+            centres: [Marker::on(0, O), Marker::on(1, O)],
+            carrier: Body::Ground,
+            radii,
+            phase: 0.0,
+        },
+    ];
+    let drawing = [O, centre].map(|[x, y]| Pose { x, y, psi: 0.0 });
+    let with = |wheel: Link| {
+        let pinion = Link::rotor(0.001).unwrap();
+        let linkage = Linkage::<2, 3>::new(&[pinion, wheel], &pairs, 0).unwrap();
+        linkage.assemble::<16>(Domain::Turn, 0.0, &drawing)
+    };
+    let whole: Assembly<2, 3, 16> = with(link_of(1.0, 0.01, O)).unwrap();
+    for phi in [-4.0, 0.3, 9.0] {
+        let found = whole.frames(phi).unwrap()[1].psi.value;
+        let rolled = -phi * radii[0] / radii[1];
+        crate::support::assert_near("wheel", found, rolled, budget::LINKAGE * phi.abs());
+    }
+    let refused = with(link_of(1.0, 0.01, [0.01, 0.0])).unwrap_err();
+    assert!(
+        matches!(refused, LinkageError::NotClosed { link: 1, .. }),
+        "{refused}"
+    );
+}
