@@ -5,6 +5,7 @@ mod firmware;
 
 use crate::brute;
 use crate::support::{budget, edited_press, near, press_file};
+use jred::duty::Curve;
 use jred_machine::analysis::duty::{Duty, STEPS};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
@@ -110,6 +111,11 @@ fn sized_figures_are_those_of_the_samples() {
                 .iter()
                 .map(|s| (s.weight, s.speed().abs() * ratio))
         };
+        let torques = || {
+            let samples = cycle.samples().iter();
+            samples.map(|s| (c.torque(&s.loads()).abs(), s.speed().abs() * ratio))
+        };
+        let largest = torques().map(|(torque, _)| torque).fold(0.0, f64::max);
         let time: f64 = cycle.samples().iter().map(|s| s.weight).sum();
         let turned: f64 = speeds().map(|(weight, speed)| weight * speed).sum();
         let fastest = speeds().map(|(_, speed)| speed).fold(0.0, f64::max);
@@ -123,6 +129,7 @@ fn sized_figures_are_those_of_the_samples() {
             ("regenerative_energy", back),
             ("duration", time),
             ("peak_speed", fastest),
+            ("peak_torque", largest),
             ("output_peak", brute::peak_output_torque(cycle)),
             // Once up and once down.
             ("cycles_per_hour", 3600.0 * 2.0 / time),
@@ -131,6 +138,25 @@ fn sized_figures_are_those_of_the_samples() {
             near(name, of(name), expected, 1e-6);
         }
         assert!((of("cycles") - 2.0).abs() < 0.5);
+        // The largest share of the curve that is written, as the meter reads it.
+        let peak = limits
+            .entries
+            .iter()
+            .find(|e| e.field == Field::Peak)
+            .unwrap();
+        let Bound::Curve(curve) = &peak.bound else {
+            panic!("{peak:?}");
+        };
+        let curve = Curve::new(&curve.points).unwrap();
+        let shares = torques().map(|(torque, speed)| torque / f64::from(curve.at(speed as f32)));
+        let share = sized.split_once("peak_share: Some(").unwrap().1;
+        let share = share.split_once(')').unwrap().0.replace('_', "");
+        near(
+            "peak_share",
+            share.parse().unwrap(),
+            shares.fold(0.0, f64::max),
+            1e-5,
+        );
     });
 }
 
@@ -212,5 +238,51 @@ fn shortfalls_are_said() {
             curves += 1;
         }
         assert_eq!(curves, 2);
+    });
+}
+
+/// Each constant of the source has its unit beside it, and its digits are grouped by three on both sides of the point.
+#[test]
+fn constants_have_units_and_grouped_digits() {
+    let file = read::read(&press_file()).unwrap();
+    with_limits(&file, |_, limits| {
+        let source = limits.source("press.toml");
+        for (name, unit) in [
+            ("CONTINUOUS", "N m over rad/s"),
+            ("PEAK", "N m over rad/s"),
+            ("SPEED", "rad/s"),
+            ("MEAN_SPEED", "rad/s"),
+            ("OUTPUT_PEAK", "N m"),
+            ("OUTPUT_MEAN", "N m"),
+            ("CYCLES_PER_HOUR", "1/h"),
+            ("CYCLE_TIME", "s"),
+        ] {
+            let (before, _) = source
+                .split_once(&format!("pub const {name}: "))
+                .unwrap_or_else(|| panic!("no {name} in {source}"));
+            assert!(before.ends_with(&format!(" ({unit}).\n")), "{name}");
+        }
+        let (_, code) = source.split_once("pub const").unwrap();
+        let code = code
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
+        let mut long = 0;
+        for word in
+            code.flat_map(|line| line.split(|c: char| !c.is_ascii_digit() && c != '_' && c != '.'))
+        {
+            let Some((whole, fraction)) = word.split_once('.') else {
+                continue;
+            };
+            let groups = |text: &str| text.split('_').map(str::len).collect::<Vec<_>>();
+            let (whole, fraction) = (groups(whole), groups(fraction));
+            assert!(
+                whole[0] <= 3 && whole[1..].iter().all(|n| *n == 3),
+                "{word}"
+            );
+            let (last, full) = fraction.split_last().unwrap();
+            assert!(*last <= 3 && full.iter().all(|n| *n == 3), "{word}");
+            long += usize::from(whole.len() > 1 || fraction.len() > 1);
+        }
+        assert!(long > 3, "{source}");
     });
 }

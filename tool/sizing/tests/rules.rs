@@ -8,10 +8,12 @@ mod emergency;
 mod gearbox;
 mod holding;
 mod inertia;
+mod judged;
 mod moves;
 mod overload;
 mod rigidity;
 mod voltage;
+mod words;
 
 use std::path::Path;
 

@@ -53,7 +53,7 @@ impl Need {
     /// chopper voltage.
     fn bus(data: &BusData, back: f64) -> Option<Bus> {
         let on = data.chopper_voltage?;
-        if data.regenerative || back <= 0.0 || data.conflict().is_some() {
+        if data.conflict().is_some() {
             return None;
         }
         let resistor = BrakeResistor {

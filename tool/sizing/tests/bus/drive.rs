@@ -242,3 +242,40 @@ fn the_energy_that_comes_back_is_said() {
     let number: f64 = before.rsplit(['"', ' ']).next().unwrap().parse().unwrap();
     near("energy", number, back, 1e-3);
 }
+
+/// The course that the page draws repeats after a cycle and reaches the voltage that is judged; without data of the bus there is none.
+#[test]
+fn the_course_of_the_voltage_reaches_the_judged_figure() {
+    let (cycle, motor) = (cycle(), motor());
+    let mut site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: Some(1e-3),
+            max_voltage: Some(900.0),
+            ..Supply::default()
+        },
+        ..Site::default()
+    };
+    let prepared = Prepared::new(&motor, None, &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let context = Context::new(&cycle, &site, drive, &prepared);
+    let course = context.bus_voltage();
+    let findings = context.findings(&RuleSet::default());
+    let judged = findings.get(Rule::BusVoltage).unwrap().value;
+    let highest = course.iter().map(|point| point[1]).fold(0.0, f64::max);
+    near("highest", highest, judged, 1e-9);
+    assert!(judged > 561.0, "nothing comes back: {judged} V");
+    assert!(course.is_sorted_by(|a, b| a[0] <= b[0]));
+    let [first, last] = [course[0], course[course.len() - 1]];
+    near("its length", last[0] - first[0], cycle.duration(), 1e-9);
+    near("it repeats", last[1], first[1], 1e-9);
+    site.bus_voltage = None;
+    let prepared = Prepared::new(&motor, None, &site);
+    let context = Context::new(&cycle, &site, drive, &prepared);
+    assert!(context.bus_voltage().is_empty());
+}

@@ -116,3 +116,24 @@ proptest! {
         prop_assert_eq!(Envelope::at(&motor, amplified.then_some(&amplifier), &site(bus)), prepared.envelope);
     }
 }
+
+/// Where there is no torque, beyond the largest speed, none is used by none and all of it by any.
+#[test]
+fn nothing_uses_nothing_of_no_torque() {
+    let motor = Motor {
+        peak_torque: Some(8.0),
+        max_speed: Some(300.0),
+        ..Motor::default()
+    };
+    let envelope = Envelope::of(&motor);
+    for (torque, speed, used) in [
+        (0.0, 301.0, 0.0),
+        (1.0, 301.0, f64::INFINITY),
+        (-1.0, 301.0, f64::INFINITY),
+        (0.0, 100.0, 0.0),
+        (-2.0, 100.0, 0.25),
+        (8.0, 300.0, 1.0),
+    ] {
+        assert_eq!(envelope.peak_used(torque, speed), used, "{torque} {speed}");
+    }
+}

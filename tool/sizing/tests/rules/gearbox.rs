@@ -120,3 +120,15 @@ fn missing_figures_are_named() {
         assert!(check.note.contains(words), "{}", check.note);
     }
 }
+
+/// The mean of a gearbox is named where it is not the cubic one.
+#[test]
+fn the_exponent_of_roller_bearings_is_said() {
+    for (exponent, said) in [("3", false), ("10/3", true)] {
+        let rules = format!("[rules]\ngearbox_mean_exponent = \"{exponent}\"\n\n[motion]");
+        let stand = Stand::new(&press_text().replacen("[motion]", &rules, 1));
+        let check = stand.check(true, &stand.file.rules, Rule::GearboxCubicMean);
+        let words = "mean with the exponent 10/3";
+        assert_eq!(check.note.contains(words), said, "{}", check.note);
+    }
+}

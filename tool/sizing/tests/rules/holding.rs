@@ -1,5 +1,6 @@
 //! Torque at rest, and what a gearbox does with torque that flows back.
 
+use jred_machine::model::operation::Operation;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{RuleSet, Verdict};
 use jred_sizing::catalogue::Drive;
@@ -268,4 +269,21 @@ fn a_load_that_drives_is_constant_too() {
             near("constant torque", found.value, resists.max(drives), 1e-12);
         }
     }
+}
+
+/// While the machine rests the motor may hold its weight, which heats it: of the rated losses (T/M₀)² for the share of the rest.
+#[test]
+fn a_weight_that_is_held_at_rest_heats() {
+    let mut stand = hoist();
+    let mut losses = |holding| {
+        stand.file.site.duty.operation = Operation::Intermittent {
+            operating: 40.0,
+            rest: 60.0,
+            holding,
+        };
+        stand.found(true, Rule::WindingTemperature).value
+    };
+    let [free, held] = [false, true].map(&mut losses);
+    let torque = stand.found(true, Rule::HoldingTorque).value;
+    near("at rest", held - free, 0.6 * (torque / 9.0).powi(2), 1e-12);
 }

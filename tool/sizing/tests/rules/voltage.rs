@@ -389,3 +389,62 @@ fn figures_at_mains_are_converted() {
         budget::CLOSED_FORM,
     );
 }
+
+/// A motor that is not made for the supply is named with its voltage before it is asked for anything, and after it the amplifier; one that is made for it
+/// or of which nobody knows is not.
+#[test]
+fn a_part_unfit_for_the_supply_is_named() {
+    let unfit = |mains: Option<f64>, motor_class: Option<f64>, amplifier_class: Option<f64>| {
+        let site = Site {
+            mains_voltage: mains,
+            ..Site::default()
+        };
+        let motor = motor(motor_class, None, None);
+        let amplifier = amplifier_class.map(amplifier);
+        let rules = RuleSet::default();
+        Prepared::new(&motor, amplifier.as_ref(), &site).unfit(&rules)
+    };
+    let [low, high] = [Some(200.0), Some(400.0)];
+    let said = |found: Option<String>, part: &str| {
+        let words = found.unwrap();
+        let begin = format!(
+            "the {part} is not made for this supply: up to 622.3 V on the bus, 373.4 V allowed"
+        );
+        assert!(words.starts_with(&begin), "{words}");
+    };
+    said(unfit(high, low, None), "motor");
+    said(unfit(high, low, low), "motor");
+    said(unfit(high, high, low), "amplifier");
+    said(unfit(high, None, low), "amplifier");
+    assert_eq!(unfit(high, high, high), None);
+    assert_eq!(unfit(low, high, high), None);
+    assert_eq!(unfit(high, None, None), None);
+    assert_eq!(unfit(None, low, None), None);
+}
+
+/// Where the machine file states no supply it is the amplifier's: its mains, else its bus voltage.
+#[test]
+fn the_supply_of_an_amplifier_is_said() {
+    let mut stand = Stand::press();
+    stand.motor.max_bus_voltage = Some(900.0);
+    let note = |amplifier: &Amplifier| {
+        let prepared = Prepared::new(&stand.motor, Some(amplifier), &stand.file.site);
+        let drive = Drive {
+            amplifier: Some(amplifier),
+            ..stand.drive(true)
+        };
+        let context = Context::new(&stand.cycle, &stand.file.site, drive, &prepared);
+        let checks = context.checks(&RuleSet::default());
+        let check = checks.iter().find(|c| c.id == Rule::MotorVoltage).unwrap();
+        check.note.clone()
+    };
+    let mains = note(&amplifier(400.0));
+    assert!(
+        mains.contains("400 V mains + 10 %, rectified, of the amplifier"),
+        "{mains}"
+    );
+    let mut bus = amplifier(400.0);
+    (bus.mains_voltage, bus.bus_voltage) = (None, Some(560.0));
+    let bus = note(&bus);
+    assert!(bus.contains("bus voltage of the amplifier, 560 V"), "{bus}");
+}

@@ -3,10 +3,12 @@
 use super::{case, catalogue, priced};
 use crate::support::{near, press_text};
 use jred_machine::model::rule::Rule;
-use jred_sizing::catalogue::Catalogue;
+use jred_machine::model::rules::Limit;
+use jred_sizing::catalogue::{Catalogue, MotorKind};
+use jred_sizing::select::fit::{fit_input, input_kind};
 use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::Objective;
-use jred_sizing::select::size::Selection;
+use jred_sizing::select::size::{Candidate, Selection};
 
 /// Where no suitable drive has a figure there is nothing to compare, and the sentence names the figures that are missing and no other.
 #[test]
@@ -63,5 +65,124 @@ fn a_rise_is_compared_with_what_is_allowed() {
     let (above, high) = share(&case);
     if below == above {
         near("at 2000 m", high, low / 0.9, 1e-9);
+    }
+}
+
+/// The next smaller motor against every refused drive: none of them has a power between it and the smallest motor that fits, though
+/// this motor is refused behind other gearboxes; of its drives it is the one that misses by least.
+#[test]
+fn no_refused_motor_lies_between_the_smallest_and_the_next() {
+    let mut case = case(&press_text(), 200);
+    let catalogue = catalogue();
+    let prepared = catalogue.prepare(&case.file.site);
+    let power = |candidate: &Candidate| candidate.drive.motor.rated_power();
+    let select = |case: &super::Case| {
+        let (cycle, site, rules) = (&case.cycle, &case.file.site, &case.file.rules);
+        let selection = Selection::new(&catalogue, &prepared, cycle, site, rules);
+        let next = selection.next_smaller();
+        let fit = selection.first_fit(usize::MAX);
+        let refused = selection.first_refused(usize::MAX);
+        let least = fit.iter().filter_map(power).reduce(f64::min);
+        let next = next.map(|next| (power(&next).unwrap(), next.drive.name()));
+        (
+            next,
+            least,
+            fit.len(),
+            refused
+                .iter()
+                .map(|c| (power(c), c.drive.name()))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let (next, least, _, refused) = select(&case);
+    let (next, name) = next.unwrap();
+    let least = least.unwrap();
+    assert!(next < least, "{next} W, {least} W fit");
+    assert!(
+        refused.iter().any(|(power, _)| *power == Some(least)),
+        "no drive at the edge"
+    );
+    assert!(
+        refused
+            .iter()
+            .any(|(power, _)| power.is_some_and(|power| power < next))
+    );
+    let between = |power: &f64| next < *power && *power < least;
+    assert!(
+        !refused
+            .iter()
+            .any(|(power, _)| power.as_ref().is_some_and(between))
+    );
+    let closest = refused
+        .iter()
+        .find(|(power, _)| *power == Some(next))
+        .unwrap();
+    assert_eq!(closest.1, name);
+    // Without a limit every motor fits, and none is smaller; where none fits none is the next.
+    case.file.rules.set(
+        Rule::Speed,
+        Limit {
+            fail: Some(1e-9),
+            warn: None,
+        },
+    );
+    let (next, _, fit, _) = select(&case);
+    assert_eq!((next, fit), (None, 0));
+    for rule in Rule::ALL {
+        case.file.rules.set(rule, Limit::default());
+    }
+    let (next, _, fit, refused) = select(&case);
+    assert_eq!(next, None, "of {fit} that fit, {} refused", refused.len());
+}
+
+/// Each column is named after its figure, with the unit of what has one.
+#[test]
+fn columns_are_named_after_their_figures() {
+    for (objective, unit) in [
+        (Objective::Power, " [W]"),
+        (Objective::Mass, " [kg]"),
+        (Objective::Price, ""),
+        (Objective::Energy, " [J]"),
+        (Objective::Margin, ""),
+    ] {
+        let column = objective.column();
+        assert!(
+            column.ends_with(&format!("{}{unit}", objective.name())),
+            "{column}"
+        );
+    }
+    assert!(Objective::Temperature.column().contains("temperature"));
+}
+
+/// A drive link that slides needs a linear motor, unless a drive train makes it turn; a catalogue without one is refused, with the cure.
+#[test]
+fn motors_are_of_the_kind_of_the_input() {
+    let slide = include_str!("../../../../machines/linear-gripper.toml").to_owned();
+    let screw = include_str!("../../../../machines/excavator-bucket.toml").to_owned();
+    for (text, kind) in [
+        (press_text(), MotorKind::Rotary),
+        (slide, MotorKind::Linear),
+        (screw, MotorKind::Rotary),
+    ] {
+        let file =
+            jred_machine::read::parse("machine.toml", &text, std::path::Path::new("")).unwrap();
+        assert_eq!(input_kind(&file), kind, "{text}");
+        let mut rotary = catalogue();
+        rotary.keep_kind(MotorKind::Rotary);
+        let all = rotary.motors.len();
+        let found = fit_input(&mut rotary, &file);
+        if kind == MotorKind::Rotary {
+            assert!(found.is_ok() && rotary.motors.len() == all);
+        } else {
+            let words = found.unwrap_err().to_string();
+            assert!(words.contains("rotary motors only"), "{words}");
+        }
+        let mut none = Catalogue::default();
+        let words = fit_input(&mut none, &file).unwrap_err().to_string();
+        assert_eq!(
+            words.contains("slides"),
+            kind == MotorKind::Linear,
+            "{words}"
+        );
     }
 }

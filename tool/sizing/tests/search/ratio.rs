@@ -13,6 +13,7 @@ use jred_sizing::select::ratio::ranges::Trial;
 use jred_sizing::select::ratio::{Gear, Moments, accelerating_factor};
 
 const CONVEYOR: &str = include_str!("../../../../machines/conveyor.toml");
+const HOIST: &str = include_str!("../../../../machines/hoist.toml");
 const SCREW: &str = include_str!("../../../../machines/ball-screw.toml");
 
 /// The drive of a motor and a gear of some ratio, as the tool's own drives are.
@@ -300,4 +301,35 @@ fn ranges_of_all_rules() {
         }
     }
     assert!(ends > 20, "only {ends} ends");
+}
+
+/// A motor tried with a gear has the torque and the speed of a drive with a gearbox of these figures, whichever way the power
+/// flows: a load that drives keeps the share 1 : η too.
+#[test]
+fn a_trial_is_the_drive_of_a_gearbox_with_these_figures() {
+    // Lowered, the load drives the motor.
+    let case = case(HOIST, 200);
+    let catalogue = catalogue();
+    let prepared = catalogue.prepare(&case.file.site);
+    for gear in GEARS {
+        for (motor, limits) in catalogue.motors.iter().zip(&prepared).step_by(7) {
+            let trial = Trial {
+                cycle: &case.cycle,
+                site: &case.file.site,
+                rules: &case.file.rules,
+                motor,
+                prepared: limits,
+                gear,
+            };
+            for ratio in [3.0, 40.0] {
+                let form = coefficients(motor, gear, ratio);
+                let found = |rule| trial.findings(ratio).get(rule).unwrap().value;
+                let torque = |i: &Instant| form.torque(&loads(i));
+                let exact = case.duty.figures(torque).rms;
+                near(&motor.key, found(Rule::RmsTorque), exact, budget::MOMENTS);
+                let fastest = case.cycle.peak_speed() * ratio;
+                near(&motor.key, found(Rule::Speed), fastest, 1e-12);
+            }
+        }
+    }
 }

@@ -10,12 +10,13 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
 use jred_machine::read;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::catalogue::{Amplifier, Motor, Thermal, Winding};
+use jred_sizing::catalogue::{Amplifier, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::motor::winding::COPPER;
+use jred_sizing::thermal::{Load, Model};
 
 use super::{budget, near};
 use crate::support::press_text;
@@ -342,4 +343,62 @@ fn currents_follow_the_torque() {
     large.rated_current = 55.0;
     let all = checks(&motor, Some(&large), &Site::default());
     assert_eq!(check(&all, Rule::Overload).value, Some(0.0));
+}
+
+/// Friction at the motor's own speed, that of the input times the ratio: c·|n| and b·n², and the copper of the smaller torque.
+#[test]
+fn losses_behind_a_gearbox_are_at_the_speed_of_the_motor() {
+    let (cycle, site, ratio) = (cycle(), Site::default(), 4.0);
+    let mut motor = motor();
+    motor.thermal.winding_time = None;
+    motor.thermal.housing_time = None;
+    let gearbox = Gearbox {
+        ratio,
+        efficiency: 1.0,
+        back_efficiency: 1.0,
+        ..Gearbox::default()
+    };
+    let drive = Drive {
+        motor: &motor,
+        gearbox: Some(&gearbox),
+        amplifier: None,
+    };
+    let prepared = Prepared::new(&motor, None, &site);
+    let coefficients = drive.coefficients();
+    let load = Load {
+        cycle: &cycle,
+        coefficients: &coefficients,
+        ratio,
+        motor: &motor,
+        prepared: &prepared,
+    };
+    let model = Model::of(&motor, &prepared, &site.surroundings, cycle.duration()).unwrap();
+    let found = model.mean_losses(&load);
+    let [mut copper, mut friction] = [0.0; 2];
+    for sample in cycle.samples() {
+        let share = sample.weight / cycle.duration();
+        let current = coefficients.torque(&sample.loads()) / 2.0;
+        let speed = sample.speed().abs() * ratio;
+        copper += share * 1.5 * 0.6 * (1.0 + COPPER * 20.0) * current * current;
+        friction += share * (0.3 + 0.002 * speed) * speed;
+    }
+    near("copper", found.copper, copper, budget::SIMPSON);
+    near("friction", found.other, friction, budget::SIMPSON);
+}
+
+/// The duty type that the machine file states is named where it is not that of the cycle.
+#[test]
+fn a_stated_duty_type_is_compared() {
+    let stated = |kind| {
+        let mut site = Site::default();
+        site.duty.kind = kind;
+        winding(&motor(), &site).note
+    };
+    assert!(!stated(None).contains("(given"));
+    assert!(!stated(Some(5)).contains("(given"), "{}", stated(Some(5)));
+    assert!(
+        stated(Some(3)).contains("(given: S3)"),
+        "{}",
+        stated(Some(3))
+    );
 }

@@ -101,6 +101,8 @@ fn starts_that_do_not_count() {
     let found = kind(MUCH_FRICTION, &moves(&[long, "dwell = \"20 s\""]));
     assert_eq!(found.number, 3, "{found:?}");
     assert_eq!(found.features.starts, 1);
+    let words = "duty type S3, at rest 25 % of the time, starts thermally negligible";
+    assert_eq!(found.to_string(), words);
     within("rest", found.features.rest, 0.25, budget::SIMPSON);
 }
 

@@ -92,3 +92,30 @@ fn both_sides_of_a_jump_bound_a_line() {
     assert!((at(3) + 1.0).abs() < 1e-6, "{most:?}");
     assert!((at(4) + 5.0 / 3.0).abs() < 1e-6, "{most:?}");
 }
+
+/// Points may lie at 32 equal steps from rest, at the end, and on both sides of each corner between, in order and each once.
+#[test]
+fn speeds_are_even_with_both_sides_of_each_corner() {
+    let end = 321.7;
+    let corners = [-1.0, 0.0, 100.3, 321.7, 400.0];
+    let found = speeds(end, &corners);
+    assert!(found.is_sorted_by(|a, b| a < b), "{found:?}");
+    let last = rounded_down(end);
+    let mut expected: Vec<f32> = (0..=32_u8).map(|k| last * (f32::from(k) / 32.0)).collect();
+    let below = rounded_down(100.3);
+    expected.extend([below, below.next_up(), f32::from_bits(1)]);
+    expected.sort_by(f32::total_cmp);
+    assert_eq!(found, expected);
+    assert!(f64::from(below) <= 100.3 && f64::from(below.next_up()) > 100.3);
+    // A motor that does not turn has one.
+    assert_eq!(speeds(0.0, &corners), [0.0]);
+}
+
+/// A limit of nothing is met by nothing, and falls short by nothing.
+#[test]
+fn a_limit_of_zero_is_a_level_curve() {
+    let found = below(300.0, &[100.0], |_| [0.0; 2]).unwrap();
+    assert!(found.points.iter().all(|[_, torque]| *torque == 0.0));
+    assert!(found.shortfall == 0.0, "{}", found.shortfall);
+    assert_eq!(below(300.0, &[], |_| [f64::INFINITY; 2]), None);
+}

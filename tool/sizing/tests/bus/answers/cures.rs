@@ -329,3 +329,57 @@ fn without_a_common_period_the_bounds_are_enough() {
         "{words}"
     );
 }
+
+/// Figures of five digits and more are rounded to four as well, to the side where they are enough.
+#[test]
+fn large_figures_are_rounded_to_the_safe_side() {
+    let curve = PowerCurve::new(
+        [
+            [0.0, 99e3],
+            [1.5, 99e3],
+            [1.5, -123_456.7],
+            [2.0, -123_456.7],
+        ],
+        2.0,
+    );
+    let supply = Supply {
+        capacitance: Some(1e-3),
+        chopper_voltage: Some(700.0),
+        max_voltage: Some(800.0),
+        ..NOTHING
+    };
+    let found = answer(&[curve], &supply, true);
+    for cure in &found.cures {
+        words_are_enough(cure);
+    }
+    let words = &found.cures[0].words;
+    assert!(
+        words.contains("brake_resistor.peak_power at least 123500 W"),
+        "{words}"
+    );
+}
+
+/// A supply that keeps the bus at its limit can take energy back; one above the limit helps nothing.
+#[test]
+fn a_supply_at_the_limit_may_take_energy_back() {
+    let curve = || {
+        PowerCurve::new(
+            [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
+            2.0,
+        )
+    };
+    for (highest, helps) in [(560.1, true), (560.0, true), (559.9, false)] {
+        let supply = Supply {
+            capacitance: Some(1e-4),
+            max_voltage: Some(highest),
+            ..NOTHING
+        };
+        let found = answer(&[curve()], &supply, true);
+        assert!(!found.failed().is_empty());
+        let back = found
+            .cures
+            .iter()
+            .any(|cure| cure.words.starts_with("regenerative = true"));
+        assert_eq!(back, helps, "{highest}: {:?}", found.cures);
+    }
+}

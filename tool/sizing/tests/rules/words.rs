@@ -1,0 +1,323 @@
+//! Every rule in words: unit, what the limit is of, and what is missing where a figure is.
+
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::supply::BrakeResistor;
+use jred_machine::units::RPM;
+use jred_sizing::catalogue::{Amplifier, Motor};
+use jred_sizing::motor::envelope::Prepared;
+
+use super::{Check, Context, Drive, Finding, Rule, RuleSet, Stand, near, press_text};
+
+/// A drive with every figure that a rule asks for: on its own bus, with a brake, limits of housing and play, and a resistor that comes on.
+fn full() -> (Stand, Amplifier) {
+    let text = format!(
+        "{}\n[tool]\npoint = \"slider\"\nplay = \"1 mm\"\n[stiffness]\nshaft = \"9000 N m/rad\"\nbacklash = \"6 arcmin\"\n",
+        press_text()
+    );
+    let mut stand = Stand::new(&text);
+    let site = &mut stand.file.site;
+    site.surroundings.housing = Some(80.0);
+    site.bus_voltage = Some(560.0);
+    let supply = &mut site.supply;
+    supply.capacitance = Some(1e-6);
+    supply.chopper_voltage = Some(600.0);
+    supply.max_voltage = Some(800.0);
+    supply.min_resistance = Some(10.0);
+    supply.brake_resistor = Some(BrakeResistor {
+        resistance: 47.0,
+        power: 900.0,
+        peak_power: Some(9e3),
+        pulse_energy: Some(9e3),
+    });
+    stand.brake(12.0);
+    let motor = &mut stand.motor;
+    motor.max_bus_voltage = Some(900.0);
+    motor.winding.torque_constant = Some(1.2);
+    motor.winding.resistance = Some(0.8);
+    motor.thermal.winding_resistance = Some(0.2);
+    motor.thermal.housing_resistance = Some(0.4);
+    motor.thermal.max_temperature = Some(155.0);
+    stand.gearbox.stiffness = Some(4000.0);
+    stand.gearbox.backlash = Some(1e-3);
+    stand.gearbox.shock_factors = vec![[10_000.0, 1.0], [20_000.0, 1.5]];
+    let amplifier = Amplifier {
+        key: "a".to_owned(),
+        rated_current: 6.0,
+        peak_current: 60.0,
+        peak_time: Some(3.0),
+        max_voltage: Some(850.0),
+        bus_voltage: Some(560.0),
+        ..Amplifier::default()
+    };
+    (stand, amplifier)
+}
+
+/// Findings and checks of the drive after a change of its data.
+fn judged(change: impl Fn(&mut Stand, &mut Amplifier)) -> Vec<(Rule, Finding, Check)> {
+    let (mut stand, mut amplifier) = full();
+    change(&mut stand, &mut amplifier);
+    let prepared = Prepared::new(&stand.motor, Some(&amplifier), &stand.file.site);
+    let drive = Drive {
+        amplifier: Some(&amplifier),
+        ..stand.drive(true)
+    };
+    let rules = RuleSet::default();
+    let context = Context::new(&stand.cycle, &stand.file.site, drive, &prepared);
+    let findings = context.findings(&rules);
+    let checks = context.checks(&rules).into_iter();
+    checks
+        .map(|check| (check.id, findings.get(check.id).unwrap(), check))
+        .collect()
+}
+
+/// The figure in its unit is the finding, and the limit a share of the rating that the note names.
+#[test]
+fn every_rule_has_its_unit_and_names_its_limit() {
+    let found = judged(|_, _| {});
+    for (rule, unit, scale, rating) in [
+        (Rule::RmsTorque, "N m", 1.0, "S1 torque at mean speed"),
+        (Rule::PeakTorque, "N m", 1.0, "peak torque at that speed"),
+        (Rule::Speed, "rpm", RPM, "maximum speed"),
+        (Rule::HoldingTorque, "N m", 1.0, "standstill torque"),
+        (Rule::BrakeTorque, "N m", 1.0, "brake torque"),
+        (Rule::InertiaRatio, "", 1.0, "times the rotor's inertia"),
+        (
+            Rule::WindingTemperature,
+            "K",
+            1.0,
+            "rise from 40 °C to the maximum temperature of the winding",
+        ),
+        (
+            Rule::HousingTemperature,
+            "K",
+            1.0,
+            "rise from 40 °C to the maximum temperature of the housing",
+        ),
+        (Rule::GearboxPeak, "N m", 1.0, "acceleration torque T2B"),
+        (Rule::GearboxCubicMean, "N m", 1.0, "rated torque T2N"),
+        (Rule::GearboxEmergency, "N m", 1.0, "emergency torque"),
+        (Rule::GearboxMeanSpeed, "rpm", RPM, "rated input speed n1N"),
+        (Rule::GearboxSpeed, "rpm", RPM, "maximum input speed"),
+        (
+            Rule::GearboxCycles,
+            "per hour",
+            1.0,
+            "number up to which the maker gives shock factors",
+        ),
+        (Rule::RmsCurrent, "A", 1.0, "rated current of the amplifier"),
+        (Rule::PeakCurrent, "A", 1.0, "peak current of the amplifier"),
+        (
+            Rule::Overload,
+            "A^2 s",
+            1.0,
+            "(peak current² − rated current²)·peak time of the amplifier",
+        ),
+        (
+            Rule::MotorVoltage,
+            "V",
+            1.0,
+            "largest bus voltage of the motor",
+        ),
+        (
+            Rule::AmplifierVoltage,
+            "V",
+            1.0,
+            "largest bus voltage of the amplifier",
+        ),
+        (Rule::BusVoltage, "V", 1.0, "maximum voltage of the DC bus"),
+        (
+            Rule::BrakeResistance,
+            "Ohm",
+            1.0,
+            "minimum resistance of the chopper",
+        ),
+        (
+            Rule::ResistorPower,
+            "W",
+            1.0,
+            "continuous power of the brake resistor",
+        ),
+        (
+            Rule::ResistorPeak,
+            "W",
+            1.0,
+            "peak power of the brake resistor",
+        ),
+        (
+            Rule::ResistorPulse,
+            "J",
+            1.0,
+            "pulse energy of the brake resistor",
+        ),
+        (Rule::NaturalFrequency, "Hz", 1.0, "drive frequency"),
+        (Rule::Backlash, "mm", 1e-3, "backlash allowed at slider"),
+    ] {
+        let Some((_, finding, check)) = found.iter().find(|(found, ..)| *found == rule) else {
+            panic!(
+                "expected {rule:?}, found {:?}",
+                found.iter().map(|f| f.0).collect::<Vec<_>>()
+            );
+        };
+        assert!(finding.is_known(), "{check:?}");
+        assert_eq!(check.unit, unit, "{rule:?}");
+        near(
+            &format!("{rule:?}"),
+            check.value.unwrap_or(f64::INFINITY),
+            finding.value / scale,
+            1e-12,
+        );
+        assert!(check.note.contains(rating), "{rule:?}: {}", check.note);
+        assert_ne!(check.verdict, Verdict::NotChecked, "{rule:?}");
+    }
+    // All but the torque without acceleration, which is off unless a limit is given.
+    assert_eq!(found.len(), Rule::COUNT - 1);
+}
+
+/// What a figure is missing for is not checked, and named; all else stays as it was.
+#[test]
+fn a_missing_figure_is_named() {
+    type Change = fn(&mut Stand, &mut Amplifier);
+    let changes: [(Rule, Change, &str); 13] = [
+        (
+            Rule::Speed,
+            |s, _| {
+                (s.motor.max_speed, s.motor.rated_speed, s.motor.corner_speed) = (None, None, None)
+            },
+            "maximum speed",
+        ),
+        (
+            Rule::GearboxPeak,
+            |s, _| s.gearbox.peak_torque = None,
+            "acceleration torque T2B",
+        ),
+        (
+            Rule::GearboxCubicMean,
+            |s, _| s.gearbox.rated_torque = None,
+            "rated torque T2N",
+        ),
+        (
+            Rule::GearboxEmergency,
+            |s, _| s.gearbox.emergency_torque = None,
+            "emergency torque",
+        ),
+        (
+            Rule::GearboxMeanSpeed,
+            |s, _| s.gearbox.rated_speed = None,
+            "rated input speed n1N",
+        ),
+        (
+            Rule::GearboxSpeed,
+            |s, _| s.gearbox.max_speed = None,
+            "maximum input speed",
+        ),
+        (
+            Rule::Overload,
+            |_, a| a.peak_time = None,
+            "time for which the amplifier can supply its peak current",
+        ),
+        (
+            Rule::PeakCurrent,
+            |s, _| s.motor.winding.torque_constant = None,
+            "torque constant of the motor",
+        ),
+        (
+            Rule::NaturalFrequency,
+            |s, _| s.gearbox.stiffness = None,
+            "torsional stiffness of the gearbox",
+        ),
+        (
+            Rule::Backlash,
+            |s, _| s.gearbox.backlash = None,
+            "backlash of the gearbox",
+        ),
+        (
+            Rule::WindingTemperature,
+            |s, _| s.motor.thermal.max_temperature = None,
+            "maximum temperature of the winding",
+        ),
+        (
+            Rule::ResistorPeak,
+            |s, _| {
+                s.file
+                    .site
+                    .supply
+                    .brake_resistor
+                    .as_mut()
+                    .unwrap()
+                    .peak_power = None;
+            },
+            "peak power of the brake resistor",
+        ),
+        (
+            Rule::BusVoltage,
+            |s, a| {
+                (
+                    s.file.site.supply.max_voltage,
+                    a.max_voltage,
+                    s.motor.max_bus_voltage,
+                ) = (None, None, None)
+            },
+            "maximum voltage of the DC bus",
+        ),
+    ];
+    for (rule, change, missing) in changes {
+        let found = judged(change);
+        let (_, _, check) = found.iter().find(|(found, ..)| *found == rule).unwrap();
+        assert_eq!(check.verdict, Verdict::NotChecked, "{check:?}");
+        let words = format!("no data: {missing}");
+        assert!(check.note.starts_with(&words), "{rule:?}: {}", check.note);
+        assert_eq!(check.limit, None);
+    }
+}
+
+/// A thermal figure that cannot be one, which a program may hand in, is none.
+#[test]
+fn a_thermal_figure_that_is_none_is_not_used() {
+    let with = |change: &dyn Fn(&mut Motor)| {
+        let found = judged(|stand, _| change(&mut stand.motor));
+        let winding = found
+            .iter()
+            .find(|(rule, ..)| *rule == Rule::WindingTemperature);
+        let (_, finding, check) = winding.unwrap().clone();
+        (finding.value.to_bits(), check.unit, check.note)
+    };
+    type Field = fn(&mut Motor) -> &mut Option<f64>;
+    let fields: [Field; 4] = [
+        |motor| &mut motor.thermal.winding_resistance,
+        |motor| &mut motor.thermal.housing_resistance,
+        |motor| &mut motor.thermal.winding_time,
+        |motor| &mut motor.winding.resistance,
+    ];
+    for field in fields {
+        let none = with(&|motor| *field(motor) = None);
+        for figure in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            assert_eq!(
+                with(&|motor| *field(motor) = Some(figure)),
+                none,
+                "{figure}"
+            );
+        }
+    }
+}
+
+/// Peaks are named after the part whose limit is the lower one; at equal limits it is the motor's own.
+#[test]
+fn the_peak_current_is_of_the_weaker_part() {
+    for (motor, whose, limit) in [
+        (59.0, "motor", 59.0),
+        (60.0, "motor", 60.0),
+        (61.0, "amplifier", 60.0),
+    ] {
+        let found = judged(|stand, _| stand.motor.winding.peak_current = Some(motor));
+        let (_, finding, check) = found
+            .iter()
+            .find(|(rule, ..)| *rule == Rule::PeakCurrent)
+            .unwrap();
+        assert_eq!(finding.rating, limit);
+        assert!(
+            check.note.contains(&format!("peak current of the {whose}")),
+            "{}",
+            check.note
+        );
+    }
+}
