@@ -398,3 +398,17 @@ fn the_resistor_asked_for_is_enough() {
     }
     assert!(asked > 20, "{asked}");
 }
+
+/// The ends of two curves may differ by rounding: where one goes on the other keeps its last value.
+#[test]
+fn the_sum_of_level_curves_is_level_to_the_end() {
+    let level = |power: f64, end: f64| PowerCurve::new([[0.0, power], [end, power]], 2.0);
+    for (one, other) in [(2.0, 2.0 + 1e-15), (2.0 + 1e-15, 2.0), (2.0, 2.0)] {
+        let sum = level(1.0, one).plus(&level(5.0, other));
+        assert!(
+            sum.points().iter().all(|[_, power]| *power == 6.0),
+            "{sum:?}"
+        );
+        near("energy", sum.energy(), 12.0, budget::BUS);
+    }
+}

@@ -286,3 +286,38 @@ fn constants_have_units_and_grouped_digits() {
         assert!(long > 3, "{source}");
     });
 }
+
+/// Of two rules of one speed the stricter gives the limit, whichever it is, and is named.
+#[test]
+fn the_stricter_of_two_rules_is_the_limit() {
+    for (motor, gearbox) in [("100 %", "20 %"), ("20 %", "100 %")] {
+        let rules =
+            format!("[rules]\nspeed = \"{motor}\"\ngearbox_speed = \"{gearbox}\"\n\n[motion]");
+        let text = edited_press("[motion]", &rules);
+        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        with_limits(&file, |context, limits| {
+            let entry = limits
+                .entries
+                .iter()
+                .find(|e| e.field == Field::Speed)
+                .unwrap();
+            let findings = context.findings(&file.rules);
+            let (rule, part) = if motor == "20 %" {
+                (Rule::Speed, "motor's")
+            } else {
+                (Rule::GearboxSpeed, "gearbox's")
+            };
+            let least = 0.2 * findings.get(rule).unwrap().rating;
+            let Bound::Figure(limit) = entry.bound else {
+                panic!("{entry:?}");
+            };
+            let off = least - f64::from(limit);
+            assert!((0.0..1e-4).contains(&off), "{limit} of {least}");
+            assert!(
+                entry.words.starts_with("20 % of the") && entry.words.contains(part),
+                "{}",
+                entry.words
+            );
+        });
+    }
+}

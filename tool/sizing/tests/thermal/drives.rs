@@ -402,3 +402,29 @@ fn a_stated_duty_type_is_compared() {
         stated(Some(3))
     );
 }
+
+/// A housing without a time constant is so slow that it keeps its mean rise, also through hours of work and of rest.
+#[test]
+fn a_housing_of_unknown_time_does_not_follow_the_rests() {
+    let site = Site {
+        duty: jred_machine::model::operation::Duty {
+            operation: Operation::Intermittent {
+                operating: 3600.0,
+                rest: 3600.0,
+                holding: false,
+            },
+            kind: Some(3),
+        },
+        ..Site::default()
+    };
+    let with = |time| {
+        let mut motor = motor();
+        motor.thermal.housing_time = time;
+        winding(&motor, &site).value.unwrap()
+    };
+    near("unknown", with(None), with(Some(1e9)), 1e-3);
+    assert!(
+        with(Some(2400.0)) > 1.02 * with(None),
+        "the case shows nothing"
+    );
+}

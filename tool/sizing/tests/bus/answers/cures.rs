@@ -383,3 +383,40 @@ fn a_supply_at_the_limit_may_take_energy_back() {
         assert_eq!(back, helps, "{highest}: {:?}", found.cures);
     }
 }
+
+/// Two axes whose braking is too much for a resistor in step and nothing half a period apart: they may be shifted, unless the resistance is
+/// below what the chopper may switch, which no phases mend.
+#[test]
+fn phases_do_not_mend_a_resistance() {
+    let curve = || {
+        PowerCurve::new(
+            [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
+            2.0,
+        )
+    };
+    for (least, helps) in [
+        (None, true),
+        (Some(46.9), true),
+        (Some(47.0), true),
+        (Some(47.1), false),
+    ] {
+        let supply = Supply {
+            capacitance: Some(1e-5),
+            chopper_voltage: Some(700.0),
+            max_voltage: Some(800.0),
+            min_resistance: least,
+            brake_resistor: Some(BrakeResistor {
+                power: 10.0,
+                ..RESISTOR
+            }),
+            ..NOTHING
+        };
+        let found = answer(&[curve(), curve()], &supply, true);
+        assert!(!found.failed().is_empty());
+        let shifted = found.cures.iter().find_map(|cure| cure.phases.as_ref());
+        assert_eq!(shifted.is_some(), helps, "{least:?}: {:?}", found.cures);
+        if let Some(phases) = shifted {
+            near("half a period apart", phases[1], 1.0, 0.2);
+        }
+    }
+}
