@@ -321,3 +321,40 @@ fn the_stricter_of_two_rules_is_the_limit() {
         });
     }
 }
+
+/// What the source defines is what its function hands to the meter; a time constant of nothing is none.
+#[test]
+fn the_limits_that_are_defined_are_used() {
+    let file = read::read(&press_file()).unwrap();
+    with_limits(&file, |context, limits| {
+        let source = limits.source("press.toml");
+        let (_, function) = source.split_once("pub fn limits()").unwrap();
+        for entry in &limits.entries {
+            let (field, name) = (entry.field, entry.field.word().to_uppercase());
+            let call = match entry.bound {
+                Bound::Open => continue,
+                Bound::Figure(_) => format!(".with_{field}({name})"),
+                Bound::Curve(_) => format!(".with_{field}(jred::duty::Curve::new(&{name})?)"),
+            };
+            assert!(function.contains(&call), "{function}");
+            assert!(source.contains(&format!("pub const {name}: ")), "{source}");
+        }
+        for (time, said) in [
+            (None, false),
+            (Some(0.0), false),
+            (Some(f64::INFINITY), false),
+            (Some(90.0), true),
+        ] {
+            let mut motor = context.drive.motor.clone();
+            motor.thermal.winding_time = time;
+            let drive = Drive {
+                motor: &motor,
+                ..context.drive
+            };
+            let context = Context::new(context.cycle, context.site, drive, context.motor);
+            let source = MeterLimits::new(&context, &file.rules).source("press.toml");
+            assert_eq!(source.contains("pub const WINDING_TIME: f32 = 90.0;"), said);
+            assert_eq!(source.contains("WINDING_TIME"), said, "{time:?}");
+        }
+    });
+}

@@ -22,7 +22,7 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::{Limit, RuleSet};
 use jred_machine::read;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
@@ -166,4 +166,25 @@ fn the_place_of_the_peak_is_said() {
         peak.speed.abs() / jred_machine::units::RPM,
         1.0,
     );
+}
+
+/// Of a limit ten times can be used and be said; beyond that no number helps.
+#[test]
+fn a_use_of_a_limit_is_said_up_to_ten_times() {
+    let used = |value: f64| {
+        let words = Words {
+            unit: "",
+            scale: 1.0,
+            rating: String::new(),
+            place: String::new(),
+        };
+        let mut rules = RuleSet::default();
+        let limit = Limit {
+            fail: Some(1.0),
+            warn: None,
+        };
+        rules.set(Rule::InertiaRatio, limit);
+        Check::new(&rules, Rule::InertiaRatio, Finding::new(value, 1.0), words).used()
+    };
+    assert_eq!([0.5, 10.0, 10.01].map(used), ["50 %", "1000 %", "> 1000 %"]);
 }

@@ -120,7 +120,7 @@ impl Check {
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
             _ if self.limit.is_none() => String::new(),
-            percent if percent < 1000.0 => format!("{percent:.0} %"),
+            percent if percent <= 1000.0 => format!("{percent:.0} %"),
             _ => "> 1000 %".to_owned(),
         }
     }

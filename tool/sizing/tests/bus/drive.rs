@@ -13,6 +13,7 @@ use jred_sizing::bus;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 use jred_sizing::cycle::Cycle;
+use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;
 use jred_sizing::motor::envelope::Prepared;
@@ -278,4 +279,80 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
     let prepared = Prepared::new(&motor, None, &site);
     let context = Context::new(&cycle, &site, drive, &prepared);
     assert!(context.bus_voltage().is_empty());
+}
+
+/// A motor that turns without torque in its weakened field draws the loss of the current that weakens it.
+#[test]
+fn idling_in_the_weakened_field_is_not_free() {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let mut duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
+    for instant in &mut duty.instants {
+        (
+            instant.input_speed,
+            instant.input_alpha,
+            instant.input_torque,
+        ) = (60.0, 0.0, 0.0);
+    }
+    let (cycle, motor) = (Cycle::new(&duty), motor());
+    let site = Site {
+        bus_voltage: Some(30.0),
+        ..Site::default()
+    };
+    let amplifier = Amplifier {
+        rated_current: 100.0,
+        peak_current: 400.0,
+        ..Amplifier::default()
+    };
+    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    let coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+    let current = prepared.current(0.0, 60.0).unwrap();
+    assert!(current > 1.0, "{current} A weaken the field");
+    let curve = bus::power(&cycle, &coefficients, 1.0, &motor, &prepared, None);
+    for [_, power] in curve.points() {
+        near("power", *power, 1.5 * 0.6 * current * current, budget::BUS);
+    }
+}
+
+/// The resistor's mean power is what it burns in a cycle over the length of the cycle.
+#[test]
+fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
+    let (cycle, motor) = (cycle(), motor());
+    let resistor = BrakeResistor {
+        resistance: 20.0,
+        power: 1e6,
+        peak_power: Some(1e6),
+        pulse_energy: Some(1e6),
+    };
+    let site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: Some(1e-6),
+            chopper_voltage: Some(570.0),
+            max_voltage: Some(1e6),
+            min_resistance: Some(1.0),
+            regenerative: false,
+            brake_resistor: Some(resistor),
+        },
+        ..Site::default()
+    };
+    let prepared = Prepared::new(&motor, None, &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let findings = Context::new(&cycle, &site, drive, &prepared).findings(&RuleSet::default());
+    let figure = |rule| findings.get(rule).unwrap().value;
+    let curve = bus::power(&cycle, &drive.coefficients(), 1.0, &motor, &prepared, None);
+    let [_, back] = curve.energies();
+    // All that comes back but what the capacitor keeps of it, in each of a few stretches of braking.
+    let kept = 0.5 * 1e-6 * (570.0f64.powi(2) - 560.0f64.powi(2));
+    let burnt = figure(Rule::ResistorPower) * cycle.duration();
+    assert!(back > 100.0 * kept, "{back} J come back");
+    assert!(
+        burnt < back && burnt > back - 20.0 * kept,
+        "{burnt} J of {back} J"
+    );
+    assert!(figure(Rule::ResistorPulse) <= burnt * (1.0 + 1e-12));
 }
