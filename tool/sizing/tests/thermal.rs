@@ -12,7 +12,7 @@ use crate::support::{budget, near, within};
 use jred_machine::model::operation::Operation;
 use jred_sizing::judge::overload;
 use jred_sizing::thermal::course::{Course, Hottest, Point};
-use jred_sizing::thermal::network::{Losses, Network, steady};
+use jred_sizing::thermal::network::{Change, Losses, Network, steady};
 
 const COLD: Losses = Losses {
     copper: 0.0,
@@ -372,4 +372,10 @@ fn bodies_and_their_times() {
     assert!(two.has_housing());
     near("two", two.fastest(), 60.0, 1e-12);
     near("two", two.slowest(), 200.0 + 1400.0, 1e-12);
+}
+
+/// What changes nothing leads nowhere: no rise is that which comes back.
+#[test]
+fn a_change_of_nothing_has_no_rise_of_its_own() {
+    assert_eq!(Change::default().periodic(), None);
 }

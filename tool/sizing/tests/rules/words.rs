@@ -321,3 +321,37 @@ fn the_peak_current_is_of_the_weaker_part() {
         );
     }
 }
+
+/// Where or how a figure was found is said with it.
+#[test]
+fn places_are_said() {
+    let found = judged(|_, _| {});
+    for (rule, place) in [
+        (
+            Rule::PeakTorque,
+            " rpm, where the cycle comes closest to the envelope",
+        ),
+        (
+            Rule::BrakeTorque,
+            "torque at standstill without the help of friction",
+        ),
+        (
+            Rule::GearboxEmergency,
+            "if the motor brakes with its peak torque where the machine has",
+        ),
+        (
+            Rule::NaturalFrequency,
+            "the motor holding its position at the largest inertia of the cycle",
+        ),
+        (
+            Rule::Backlash,
+            "at the largest transfer function of slider in the motion",
+        ),
+        (Rule::MotorVoltage, "bus voltage of [supply]"),
+        (Rule::BusVoltage, " J are fed back per cycle"),
+        (Rule::WindingTemperature, "duty type S5"),
+    ] {
+        let (_, _, check) = found.iter().find(|(found, ..)| *found == rule).unwrap();
+        assert!(check.note.contains(place), "{rule:?}: {}", check.note);
+    }
+}

@@ -92,6 +92,11 @@ fn a_speed_that_swings_does_not_stop() {
         let found = Features::of(&Cycle::new(&duty), &direct, 1.0);
         assert_eq!(found.stops, swing > 0.9, "{swing}");
         assert_eq!(found.duty_type().number, number, "{swing}");
+        // Behind a gearbox all speeds are as many times as high.
+        for ratio in [-1e4, 1e-4, 1e4] {
+            let geared = Features::of(&Cycle::new(&duty), &direct, ratio);
+            assert_eq!(geared.stops, found.stops, "{swing} {ratio}");
+        }
     }
 }
 

@@ -252,3 +252,27 @@ fn an_instant_without_weight_adds_no_current() {
     };
     runner(100).run(&(duty(), coefficients()), check).unwrap();
 }
+
+/// An S1 curve of one point, at rest, is level: at no speed anything is lost of it.
+#[test]
+fn a_curve_of_one_point_is_level() {
+    let check = |(duty, c): (Duty, Coefficients)| {
+        let motor = Motor {
+            continuous_curve: vec![[0.0, 3.0]],
+            ..Motor::default()
+        };
+        let cycle = Cycle::new(&duty);
+        let prepared = Prepared::new(&motor, None, &Site::default());
+        let model = Model::of(&motor, &prepared, &Surroundings::default(), 1.0).unwrap();
+        let load = Load {
+            cycle: &cycle,
+            coefficients: &c,
+            ratio: 2.0,
+            motor: &motor,
+            prepared: &prepared,
+        };
+        prop_assert_eq!(model.mean_losses(&load).other, 0.0);
+        Ok(())
+    };
+    runner(20).run(&(duty(), coefficients()), check).unwrap();
+}

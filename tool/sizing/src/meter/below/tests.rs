@@ -119,3 +119,24 @@ fn a_limit_of_zero_is_a_level_curve() {
     assert!(found.shortfall == 0.0, "{}", found.shortfall);
     assert_eq!(below(300.0, &[], |_| [f64::INFINITY; 2]), None);
 }
+
+/// A motor of a thousand times the torque has the same curve, a thousand times as high: with a power of two to the last bit.
+#[test]
+fn curves_are_to_scale() {
+    let of = |scale: f64| {
+        // A quarter of an ellipse: concave, so no chord lies above it.
+        let limit = move |speed: f64| scale * (1.0 - (speed / 300.0).powi(2)).max(0.0).sqrt();
+        below(300.0, &[], |speeds| speeds.map(limit)).unwrap()
+    };
+    let one = of(1.0);
+    assert!(one.points.len() > 2 && one.shortfall > 0.0);
+    for scale in [1.0 / 1024.0, 1024.0] {
+        let other = of(scale);
+        let expected = one
+            .points
+            .iter()
+            .map(|[speed, torque]| [*speed, torque * scale as f32]);
+        assert_eq!(other.points, expected.collect::<Vec<_>>(), "{scale}");
+        assert!(other.shortfall == one.shortfall, "{scale}");
+    }
+}
