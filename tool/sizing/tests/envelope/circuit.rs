@@ -294,3 +294,28 @@ fn without_inductance_a_three_phase_winding_is_not_guessed() {
     let words = envelope.assumptions().join("; ");
     assert!(words.contains("using the rated speed"), "{words}");
 }
+
+/// Whether the field is weakened is assumed from the largest speed, and said either way: 560 V turn this winding no faster than 9000 rpm
+/// without torque.
+#[test]
+fn weakening_is_said_either_way() {
+    for (rpm, weakens) in [(3000.0, false), (12_000.0, true)] {
+        let motor = Motor {
+            max_speed: Some(rpm * RPM),
+            ..servo()
+        };
+        let prepared = Prepared::new(&motor, None, &Site::default());
+        assert_eq!(prepared.circuit.unwrap().weakens, weakens);
+        let said = prepared.envelope.assumptions().join("; ");
+        assert_eq!(
+            said.contains("field weakening assumed: the maximum speed is above"),
+            weakens,
+            "{said}"
+        );
+        assert_eq!(
+            said.contains("no field weakening assumed"),
+            !weakens,
+            "{said}"
+        );
+    }
+}
