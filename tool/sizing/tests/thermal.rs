@@ -379,3 +379,35 @@ fn bodies_and_their_times() {
 fn a_change_of_nothing_has_no_rise_of_its_own() {
     assert_eq!(Change::default().periodic(), None);
 }
+
+/// A ramp of the current or of another loss, long beside the time constant of the winding, heats as the same ramp in a thousand pieces does:
+/// whichever of them changes, the winding follows it.
+#[test]
+fn a_ramp_is_followed() {
+    let network = Network::one(0.5, 4.0, 0.0);
+    let course = |pieces: u32, roots: [f64; 2], others: [f64; 2]| {
+        let points = (0..=pieces).map(|k| {
+            let share = f64::from(k) / f64::from(pieces);
+            let at = |[from, to]: [f64; 2]| from + (to - from) * share;
+            Point {
+                t: 100.0 * share,
+                root: at(roots),
+                other: at(others),
+            }
+        });
+        Course::new(points.collect(), 100.0)
+    };
+    for (roots, others) in [
+        ([0.0, 10.0], [20.0, 20.0]),
+        ([5.0, 5.0], [0.0, 100.0]),
+        ([0.0, 10.0], [0.0, 100.0]),
+    ] {
+        let [coarse, fine] = [1, 1000].map(|pieces| {
+            let course = course(pieces, roots, others);
+            rise(&course, &network, &Operation::Continuous)[0]
+        });
+        near("rise", coarse, fine, 1e-3);
+        // The mean of the losses would give less.
+        assert!(fine > 40.0, "{fine}");
+    }
+}

@@ -47,11 +47,6 @@ impl Course {
         Self { points, duration }
     }
 
-    /// Length of the cycle (s).
-    pub const fn duration(&self) -> f64 {
-        self.duration
-    }
-
     /// Mean losses.
     pub fn mean(&self) -> Losses {
         let mut sum = Losses::default();

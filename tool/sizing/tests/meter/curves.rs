@@ -166,3 +166,50 @@ proptest! {
         every_curve("random", &motor);
     }
 }
+
+/// A curve of straight lines is met in its knees, wherever they are: what is left is rounding.
+#[test]
+fn straight_lines_are_met_in_their_knees() {
+    let points = vec![[0.0, 3.0], [100.3, 2.5], [200.7, 1.0]];
+    let motor = Motor {
+        peak_curve: points
+            .iter()
+            .map(|[speed, torque]| [*speed, 2.0 * torque])
+            .collect(),
+        continuous_curve: points.clone(),
+        max_speed: Some(200.7),
+        ..Motor::default()
+    };
+    let envelope = Envelope::of(&motor);
+    for (curve, scale) in [
+        (continuous(&envelope, 1.0), 1.0),
+        (peak(&envelope, 1.0), 2.0),
+    ] {
+        let curve = curve.unwrap();
+        assert!(curve.shortfall < 1e-5, "{curve:?}");
+        for [speed, torque] in &points {
+            let near = |p: &&[f32; 2]| (f64::from(p[0]) - speed).abs() < 1e-4;
+            let found = curve.points.iter().find(near);
+            let found = found.map_or(scale * torque, |point| f64::from(point[1]));
+            assert!((found - scale * torque).abs() < 1e-4, "{curve:?}");
+        }
+    }
+}
+
+/// A motor rated near rest: between two speeds where points may lie its constant power falls to a tenth.
+#[test]
+fn constant_power_from_a_low_speed_on() {
+    for rated_speed in [0.5, 1.0, 4.0] {
+        let motor = Motor {
+            rated_torque: Some(20.0),
+            rated_speed: Some(rated_speed),
+            max_speed: Some(300.0),
+            ..Motor::default()
+        };
+        let envelope = Envelope::of(&motor);
+        let curve = continuous(&envelope, 1.0).unwrap();
+        holds("low", &curve, 300.0, |speed| {
+            envelope.continuous_torque(speed)
+        });
+    }
+}

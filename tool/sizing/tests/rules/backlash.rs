@@ -41,6 +41,8 @@ fn the_ram_has_play() {
         near("in mm", check.value.unwrap(), 1e3 * most, 1e-5);
         assert_eq!((check.unit, check.limit), ("mm", Some(0.05)));
         assert_eq!(check.verdict == Verdict::Fail, most > 5e-5);
+        let assumed = "; backlash of the drive train not given; using none";
+        assert_eq!(check.note.contains(assumed), own == 0.0, "{}", check.note);
         // Without a gearbox only the drive train's own.
         near(
             "direct",
