@@ -140,23 +140,27 @@ fn with_its_field_weakened_too() {
 
 #[test]
 fn where_the_field_cannot_be_weakened_enough_the_speed_ends() {
-    let mut motor = servo();
-    motor.max_speed = Some(1e4);
-    motor.winding.inductance = Some(7e-3);
-    let envelope = Envelope::of(&motor);
-    let phases = Phases::of(&motor, 560.0, 9.0);
-    let held = |speed: f64| {
-        (0..=20_000).any(|k| {
-            let d = -phases.current * f64::from(k) / 2e4;
-            phases.allows([d, 0.0], speed)
-        })
-    };
-    let top = envelope.max_speed();
-    assert!(
-        held(top * (1.0 - 1e-6)) && !held(top * (1.0 + 1e-6)),
-        "{top}"
-    );
-    assert_eq!(envelope.peak_torque(1.0, 1.001 * top), 0.0);
+    // By the peak current, and of a winding of much resistance, in which less current weakens best, by the voltage.
+    for (inductance, resistance) in [(7e-3, 3.8), (7e-3, 60.0), (14e-3, 90.0)] {
+        let mut motor = servo();
+        motor.max_speed = Some(1e4);
+        motor.winding.inductance = Some(inductance);
+        motor.winding.resistance = Some(resistance);
+        let envelope = Envelope::of(&motor);
+        let phases = Phases::of(&motor, 560.0, 9.0);
+        let held = |speed: f64| {
+            (0..=20_000).any(|k| {
+                let d = -phases.current * f64::from(k) / 2e4;
+                phases.allows([d, 0.0], speed)
+            })
+        };
+        let top = envelope.max_speed();
+        assert!(
+            held(top * (1.0 - 1e-6)) && !held(top * (1.0 + 1e-6)),
+            "{top}"
+        );
+        assert_eq!(envelope.peak_torque(1.0, 1.001 * top), 0.0);
+    }
 }
 
 /// Whether the field is weakened follows from the data sheet's own voltage: only there a stated speed above the winding's no-load speed,
