@@ -4,13 +4,13 @@ use std::cell::Cell;
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
+use jred_machine::model::rules::{Limit, RuleSet};
 use jred_machine::model::site::Site;
 use jred_machine::model::supply::BrakeResistor;
 use jred_machine::read;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::catalogue::{Amplifier, Catalogue};
+use jred_sizing::catalogue::{Amplifier, Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::{Context, Outcome};
 use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
@@ -339,4 +339,55 @@ fn equal_drives_stand_in_the_order_of_the_catalogue() {
     all.motors.truncate(3);
     let [fit, refused] = compare(&all, &cycle, &Site::default(), &RuleSet::default());
     assert!(fit.max(refused) > 400, "{fit} {refused}");
+}
+
+/// Motors of a thousandth of the torque, in a duty of so little: no bound may stand for a torque of its own size.
+#[test]
+fn small_motors_are_screened_as_in_full() {
+    let file = read::parse("press.toml", &press_text(), std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 200).unwrap();
+    let mut catalogue = Catalogue::load(None, None).unwrap();
+    catalogue.amplifiers.clear();
+    for motor in &mut catalogue.motors {
+        let Motor {
+            rated_torque,
+            standstill_torque,
+            peak_torque,
+            torque_at_max_speed,
+            winding,
+            ..
+        } = motor;
+        let torques = [
+            rated_torque,
+            standstill_torque,
+            peak_torque,
+            torque_at_max_speed,
+        ];
+        let figures = torques
+            .into_iter()
+            .chain([&mut winding.torque_constant, &mut winding.voltage_constant]);
+        for figure in figures.flatten() {
+            *figure *= 1e-3;
+        }
+        for curve in [&mut motor.peak_curve, &mut motor.continuous_curve] {
+            curve.iter_mut().for_each(|[_, torque]| *torque *= 1e-3);
+        }
+        motor.rotor_inertia *= 1e-3;
+        motor.friction = [0.0; 2];
+    }
+    for gearbox in &mut catalogue.gearboxes {
+        gearbox.inertia *= 1e-3;
+        gearbox.no_load_torque = 0.0;
+    }
+    let mut rules = RuleSet::default();
+    for rule in Rule::ALL {
+        if rule != Rule::PeakTorque {
+            rules.set(rule, Limit::default());
+        }
+    }
+    for torque in [0.03, 0.1, 0.3] {
+        let duty = scaled(duty.clone(), [torque, 100.0]);
+        let [fit, refused] = compare(&catalogue, &Cycle::new(&duty), &Site::default(), &rules);
+        assert!(fit > 0 && refused > 0, "{torque} N m: {fit} {refused}");
+    }
 }

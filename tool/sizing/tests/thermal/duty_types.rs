@@ -153,3 +153,25 @@ fn a_reversal_is_a_stop() {
         assert_eq!(Features::of(&cycle, &direct, -1.0).stops, stops, "{back}");
     }
 }
+
+/// A motor brakes where its torque is against its speed, however small the torque is beside the speed, and in either direction.
+#[test]
+fn braking_is_torque_against_speed() {
+    let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+    for (speed, torque, brakes) in [
+        (300.0, [2.0, -1.0], true),
+        (300.0, [2.0, 1.0], false),
+        (-300.0, [-2.0, 1.0], true),
+        (-300.0, [-2.0, -1.0], false),
+        (0.5, [20.0, -10.0], true),
+    ] {
+        let mut duty = duty_of(&press_text());
+        let half = 0.5 * duty.duration;
+        for instant in &mut duty.instants {
+            instant.input_speed = speed;
+            instant.input_torque = torque[usize::from(instant.t > half)];
+        }
+        let found = Features::of(&Cycle::new(&duty), &direct, 1.0);
+        assert_eq!(found.braking, brakes, "{torque:?} at {speed}");
+    }
+}
