@@ -166,7 +166,7 @@ pub use tick::{
 /// On the way of the data between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
-        AccelerationOf, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf, RowConstants,
+        AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf, RowConstants,
         Shape, SpeedOf, TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{

@@ -27,6 +27,6 @@ pub use format::{
 pub use format::{CrankCoefficient, STEEPEST, SliderCrankForm, crank_terms};
 #[cfg(feature = "mechanics")]
 pub(crate) use samples::{Sample, Samples};
-pub use table::{CurveValues, MAX_CELLS, Shape, Table, words_len};
+pub use table::{CellCurves, CurveValues, MAX_CELLS, Shape, Table, words_len};
 pub(crate) use unfold::unfold;
 pub use usage::Usage;

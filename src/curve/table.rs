@@ -55,6 +55,29 @@ pub struct CurveValues {
     pub coulomb: f64,
 }
 
+/// The curves of one cell as polynomials in SI units, each Σ cₖ·(u − centre)ᵏ of the place u in the cell, 0 to 1: what the words of
+/// the table mean when they are read without a rounding. Zero where the machine has no such curve.
+///
+/// In double precision, whose roundings are below 1e-14 of the largest coefficient: for proofs on a host, not for the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct CellCurves {
+    /// The place in the cell that they are about.
+    pub centre: f64,
+    /// J_red
+    pub inertia: [f64; 4],
+    /// dJ_red/dφ
+    pub inertia_slope: [f64; 4],
+    /// −U′ + process
+    pub load: [f64; 4],
+    /// b
+    pub viscous: [f64; 4],
+    /// c with the sign that the table has; the tick takes its magnitude.
+    pub coulomb: [f64; 4],
+    /// What the table adds to every J, stored apart.
+    pub offset: f64,
+}
+
 impl<'a, F: Format> Table<'a, F> {
     /// Checks `words`, as [`tabulate`](crate::tabulate) makes them.
     ///
@@ -132,6 +155,13 @@ impl<'a, F: Format> Table<'a, F> {
     /// All curves at `phase` in SI units. `domain` is the range in double precision; a table has it only in its own precision.
     pub fn si(&self, phase: Phase, domain: Domain) -> CurveValues {
         F::si(self, phase, f64::from(self.cells()) / domain.span())
+    }
+
+    /// The curves of one cell as polynomials, for proofs on a host. `domain` is the range in double precision, as for [`si`](Self::si).
+    /// `None` of a format without cells, and beyond the last cell.
+    pub fn cell_curves(&self, cell: u32, domain: Domain) -> Option<CellCurves> {
+        let cells_per_position = f64::from(self.cells()) / domain.span();
+        (cell < self.cells()).then(|| F::cell_curves(self, cell, cells_per_position))?
     }
 
     /// 1/J_red at `phase` in machine units; `None` without [`curves::RECIPROCAL`].

@@ -19,11 +19,31 @@ pub const MAX_ELEMENTS: usize = 8;
 /// What an element does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-enum Law {
-    Spring { stiffness: f64, free_length: f64 },
-    TorsionSpring { stiffness: f64, free_angle: f64 },
-    Damper { coefficient: f64 },
-    TorsionDamper { coefficient: f64 },
+pub enum ElementLaw {
+    /// A spring along the line between the points.
+    Spring {
+        /// k (N/m).
+        stiffness: f64,
+        /// l₀ (m).
+        free_length: f64,
+    },
+    /// A spring between the directions.
+    TorsionSpring {
+        /// c (N·m/rad).
+        stiffness: f64,
+        /// θ₀ (rad).
+        free_angle: f64,
+    },
+    /// A damper along the line between the points.
+    Damper {
+        /// d (N·s/m).
+        coefficient: f64,
+    },
+    /// A damper between the directions.
+    TorsionDamper {
+        /// d (N·m·s/rad).
+        coefficient: f64,
+    },
 }
 
 /// A spring or a damper between two markers, each on a link or on the ground.
@@ -31,7 +51,7 @@ enum Law {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Element {
     between: [Marker; 2],
-    law: Law,
+    law: ElementLaw,
 }
 
 /// An element's share of the reduction.
@@ -54,7 +74,7 @@ impl Element {
         stiffness: f64,
         free_length: f64,
     ) -> Result<Self, RangeError> {
-        let law = Law::Spring {
+        let law = ElementLaw::Spring {
             stiffness: positive("spring stiffness", stiffness)?,
             free_length: not_negative("free length of the spring", free_length)?,
         };
@@ -71,7 +91,7 @@ impl Element {
         stiffness: f64,
         free_angle: f64,
     ) -> Result<Self, RangeError> {
-        let law = Law::TorsionSpring {
+        let law = ElementLaw::TorsionSpring {
             stiffness: positive("torsion spring stiffness", stiffness)?,
             free_angle: finite("free angle of the torsion spring", free_angle)?,
         };
@@ -84,7 +104,7 @@ impl Element {
     /// A coefficient that is negative, or anything not finite.
     pub fn damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("damper coefficient", coefficient)?;
-        Self::new(between, Law::Damper { coefficient })
+        Self::new(between, ElementLaw::Damper { coefficient })
     }
 
     /// A torsion damper with the `coefficient` d (N·m·s/rad).
@@ -93,10 +113,10 @@ impl Element {
     /// A coefficient that is negative, or anything not finite.
     pub fn torsion_damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("torsion damper coefficient", coefficient)?;
-        Self::new(between, Law::TorsionDamper { coefficient })
+        Self::new(between, ElementLaw::TorsionDamper { coefficient })
     }
 
-    fn new(between: [Marker; 2], law: Law) -> Result<Self, RangeError> {
+    fn new(between: [Marker; 2], law: ElementLaw) -> Result<Self, RangeError> {
         between[0].check()?;
         between[1].check()?;
         Ok(Self { between, law })
@@ -106,15 +126,15 @@ impl Element {
     #[must_use]
     pub const fn spring_rate(&self) -> Option<[f64; 2]> {
         match self.law {
-            Law::Spring {
+            ElementLaw::Spring {
                 stiffness,
                 free_length,
             } => Some([stiffness, free_length]),
-            Law::TorsionSpring {
+            ElementLaw::TorsionSpring {
                 stiffness,
                 free_angle,
             } => Some([stiffness, free_angle]),
-            Law::Damper { .. } | Law::TorsionDamper { .. } => None,
+            ElementLaw::Damper { .. } | ElementLaw::TorsionDamper { .. } => None,
         }
     }
 
@@ -123,8 +143,13 @@ impl Element {
     pub const fn is_torsional(&self) -> bool {
         matches!(
             self.law,
-            Law::TorsionSpring { .. } | Law::TorsionDamper { .. }
+            ElementLaw::TorsionSpring { .. } | ElementLaw::TorsionDamper { .. }
         )
+    }
+
+    /// What it does.
+    pub const fn law(&self) -> ElementLaw {
+        self.law
     }
 
     /// The two markers.
@@ -137,11 +162,11 @@ impl Element {
     pub fn length(&self, frames: &[Frame]) -> Transfer {
         let [a, b] = &self.between;
         match self.law {
-            Law::Spring { .. } | Law::Damper { .. } => {
+            ElementLaw::Spring { .. } | ElementLaw::Damper { .. } => {
                 let [x, y] = self.line(frames);
                 (x * x + y * y).sqrt()
             }
-            Law::TorsionSpring { .. } | Law::TorsionDamper { .. } => {
+            ElementLaw::TorsionSpring { .. } | ElementLaw::TorsionDamper { .. } => {
                 b.direction(frames) - a.direction(frames)
             }
         }
@@ -161,15 +186,15 @@ impl Element {
     pub fn effort(&self, frames: &[Frame], omega: f64) -> f64 {
         let length = self.length(frames);
         match self.law {
-            Law::Spring {
+            ElementLaw::Spring {
                 stiffness,
                 free_length: free,
             }
-            | Law::TorsionSpring {
+            | ElementLaw::TorsionSpring {
                 stiffness,
                 free_angle: free,
             } => -stiffness * (length.value - free),
-            Law::Damper { coefficient } | Law::TorsionDamper { coefficient } => {
+            ElementLaw::Damper { coefficient } | ElementLaw::TorsionDamper { coefficient } => {
                 -coefficient * length.velocity(omega)
             }
         }
@@ -182,11 +207,11 @@ impl Element {
             return None;
         }
         Some(match self.law {
-            Law::Spring {
+            ElementLaw::Spring {
                 stiffness,
                 free_length: free,
             }
-            | Law::TorsionSpring {
+            | ElementLaw::TorsionSpring {
                 stiffness,
                 free_angle: free,
             } => {
@@ -199,10 +224,12 @@ impl Element {
                     viscous: 0.0,
                 }
             }
-            Law::Damper { coefficient } | Law::TorsionDamper { coefficient } => Share {
-                potential_energy: [0.0; 2],
-                viscous: coefficient * length.d1 * length.d1,
-            },
+            ElementLaw::Damper { coefficient } | ElementLaw::TorsionDamper { coefficient } => {
+                Share {
+                    potential_energy: [0.0; 2],
+                    viscous: coefficient * length.d1 * length.d1,
+                }
+            }
         })
     }
 
@@ -213,7 +240,7 @@ impl Element {
         let [a, b] = &self.between;
         let effort = self.effort(frames, omega);
         Some(match self.law {
-            Law::Spring { .. } | Law::Damper { .. } => {
+            ElementLaw::Spring { .. } | ElementLaw::Damper { .. } => {
                 let line = self.line(frames).map(|c| c.value);
                 let length = math::sqrt(line[0] * line[0] + line[1] * line[1]);
                 if length <= 0.0 {
@@ -226,7 +253,7 @@ impl Element {
                     Wrench::force(b.body, at(b), force),
                 ]
             }
-            Law::TorsionSpring { .. } | Law::TorsionDamper { .. } => [
+            ElementLaw::TorsionSpring { .. } | ElementLaw::TorsionDamper { .. } => [
                 Wrench::moment(a.body, -effort),
                 Wrench::moment(b.body, effort),
             ],

@@ -104,6 +104,16 @@ impl Window {
         [self.from, self.from + self.ramp, to - self.ramp, to]
     }
 
+    /// Width of each of its edges (rad, or m).
+    pub const fn ramp(&self) -> f64 {
+        self.ramp
+    }
+
+    /// From where it opens to where it is closed (rad, or m).
+    pub const fn width(&self) -> f64 {
+        self.width
+    }
+
     /// Whether it comes again with every turn.
     pub const fn repeats(&self) -> bool {
         self.repeats
@@ -184,14 +194,12 @@ impl Load {
     }
 
     /// What it does to its link.
-    #[cfg(feature = "micromath")]
-    pub(crate) const fn action(&self) -> Action {
+    pub const fn action(&self) -> Action {
         self.action
     }
 
-    /// Where on its link it acts.
-    #[cfg(feature = "micromath")]
-    pub(crate) const fn point(&self) -> [f64; 2] {
+    /// Where on its link it acts: `[u, v]` in the link's frame (m).
+    pub const fn point(&self) -> [f64; 2] {
         self.at
     }
 

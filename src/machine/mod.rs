@@ -27,7 +27,7 @@ pub(crate) mod reducible;
 pub(crate) mod reduction;
 
 #[cfg(feature = "mechanics")]
-pub use element::{Element, MAX_ELEMENTS};
+pub use element::{Element, ElementLaw, MAX_ELEMENTS};
 #[cfg(feature = "mechanics")]
 pub use error::{MachineError, PoseError};
 #[cfg(feature = "mechanics")]

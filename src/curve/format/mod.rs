@@ -42,7 +42,7 @@ pub use slider_crank::{
 
 use super::curves::Set;
 use super::samples::{Sample, Samples};
-use super::table::{CurveValues, Table};
+use super::table::{CellCurves, CurveValues, Table};
 use super::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
@@ -135,6 +135,11 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
             viscous: read.viscous * torque / speed,
             coulomb: read.coulomb * torque,
         }
+    }
+    /// The curves of one cell as polynomials in SI units; `None` of a format without cells.
+    #[doc(hidden)]
+    fn cell_curves(_: &Table<'_, Self>, _cell: u32, _cells_per_position: f64) -> Option<CellCurves> {
+        None
     }
     /// 1/J in machine units.
     #[doc(hidden)]

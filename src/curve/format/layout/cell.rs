@@ -2,7 +2,8 @@
 
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
-use crate::curve::Table;
+use crate::curve::format::bases;
+use crate::curve::{CellCurves, Table};
 use crate::curve::curves::{self, Set, has};
 use crate::number::{Kernel, Ring, Role, Sliding};
 
@@ -127,24 +128,28 @@ impl<'a, L: Layout> Cell<'a, L> {
 
 impl<W: Copy> Constants<W> {
     #[inline(always)]
-    fn more<L: Layout>(&self, role: Role) -> More<Raw<L>>
-    where
-        L::Number: Kernel<Word = W>,
-    {
+    const fn gain(&self, role: Role) -> u16 {
         let [inertia, load, viscous, coulomb, reciprocal] = self.gains;
-        let gain = match role {
+        match role {
             Role::Inertia => inertia,
             Role::Load => load,
             Role::Viscous => viscous,
             Role::Coulomb => coulomb,
             Role::Reciprocal => reciprocal,
-        };
+        }
+    }
+
+    #[inline(always)]
+    fn more<L: Layout>(&self, role: Role) -> More<Raw<L>>
+    where
+        L::Number: Kernel<Word = W>,
+    {
         More {
             offset: match role {
                 Role::Inertia => L::Number::raw(self.inertia),
                 _ => Raw::<L>::default(),
             },
-            gain: Ring::whole(gain),
+            gain: Ring::whole(self.gain(role)),
         }
     }
 }
@@ -166,6 +171,61 @@ pub(super) fn wide<L: Layout>(
     };
     let read = |word| L::Number::widen(L::Number::raw(word));
     L::coefficients(words, column, set, more, read)
+}
+
+/// The curves of a cell as polynomials in SI units, computed in double precision from the words.
+pub(super) fn curves<L: Layout>(
+    table: &Table<'_, L>,
+    cell: u32,
+    cells_per_position: f64,
+) -> Option<CellCurves> {
+    let (set, constants) = (table.set(), table.constants());
+    let rows = L::rows(table.words(), set);
+    let words = L::cell(&rows, cell as usize, set)?;
+    let exact = |role, word| L::Number::exact(role, L::Number::raw(word));
+    let curve = |role: Role, base: f64| {
+        let Some(column) = role.column(set) else {
+            return [0.0; 4];
+        };
+        let more = constants.more::<L>(role);
+        let more = More {
+            offset: L::Number::exact(role, more.offset),
+            gain: f64::from(constants.gain(role)),
+        };
+        let stored: [f64; 4] = L::coefficients(words, column, set, more, |word| exact(role, word));
+        let mut step = 1.0;
+        stored.map(|coefficient| {
+            let unscaled = coefficient / step * base;
+            step *= f64::from(L::STEP);
+            unscaled
+        })
+    };
+    let constant = |of: Set, role, word, base: f64| match has(set, of) {
+        true => [exact(role, word) * base, 0.0, 0.0, 0.0],
+        false => curve(role, base),
+    };
+    let [torque, speed, inertia_base] = bases(table.scale());
+    let inertia = curve(Role::Inertia, inertia_base);
+    let [_, p1, p2, p3] = inertia;
+    Some(CellCurves {
+        centre: L::CENTRE,
+        inertia,
+        inertia_slope: [p1, 2.0 * p2, 3.0 * p3, 0.0].map(|slope| slope * cells_per_position),
+        load: curve(Role::Load, torque),
+        viscous: constant(
+            curves::CONSTANT_VISCOUS,
+            Role::Viscous,
+            constants.viscous,
+            torque / speed,
+        ),
+        coulomb: constant(
+            curves::CONSTANT_COULOMB,
+            Role::Coulomb,
+            constants.coulomb,
+            torque,
+        ),
+        offset: exact(Role::Inertia, constants.inertia) * inertia_base,
+    })
 }
 
 /// p0…p3 of a curve of the set in machine units, in single precision.

@@ -15,7 +15,7 @@ use cell::Cell;
 use super::{CONSTANTS, Format, Row, Rows, Runs, Size, bases};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
-use crate::curve::table::{CurveValues, Table};
+use crate::curve::table::{CellCurves, CurveValues, Table};
 use crate::curve::{TableError, Usage};
 use crate::number::error::RangeError;
 use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding};
@@ -171,6 +171,14 @@ macro_rules! format {
                     viscous: read.viscous * torque / speed,
                     coulomb: read.coulomb * torque,
                 }
+            }
+
+            fn cell_curves(
+                table: &Table<'_, Self>,
+                cell: u32,
+                cells_per_position: f64,
+            ) -> Option<CellCurves> {
+                cell::curves(table, cell, cells_per_position)
             }
 
             fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64> {

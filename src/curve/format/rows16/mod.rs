@@ -24,7 +24,7 @@ mod tick;
 use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
-use crate::curve::{CurveValues, Table, TableError, Usage};
+use crate::curve::{CellCurves, CurveValues, Table, TableError, Usage};
 use crate::number::Sliding;
 use crate::number::error::RangeError;
 use crate::{Outcome, Phase, Q15};
@@ -139,6 +139,65 @@ impl Format for Rows16 {
             viscous: read.viscous * torque / speed,
             coulomb: read.coulomb * torque,
         }
+    }
+
+    fn cell_curves(table: &Table<'_, Self>, cell: u32, _: f64) -> Option<CellCurves> {
+        let (set, constants) = (table.set(), table.constants());
+        let word = |index| row::at(row_of(table, cell), index);
+        // A line of a word, in units of its upper half: the lower half adds its fraction.
+        let line = |index| {
+            let word: u32 = word(index);
+            [
+                f64::from(word.cast_signed()) / 65_536.0,
+                f64::from(word as i16),
+            ]
+        };
+        let [torque, speed, inertia] = bases(table.scale());
+        let start = word(row::start(set));
+        let [j1, j2] = line(row::inertia(set));
+        let j0 = f64::from(start) / 65_536.0;
+        let slope = 2.0 * torque / (speed * speed);
+        let [v0, v1] = line(row::velocity(set));
+        let load = if has(set, curves::LOAD) {
+            let [g1, g2] = line(0);
+            // Half a unit of 2⁻¹⁵ rounds the torque.
+            [0.5 - f64::from(start as i16), -g1, -g2, 0.0]
+        } else {
+            [0.0; 4]
+        };
+        let friction = |curve, constant, index, number: i32, units: f64| {
+            if has(set, curve) {
+                let [start, rise] = line(index);
+                [start, rise, 0.0, 0.0]
+            } else if has(set, constant) {
+                [f64::from(number) / units, 0.0, 0.0, 0.0]
+            } else {
+                [0.0; 4]
+            }
+        };
+        let viscous = friction(
+            curves::VISCOUS,
+            curves::CONSTANT_VISCOUS,
+            row::viscous(set),
+            constants.viscous,
+            32_768.0,
+        );
+        let coulomb = friction(
+            curves::COULOMB,
+            curves::CONSTANT_COULOMB,
+            row::coulomb(set),
+            constants.coulomb,
+            65_536.0,
+        );
+        Some(CellCurves {
+            centre: 0.0,
+            inertia: [j0, j1, j2, 0.0].map(|j| j / 65_536.0 * inertia),
+            inertia_slope: [v0, v1, 0.0, 0.0].map(|v| v * ONE_Q15 * slope),
+            load: load.map(|g| g * ONE_Q15 * torque),
+            viscous: viscous.map(|b| b * ONE_Q15 * torque / speed),
+            coulomb: coulomb.map(|c| c * ONE_Q15 * torque),
+            offset: 0.0,
+        })
     }
 
     fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64> {

@@ -1,0 +1,64 @@
+//! What cannot be proven.
+
+use thiserror::Error;
+
+/// Why nothing is proven.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Unproven {
+    /// A joint with teeth, a cam, a rope or a belt, whose geometry is not in its equations.
+    #[error("joint number {} transmits by contact, and its curves are not enclosed", number + 1)]
+    Joint {
+        /// Its index.
+        number: usize,
+    },
+    /// The drive moves neither a pin nor a guide.
+    #[error("the drive moves neither a pin nor a guide")]
+    Drive,
+    /// The joints do not leave one freedom.
+    #[error("the joints make {equations} equations for {coordinates} coordinates")]
+    Freedoms {
+        /// Number of equations.
+        equations: usize,
+        /// Number of coordinates.
+        coordinates: usize,
+    },
+    /// No pose, or more than one, can be proven around a position.
+    #[error("the pose of the links at {phi} (rad, or m) is not proven: it is close to a dead point")]
+    Pose {
+        /// The position (rad, or m).
+        phi: f64,
+    },
+    /// A spring or damper whose ends may meet.
+    #[error("the ends of spring or damper number {} may meet at {phi} (rad, or m)", number + 1)]
+    EndsMeet {
+        /// Its index.
+        number: usize,
+        /// The position (rad, or m).
+        phi: f64,
+    },
+    /// A table without cells.
+    #[error("{layout} has no cells: its curves are not enclosed")]
+    Layout {
+        /// Its name.
+        layout: &'static str,
+    },
+    /// A part of the machine that a caller cannot enclose.
+    #[error("{0}")]
+    Part(&'static str),
+    /// No finite bound was found around a position, however short the stretch.
+    #[error("no bound was found around {phi} (rad, or m)")]
+    Unbounded {
+        /// The position (rad, or m).
+        phi: f64,
+    },
+    /// More stretches than allowed: the machine has too many features.
+    #[error("more than {most} stretches are needed")]
+    TooLong {
+        /// How many are looked at.
+        most: u64,
+    },
+    /// The caller stopped it.
+    #[error("stopped")]
+    Stopped,
+}

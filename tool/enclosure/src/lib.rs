@@ -1,0 +1,40 @@
+#![forbid(unsafe_code)]
+#![doc = "The largest error of a table, proven: a machine's curves enclosed in intervals between all positions, compared with the polynomials"]
+#![doc = "that the table's words mean."]
+//!
+//! ```text
+//! joints ──► places ──► curves ──► difference to each cell ──► bound
+//! (closure)  Taylor series in intervals: J, J′, load, b, c    by halving
+//! ```
+//!
+//! A sampled error says nothing of what lies between two places. Here every number is an [`Interval`], rounded outward, and every
+//! quantity of the machine a Taylor polynomial with Lagrange's remainder over a stretch of positions ([`Form`]): the pose of the links
+//! is proven by Newton's method in intervals ([`Closure`]), their motion follows from the equations of the joints, and the
+//! curves from it ([`Curves`]). A stretch on which the remainder is too large is halved. [`prove`] bounds
+//!
+//! ```text
+//! |δT| ≤ |δJ|·α_max + ½·|δJ′|·ω_max² + |δload| + |δb|·ω_max + |δc|
+//! ```
+//!
+//! for every position of the range. To the bound of the table as it is read without a rounding, it adds the roundings of the tick.
+
+mod closure;
+mod curves;
+mod difference;
+mod fault;
+mod form;
+mod interval;
+mod matrix;
+mod place;
+mod proof;
+mod series;
+mod tick;
+
+pub use closure::Closure;
+pub use curves::{Curves, Parts, factor};
+pub use fault::Unproven;
+pub use form::Form;
+pub use interval::Interval;
+pub use place::Place;
+pub use proof::{Goal, Proof, prove};
+pub use series::{REMAINDER, Series, TERMS};

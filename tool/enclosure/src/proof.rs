@@ -1,0 +1,274 @@
+//! The largest error of a table, bounded over all positions by halving stretches and parts of cells.
+
+use jred::Table;
+use jred::Domain;
+use jred::table::{CellCurves, Format};
+
+use crate::curves::Curves;
+use crate::difference::{Difference, weights};
+use crate::fault::Unproven;
+use crate::interval::Interval;
+use crate::tick::Tick;
+
+/// The range of a table, and what it is for.
+#[derive(Clone, Copy, Debug)]
+pub struct Goal<'m> {
+    /// Where its range begins (rad, or m).
+    pub start: f64,
+    /// Length of its range (rad, or m).
+    pub span: f64,
+    /// Positions (rad, or m) where the curves are not smooth, in any turn.
+    pub edges: &'m [f64],
+    /// Whether the range repeats with every turn, and edges with it.
+    pub turns: bool,
+    /// Largest speed (rad/s, or m/s).
+    pub omega: f64,
+    /// Largest acceleration (rad/s², or m/s²).
+    pub alpha: f64,
+    /// An error (N·m) that the table is known to have somewhere: what is not above needs no closer look.
+    pub known: f64,
+    /// An error (N·m) that does not count.
+    pub negligible: f64,
+}
+
+/// What is proven of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proof {
+    /// Nowhere does the table, read without a rounding, err more in the drive torque (N·m, or N), for any speed and acceleration of the range.
+    pub bound: f64,
+    /// A position near which that is so (rad, or m).
+    pub worst: f64,
+    /// The same of the tick, with all its roundings; `None` of a format whose arithmetic is not proven.
+    pub ticked: Option<f64>,
+    /// An error (N·m, or N) that the table is proven to have somewhere.
+    pub least: f64,
+    /// Number of stretches that the range was cut into.
+    pub stretches: u64,
+}
+
+/// Stretches to begin with.
+const STRETCHES: u32 = 64;
+/// Most stretches.
+const MOST: u64 = 1 << 19;
+/// How often a stretch is halved.
+const DEEPEST: u32 = 48;
+/// How often a part of a cell is halved.
+const FINEST: u32 = 12;
+/// A bound that is above the largest known error by no more than this share is close enough.
+const CLOSE: f64 = 0.005;
+/// The part of the error that the width of the curves may be before a stretch is halved for it.
+const SLACK: f64 = 0.002;
+
+/// Proves the error of a table, whose machine has these curves on any stretch of its range. `watch` is told the share of the range that is done, and says
+/// whether to go on.
+///
+/// # Errors
+/// What cannot be proven, and where.
+pub fn prove<F: Format>(
+    table: &Table<'_, F>,
+    goal: &Goal<'_>,
+    curves: &dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
+    watch: &mut dyn FnMut(f64) -> bool,
+) -> Result<Proof, Unproven> {
+    let domain = Domain::Stroke {
+        from: 0.0,
+        to: goal.span,
+    };
+    let cell = |index| table.cell_curves(index, domain);
+    if cell(0).is_none() {
+        return Err(Unproven::Layout { layout: F::NAME });
+    }
+    let range = [goal.omega, goal.alpha];
+    let mut search = Search {
+        goal,
+        curves,
+        cells: table.cells(),
+        cell: &cell,
+        tick: Tick::new::<F>(table.scale(), table.cells(), goal.span, range),
+        weights: weights(range),
+        steepness: Interval::of(f64::from(table.cells())) / Interval::of(goal.span),
+        found: Proof {
+            bound: 0.0,
+            worst: goal.start,
+            ticked: Some(0.0),
+            least: 0.0,
+            stretches: 0,
+        },
+    };
+    let cuts = cuts(goal);
+    for pair in cuts.windows(2) {
+        let parts = ((pair[1] - pair[0]) / goal.span * f64::from(STRETCHES)).ceil().max(1.0);
+        let at = |k: f64| if k < parts { pair[0] + (pair[1] - pair[0]) * (k / parts) } else { pair[1] };
+        let mut k = 0.0;
+        while k < parts {
+            if !watch((at(k) - goal.start) / goal.span) {
+                return Err(Unproven::Stopped);
+            }
+            search.stretch([at(k), at(k + 1.0)], 0)?;
+            k += 1.0;
+        }
+    }
+    if search.tick.is_none() {
+        search.found.ticked = None;
+    }
+    Ok(search.found)
+}
+
+/// Where the range begins, the edges within it, and where it ends.
+fn cuts(goal: &Goal<'_>) -> Vec<f64> {
+    use std::f64::consts::TAU;
+    let end = goal.start + goal.span;
+    let within = goal.edges.iter().flat_map(|edge| {
+        let turns = if goal.turns { ((goal.start - edge) / TAU).floor() } else { 0.0 };
+        let count = if goal.turns { 3 } else { 1 };
+        (0..count).map(move |k| edge + (turns + f64::from(k)) * TAU)
+    });
+    let mut cuts: Vec<f64> = within.filter(|edge| goal.start < *edge && *edge < end).collect();
+    cuts.extend([goal.start, end]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    cuts
+}
+
+struct Search<'s> {
+    goal: &'s Goal<'s>,
+    curves: &'s dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
+    cells: u32,
+    cell: &'s dyn Fn(u32) -> Option<CellCurves>,
+    tick: Option<Tick>,
+    weights: [f64; 5],
+    /// Cells for each rad, or m.
+    steepness: Interval,
+    found: Proof,
+}
+
+/// The bounds of one part.
+#[derive(Clone, Copy)]
+struct Part {
+    most: f64,
+    ticked: f64,
+    worst: f64,
+}
+
+impl Search<'_> {
+    /// Bounds below this need no closer look.
+    fn enough(&self) -> f64 {
+        let known = self.goal.known.max(self.found.least);
+        (known * (1.0 + CLOSE)).max(self.goal.negligible)
+    }
+
+    /// Bounds the error on a stretch, halved where that makes the bound better.
+    fn stretch(&mut self, stretch: [f64; 2], depth: u32) -> Result<(), Unproven> {
+        self.found.stretches += 1;
+        if self.found.stretches > MOST {
+            return Err(Unproven::TooLong { most: MOST });
+        }
+        let [from, to] = stretch;
+        let middle = from.midpoint(to);
+        let halves = from < middle && middle < to && depth < DEEPEST;
+        let curves = match (self.curves)(stretch) {
+            Ok(curves) => curves,
+            Err(Unproven::Stopped) => return Err(Unproven::Stopped),
+            Err(why) if !halves || (to - from) < 1e-9 * self.goal.span => return Err(why),
+            Err(_) => return self.halve(stretch, middle, depth),
+        };
+        let half = (to - middle).max(middle - from).next_up();
+        let forms = [
+            &curves.inertia,
+            &curves.inertia_slope,
+            &curves.load,
+            &curves.viscous,
+            &curves.coulomb,
+        ];
+        let slack: f64 = forms.iter().zip(self.weights).map(|(form, w)| form.slack(half) * w).sum();
+        // What is no number is not below.
+        let sharp = slack <= SLACK * self.enough();
+        let finest = if sharp || !halves { FINEST } else { 2 };
+        let mut parts = Vec::new();
+        for (index, cell) in self.cells_of(stretch) {
+            let part = self.part(&curves, (index, &cell), stretch, finest);
+            if !sharp && halves && !(part.most <= self.enough()) {
+                return self.halve(stretch, middle, depth);
+            }
+            parts.push(part);
+        }
+        for part in parts {
+            if !part.most.is_finite() {
+                return Err(Unproven::Unbounded { phi: part.worst });
+            }
+            if part.most > self.found.bound {
+                (self.found.bound, self.found.worst) = (part.most, part.worst);
+            }
+            self.found.ticked = self.found.ticked.map(|most| most.max(part.ticked));
+        }
+        Ok(())
+    }
+
+    fn halve(&mut self, [from, to]: [f64; 2], middle: f64, depth: u32) -> Result<(), Unproven> {
+        self.stretch([from, middle], depth + 1)?;
+        self.stretch([middle, to], depth + 1)
+    }
+
+    /// The cells that a stretch lies in, with one more where it may reach into it by a rounding.
+    fn cells_of(&self, [from, to]: [f64; 2]) -> Vec<(u32, CellCurves)> {
+        let place = |phi: f64| (phi - self.goal.start) / self.goal.span * f64::from(self.cells);
+        let last = self.cells - 1;
+        let first = (place(from) - 1e-9).floor().max(0.0) as u32;
+        let end = (place(to) + 1e-9).floor().max(0.0) as u32;
+        (first.min(last)..=end.min(last))
+            .filter_map(|index| Some((index, (self.cell)(index)?)))
+            .collect()
+    }
+
+    /// The largest error of one cell on a stretch.
+    fn part(
+        &mut self,
+        curves: &Curves,
+        (index, cell): (u32, &CellCurves),
+        [from, to]: [f64; 2],
+        finest: u32,
+    ) -> Part {
+        let middle = from.midpoint(to);
+        let (start, span) = (self.goal.start, self.goal.span);
+        let cells = f64::from(self.cells);
+        // The ends of the cell, where only roundings lie beyond.
+        let beside = 1e-15 * (start.abs() + span);
+        let ends = [f64::from(index), f64::from(index + 1)].map(|k| start + span * (k / cells));
+        let low = if index == 0 { from } else { from.max(ends[0] - beside) };
+        let high = if index + 1 == self.cells { to } else { to.min(ends[1] + beside) };
+        let difference = Difference {
+            curves,
+            cell,
+            weights: self.weights,
+            steepness: self.steepness,
+            place: (Interval::of(middle) - Interval::of(start)) * self.steepness
+                - Interval::of(f64::from(index))
+                - Interval::of(cell.centre),
+        };
+        let added = self.tick.map_or(0.0, |tick| tick.error(cell));
+        let mut found = Part {
+            most: 0.0,
+            ticked: 0.0,
+            worst: low,
+        };
+        if low >= high {
+            return found;
+        }
+        let mut open = vec![([low - middle, high - middle], 0)];
+        while let Some(([a, b], depth)) = open.pop() {
+            let bounds = difference.bounds([a, b]);
+            self.found.least = self.found.least.max(bounds.least);
+            let centre = a.midpoint(b);
+            let fine = depth >= finest || !(a < centre && centre < b);
+            if !fine && !(bounds.most <= self.enough()) {
+                open.extend([([a, centre], depth + 1), ([centre, b], depth + 1)]);
+                continue;
+            }
+            if !(bounds.most <= found.most) {
+                (found.most, found.worst) = (bounds.most, middle + centre);
+            }
+            found.ticked = found.ticked.max((bounds.most + added).next_up());
+        }
+        found
+    }
+}

@@ -1,0 +1,214 @@
+//! What the arithmetic of a tick adds to the table read exactly: the units that docs/theory.md states, proven by Gappa, in
+//! fixed point; in floating point a bound of all roundings of the tick of this very cell.
+
+use jred::Scale;
+use jred::number::Number;
+use jred::table::{CellCurves, Format};
+
+/// How a tick of a table differs from the same formulas without a rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tick {
+    arithmetic: Arithmetic,
+    /// How far the place that is read may be beside the place, in cells.
+    place: f64,
+    /// How far the velocity torque may be off, as a share of itself.
+    bases: f64,
+    /// Largest speed and acceleration.
+    range: [f64; 2],
+    /// ½·ω² is what the slope by position is multiplied by; by cell it is this times as much.
+    cells_per_position: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Arithmetic {
+    /// A torque (N·m).
+    Fixed(f64),
+    /// Half a unit of the last place, as a share, and whether the cell's coefficients are made from control points.
+    Float { epsilon: f64, points: bool },
+}
+
+impl Tick {
+    /// Of a table of this format with so many cells over `span`, for speeds and accelerations up to `range`. `None` of a format whose arithmetic is
+    /// not proven.
+    pub(crate) fn new<F: Format>(
+        scale: &Scale,
+        cells: u32,
+        span: f64,
+        range: [f64; 2],
+    ) -> Option<Self> {
+        let [torque, speed, inertia] =
+            [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
+        let number = <F::Number as Number>::NAME;
+        let cells_per_position = f64::from(cells) / span;
+        // How many slopes a cell the velocity torque counts at the speed base: a whole number in `Q31`.
+        let factor = 0.5 * cells_per_position * inertia * speed * speed / torque;
+        let fixed = |step: f64, [torque_units, slope_units]: [f64; 2], place| {
+            let exact = factor * 2.0 / step;
+            let whole = exact.round();
+            Self {
+                arithmetic: Arithmetic::Fixed(
+                    (torque_units + slope_units * whole) / 2_147_483_648.0 * torque * (1.0 + 1e-12),
+                ),
+                place,
+                bases: (whole / exact - 1.0).abs() + 1e-12,
+                range,
+                cells_per_position,
+            }
+        };
+        let float = |epsilon: f64, place, bases| Self {
+            arithmetic: Arithmetic::Float {
+                epsilon,
+                points: F::NAME == "spline",
+            },
+            place,
+            bases,
+            range,
+            cells_per_position,
+        };
+        Some(match (number, F::NAME) {
+            ("i32", "spline" | "spline16") => fixed(2.0, [24.0, 3.5], 2.0_f64.powi(-31)),
+            ("i32", "cubic") => fixed(1.0, [24.0, 7.0], 0.0),
+            ("i32", "quadratic") => fixed(1.0, [22.0, 4.0], 2.0_f64.powi(-16)),
+            ("i16", "rows") => Self {
+                arithmetic: Arithmetic::Fixed(5.75 / 32_768.0 * torque * (1.0 + 1e-12)),
+                place: 2.0_f64.powi(-16),
+                bases: 0.0,
+                range,
+                cells_per_position,
+            },
+            ("f32", "spline" | "cubic" | "quadratic") => {
+                float(2.0_f64.powi(-24), 2.0_f64.powi(-25), 3e-7)
+            }
+            ("f64", "spline" | "cubic" | "quadratic") => {
+                float(2.0_f64.powi(-53), 2.0_f64.powi(-54), 1e-15)
+            }
+            _ => return None,
+        })
+    }
+
+    /// The largest difference (N·m) in one cell.
+    pub(crate) fn error(&self, cell: &CellCurves) -> f64 {
+        let [omega, alpha] = self.range;
+        let reach = cell.centre.max(1.0 - cell.centre);
+        let moved = |p: &[f64; 4]| {
+            self.place * (p[1].abs() + reach * (2.0 * p[2].abs() + reach * 3.0 * p[3].abs()))
+        };
+        let largest = |p: &[f64; 4]| {
+            p[0].abs() + reach * (p[1].abs() + reach * (p[2].abs() + reach * p[3].abs()))
+        };
+        let half_square = 0.5 * omega * omega;
+        let place = moved(&cell.inertia) * alpha
+            + moved(&cell.inertia_slope) * half_square
+            + moved(&cell.load)
+            + moved(&cell.viscous) * omega
+            + moved(&cell.coulomb);
+        let bases = self.bases * largest(&cell.inertia_slope) * half_square;
+        let arithmetic = match self.arithmetic {
+            Arithmetic::Fixed(torque) => torque,
+            Arithmetic::Float { epsilon, points } => self.roundings(cell, epsilon, points),
+        };
+        (place + bases + arithmetic) * (1.0 + 1e-12)
+    }
+
+    /// All roundings of a tick in floating point, in the order of its operations.
+    fn roundings(&self, cell: &CellCurves, epsilon: f64, points: bool) -> f64 {
+        let [omega, alpha] = self.range.map(Rounded::exact);
+        let ops = Roundings(epsilon);
+        let coefficients = |p: &[f64; 4], offset: f64| {
+            if points {
+                ops.from_points(p, offset)
+            } else {
+                p.map(Rounded::exact)
+            }
+        };
+        let horner = |[p0, p1, p2, p3]: [Rounded; 4]| {
+            // u ≤ 1.
+            let b2 = ops.plus(p2, ops.times(p3, Rounded::ONE));
+            let b1 = ops.plus(p1, ops.times(b2, Rounded::ONE));
+            (ops.plus(p0, ops.times(b1, Rounded::ONE)), b1, b2, p3)
+        };
+        let (inertia, b1, b2, p3) = horner(coefficients(&cell.inertia, cell.offset));
+        let t3 = ops.times(p3, Rounded::ONE);
+        let slope = ops.plus(b1, ops.times(ops.plus(b2, t3), Rounded::ONE));
+        let curve = |p: &[f64; 4]| horner(coefficients(p, 0.0)).0;
+        let constant = |p: &[f64; 4]| {
+            if p[1..].iter().all(|p| *p == 0.0) {
+                Rounded::exact(p[0])
+            } else {
+                curve(p)
+            }
+        };
+        // The factor as it is: its own roundings are those of the bases.
+        let factor = Rounded::exact(0.5 * self.cells_per_position);
+        let velocity = ops.times(ops.times(slope, factor), omega);
+        let speed = ops.plus(velocity, constant(&cell.viscous));
+        let sum = ops.plus(ops.times(speed, omega), ops.times(inertia, alpha));
+        let sum = ops.plus(sum, curve(&cell.load));
+        ops.plus(sum, constant(&cell.coulomb)).error
+    }
+}
+
+/// The size of a number, and how far it may be from the exact one.
+#[derive(Clone, Copy)]
+struct Rounded {
+    size: f64,
+    error: f64,
+}
+
+impl Rounded {
+    const ONE: Self = Self {
+        size: 1.0,
+        error: 0.0,
+    };
+
+    const fn exact(value: f64) -> Self {
+        Self {
+            size: value.abs(),
+            error: 0.0,
+        }
+    }
+}
+
+/// Operations that are rounded to the nearest number, each by this share at most.
+struct Roundings(f64);
+
+impl Roundings {
+    fn rounded(&self, size: f64, error: f64) -> Rounded {
+        // The least number in single precision: products may fall below the normal ones.
+        const LEAST: f64 = 1.5e-45;
+        Rounded {
+            size,
+            error: error + self.0 * (size + error) + LEAST,
+        }
+    }
+
+    fn plus(&self, a: Rounded, b: Rounded) -> Rounded {
+        self.rounded(a.size + b.size, a.error + b.error)
+    }
+
+    fn times(&self, a: Rounded, b: Rounded) -> Rounded {
+        let error = a.size * b.error + b.size * a.error + a.error * b.error;
+        self.rounded(a.size * b.size, error)
+    }
+
+    /// The coefficients of a cubic from its control points, whose differences are known from it.
+    fn from_points(&self, [p0, p1, p2, p3]: &[f64; 4], offset: f64) -> [Rounded; 4] {
+        let s0 = p2 / 3.0;
+        let [d0, d1] = [(p1 - p2) / 6.0, (p1 + p2) / 6.0];
+        let s1 = s0 + p3;
+        let point = (p0 - offset - s0).abs();
+        // Each as computed: its operands, then itself.
+        let once = |value: f64| self.rounded(value.abs(), 0.0);
+        let [d0, d1, d2] = [once(d0), once(d1), once(d1 + s1)];
+        let sum = |value: f64, a: Rounded, b: Rounded| self.rounded(value.abs(), a.error + b.error);
+        let (s0, s1) = (sum(s0, d0, d1), sum(s1, d1, d2));
+        let plain = sum(p0 - offset, once(point), s0);
+        let k = |value: f64, times: f64, a: Rounded| self.rounded(value.abs(), times * a.error);
+        [
+            sum(*p0, plain, Rounded::exact(offset)),
+            k(*p1, 3.0, sum(p1 / 3.0, d0, d1)),
+            k(*p2, 3.0, s0),
+            sum(*p3, s1, s0),
+        ]
+    }
+}

@@ -1,0 +1,3 @@
+//! The one test program of the package.
+
+mod linkages;
