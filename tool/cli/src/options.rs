@@ -321,6 +321,10 @@ pub struct Export {
     /// title.
     #[arg(long, value_name = "NUMBER", value_parser = machine_id, allow_negative_numbers = true)]
     pub machine_id: Option<u32>,
+    /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; some seconds. The image then states the error
+    /// that is proven. Exit code 1 if that is larger than --torque-error, or if it cannot be proven.
+    #[arg(long)]
+    pub prove: bool,
     /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,

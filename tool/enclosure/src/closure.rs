@@ -12,7 +12,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::{Frame, Frames, Joint, Jointed, Marker};
+use jred::mechanism::linkage::Pair;
+use jred::machine::{Body, Frame, Frames, Joint, Jointed, Marker};
 
 use crate::fault::Unproven;
 use crate::form::Form;
@@ -22,7 +23,7 @@ use crate::place::Place;
 use crate::series::{Series, TERMS, sin_cos_term};
 
 /// One of the equations, which is zero.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Equation {
     /// A coordinate (0: x, 1: y) of two points that coincide.
     Same([Point; 2], usize),
@@ -30,6 +31,8 @@ enum Equation {
     OnLine { line: Point, along: [Interval; 2], point: Point },
     /// Directions that agree up to a constant, or that turn with the drive.
     Angle { bodies: [Option<usize>; 2], constant: Interval, drive: bool },
+    /// Wheels that roll on each other or on a rack: turns times radii, and the way along the rack.
+    Rolling { turns: Vec<(Option<usize>, Interval)>, rack: Option<(Point, [Interval; 2], Point)>, constant: Interval },
     /// A displacement along a line that the drive sets.
     Displacement { line: Point, along: [Interval; 2], point: Point, constant: Interval },
 }
@@ -83,6 +86,38 @@ impl<'m> Closure<'m> {
         }
         let drive = all.get(mechanism.drive());
         let drive = drive.and_then(|joint| of_drive(joint, &frames, phi));
+        Self::closed(mechanism, links, equations, drive)
+    }
+
+    /// Of a linkage with these pairs, gears and racks among them.
+    ///
+    /// # Errors
+    /// A pair whose geometry it does not know, or too few of them.
+    pub fn of_pairs(
+        mechanism: &'m dyn Jointed,
+        links: usize,
+        pairs: &[Pair],
+        phi: f64,
+    ) -> Result<Self, Unproven> {
+        let frames = mechanism.frames(phi).map_err(|_| Unproven::Pose { phi })?;
+        let mut equations = Vec::new();
+        for (number, pair) in pairs.iter().enumerate() {
+            equations.extend(of_pair(pair, &frames).ok_or(Unproven::Joint { number })?);
+        }
+        let drive = match pairs.get(mechanism.drive()) {
+            Some(Pair::Joint(joint)) => of_drive(joint, &frames, phi),
+            _ => None,
+        };
+        Self::closed(mechanism, links, equations, drive)
+    }
+
+    /// With the equation of the drive, if they leave one freedom.
+    fn closed(
+        mechanism: &'m dyn Jointed,
+        links: usize,
+        mut equations: Vec<Equation>,
+        drive: Option<Equation>,
+    ) -> Result<Self, Unproven> {
         equations.push(drive.ok_or(Unproven::Drive)?);
         if equations.len() != 3 * links {
             return Err(Unproven::Freedoms {
@@ -217,7 +252,7 @@ impl<'m> Closure<'m> {
                 terms[axis] = Interval::ONE;
                 set(&mut places[link], 1, &terms);
                 for (row, equation) in self.equations.iter().enumerate() {
-                    if equation.links().contains(&Some(link)) {
+                    if equation.is_of(link) {
                         matrix.set(row, 3 * link + axis, equation.term(&places, 1));
                     }
                 }
@@ -275,6 +310,46 @@ fn of_joint(joint: &Joint, frames: &Frames) -> Option<Vec<Equation>> {
     })
 }
 
+fn of_pair(pair: &Pair, frames: &Frames) -> Option<Vec<Equation>> {
+    let turn = |body: Body, radius: f64| (body.link(), Interval::of(radius));
+    Some(match pair {
+        Pair::Joint(joint) => return of_joint(joint, frames),
+        Pair::Gears {
+            centres: [a, b],
+            carrier,
+            radii: [r_a, r_b],
+            phase,
+        } => {
+            let together = -(Interval::of(*r_a) + Interval::of(*r_b));
+            vec![Equation::Rolling {
+                turns: vec![turn(a.body, *r_a), turn(b.body, *r_b), (carrier.link(), together)],
+                rack: None,
+                constant: Interval::of(-phase),
+            }]
+        }
+        Pair::Belt {
+            centres: [a, b],
+            radii: [r_a, r_b],
+            phase,
+        } => vec![Equation::Rolling {
+            turns: vec![turn(a.body, *r_a), turn(b.body, -r_b)],
+            rack: None,
+            constant: Interval::of(-phase),
+        }],
+        Pair::Rack {
+            pinion,
+            rack,
+            radius,
+            phase,
+        } => vec![Equation::Rolling {
+            turns: vec![turn(pinion.body, *radius), turn(rack.body, -radius)],
+            rack: Some((Point::of(rack), along(rack), Point::of(pinion))),
+            constant: Interval::of(-phase),
+        }],
+        Pair::Cam { .. } => return None,
+    })
+}
+
 /// The direction of a marker in its body.
 fn along(marker: &Marker) -> [Interval; 2] {
     let (sin, cos) = Interval::of(marker.angle()).sin_cos();
@@ -326,13 +401,19 @@ fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equation> {
 }
 
 impl Equation {
-    const fn links(&self) -> [Option<usize>; 2] {
+    /// Whether it depends on where a link is.
+    fn is_of(&self, link: usize) -> bool {
+        let link = Some(link);
         match self {
-            Self::Same([a, b], _) => [a.link, b.link],
+            Self::Same([a, b], _) => a.link == link || b.link == link,
             Self::OnLine { line, point, .. } | Self::Displacement { line, point, .. } => {
-                [line.link, point.link]
+                line.link == link || point.link == link
             }
-            Self::Angle { bodies, .. } => *bodies,
+            Self::Angle { bodies, .. } => bodies.contains(&link),
+            Self::Rolling { turns, rack, .. } => {
+                let moved = |(line, _, point): &(Point, _, Point)| line.link == link || point.link == link;
+                turns.iter().any(|(wheel, _)| *wheel == link) || rack.as_ref().is_some_and(moved)
+            }
         }
     }
 
@@ -355,6 +436,17 @@ impl Equation {
             Self::Angle { bodies: [a, b], constant: c, .. } => {
                 let psi = |link: Option<usize>| at(link).map_or(Interval::ZERO, |p| p.psi.0[order]);
                 psi(*b) - psi(*a) + constant(*c)
+            }
+            Self::Rolling { turns, rack, constant: c } => {
+                let turn = |(link, radius): &(Option<usize>, Interval)| {
+                    at(*link).map_or(Interval::ZERO, |place| place.psi.0[order] * *radius)
+                };
+                let sum = turns.iter().fold(constant(*c), |sum, wheel| sum + turn(wheel));
+                let Some((line, along, point)) = rack else {
+                    return sum;
+                };
+                let along = |k: usize| vector(at(line.link), *along, k);
+                sum + product(along, [line, point], &at, order)
             }
             Self::OnLine { line, along: [cos, sin], point } => {
                 let across = |k: usize| vector(at(line.link), [-*sin, *cos], k);

@@ -15,10 +15,11 @@
 //! 3. [`model`]: a machine as a machine file describes it, in SI units.
 //! 4. [`analysis`]: reduction, duty, check of the mechanism, free motion.
 //! 5. [`read`]: a text in, a [`model::machine::MachineFile`] out.
-//! 6. [`export`]: the smallest table for the firmware that meets a torque error.
+//! 6. `enclose`: its curves in intervals, for proofs. [`export`]: the smallest table for the firmware that meets a torque error.
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+mod enclose;
 pub mod export;
 pub mod model;
 pub mod number;

@@ -2,13 +2,14 @@
 
 use miette::{Result, miette};
 
+use crate::busy;
 use crate::commands::core_error::core_report;
 use crate::commands::{Done, print, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
 use jred_machine::analysis::duty::Duty;
-use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Task};
+use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Proven, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -107,7 +108,13 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         edges: edges(options, &file)?,
         machine: options.machine_id,
     };
-    let export = match Export::new(&file, task) {
+    let found = if options.prove {
+        busy::begin("proving the error of the table");
+        Export::proven(&file, task, &mut |_| true)
+    } else {
+        Export::new(&file, task)
+    };
+    let export = match found {
         Ok(export) => export,
         Err(Failure::NotReached(why)) => {
             output::say(&why);
@@ -128,7 +135,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         output::write(out, &bytes)?;
     }
     warn(&file, [omega, 0.0])?;
-    match (&options.out, options.format) {
+    let done = match (&options.out, options.format) {
         (None, Form::Json) => print(&format!("{:#}\n", export.json())),
         (None, _) => print(&format!(
             "{}\n{}nothing written: use --out to write a file\n",
@@ -141,7 +148,29 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
             alternatives::alternatives(&export),
             plain::path(out)
         )),
-    }
+    }?;
+    Ok(if options.prove && !proof_holds(&export) {
+        Done::Violated
+    } else {
+        done
+    })
+}
+
+/// Whether the error of the table is proven, and is not above the one allowed; says what is not so.
+fn proof_holds(export: &Export) -> bool {
+    let (words, cure) = match (export.proof(), export.excess()) {
+        (Some(Proven::Open(why)), _) => (
+            format!("the error of the table is not proven: {why}"),
+            "without --prove it is estimated",
+        ),
+        (_, Some(_)) => (
+            export.exceeded(),
+            "allow more cells with --max-cells, a larger --torque-error, or take another --layout or --type",
+        ),
+        _ => return true,
+    };
+    output::say(&format!("{words}; {cure}"));
+    false
 }
 
 /// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or

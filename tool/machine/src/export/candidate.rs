@@ -5,6 +5,7 @@ use jred::tabulate::Tabulated;
 use jred::{Error, Scale, Set};
 
 use super::choice::{LayoutName, Number};
+use super::proof::Proven;
 use super::ticks::Ticks;
 
 /// The table of one range, with its image.
@@ -28,6 +29,8 @@ pub struct Made {
     pub scale: Scale,
     /// Bytes of its rows.
     pub row_bytes: usize,
+    /// What is proven of its error, if that was asked for.
+    pub proof: Option<Proven>,
     /// The image.
     pub words: Vec<u32>,
 }

@@ -123,6 +123,7 @@ impl Search<'_> {
             usage: Usage::of(&table).map_err(Error::Table)?,
             scale: Scale::SI,
             row_bytes: fitted.bytes,
+            proof: None,
             words: written(error)?,
         })
     }

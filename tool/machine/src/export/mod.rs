@@ -10,6 +10,7 @@ mod form;
 mod harmonic;
 mod pieces;
 mod place;
+mod proof;
 mod reference;
 mod search;
 mod size;
@@ -19,16 +20,18 @@ mod ticks;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;
+pub use proof::Proven;
 pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use jred::image::identify;
 use jred::machine::Mechanism as _;
-use jred::{Domain, Error, Phase};
+use jred::{Domain, Error, Machine, Phase};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::short;
 use fault::NotReached;
 use pieces::Searches;
@@ -61,6 +64,15 @@ pub struct Task {
     pub edges: Vec<f64>,
     /// Identifier of the machine in the image; if not given, that of the title.
     pub machine: Option<u32>,
+}
+
+impl Task {
+    /// The machine with its drive train and with the rotor.
+    fn whole_machine(&self, file: &MachineFile) -> Result<Machine<AnyMechanism>, Error> {
+        let ratio = file.drive_train.ratio();
+        let machine = file.with_drive_train()?;
+        Ok(machine.with_flywheel(self.rotor * ratio * ratio)?)
+    }
 }
 
 /// Part of the range that a piece must at least have: [`Pieces`](jred::Pieces) takes no shorter one.
@@ -127,10 +139,7 @@ impl Export {
                     .to_owned(),
             });
         }
-        let ratio = file.drive_train.ratio();
-        let machine = file
-            .with_drive_train()?
-            .with_flywheel(task.rotor * ratio * ratio)?;
+        let machine = task.whole_machine(file)?;
         let coordinate = file.machine.mechanism().coordinate();
         let goal = Goal {
             torque_error: task.torque_error,
@@ -197,7 +206,7 @@ impl Export {
             }
             .failure()?);
         };
-        let machine = task.machine.unwrap_or_else(|| of_title(&file.title));
+        let id = task.machine.unwrap_or_else(|| of_title(&file.title));
         let tables = answers
             .iter_mut()
             .filter_map(|(_, _, answer)| match answer {
@@ -205,7 +214,7 @@ impl Export {
                 _ => None,
             });
         for table in tables.flatten() {
-            identify(&mut table.words, machine).map_err(ticks::refusal)?;
+            identify(&mut table.words, id).map_err(ticks::refusal)?;
         }
         Ok(Self {
             name: file.name.clone(),
@@ -214,7 +223,7 @@ impl Export {
             domain,
             in_pieces: !pieces.is_empty(),
             task,
-            machine,
+            machine: id,
             answers,
             chosen,
         })

@@ -111,6 +111,7 @@ impl Size<'_> {
             usage,
             scale: self.scale,
             row_bytes: size_of_val(table.words()),
+            proof: None,
             words,
         }))
     }

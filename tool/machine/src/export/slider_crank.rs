@@ -166,6 +166,7 @@ impl Search<'_> {
             usage,
             scale: Scale::SI,
             row_bytes: size_of_val(table.words()),
+            proof: None,
             words: written(error)?,
         });
         Ok(match self.goal.torque_error {

@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use jred::machine::PoseError;
+use jred::mechanism::linkage::Pair;
 use jred::machine::{Action, Element, Frames, Jointed, Joints, Load, Mechanism};
 use jred::{Domain, Error, Link};
 
@@ -73,6 +74,8 @@ pub struct AnyMechanism {
     /// The link whose way ends somewhere, though the file does not say where.
     open_ended: Option<usize>,
     facts: Vec<Fact>,
+    /// The pairs of a linkage: how each of its joints closes.
+    pairs: Vec<Pair>,
 }
 
 impl AnyMechanism {
@@ -104,6 +107,36 @@ impl AnyMechanism {
             ropes: Vec::new(),
             open_ended: None,
             facts: Vec::new(),
+            pairs: Vec::new(),
+        }
+    }
+
+    /// With the pairs that its joints are, gears and racks among them.
+    #[must_use]
+    pub(crate) fn with_pairs(mut self, pairs: &[Pair]) -> Self {
+        self.pairs = pairs.to_vec();
+        self
+    }
+
+    /// The pairs of a linkage, in the order of its joints; none of other mechanisms.
+    pub(crate) fn pairs(&self) -> &[Pair] {
+        &self.pairs
+    }
+
+    /// The mechanism without its stand-ins and on its whole range, and the curves of all stand-ins in the order of their links.
+    pub(crate) fn bare(&self) -> (&dyn Inner, Vec<&Course>) {
+        let mut inner = self.inner.as_ref();
+        let mut courses = Vec::new();
+        loop {
+            let any: &dyn Any = inner;
+            if let Some(tabulated) = any.downcast_ref::<Tabulated>() {
+                courses.splice(0..0, tabulated.courses());
+                inner = tabulated.inner();
+            } else if let Some(part) = any.downcast_ref::<OnStroke>() {
+                inner = part.inner();
+            } else {
+                return (inner, courses);
+            }
         }
     }
 

@@ -17,6 +17,11 @@ pub(super) struct OnStroke {
 }
 
 impl OnStroke {
+    /// The mechanism on its whole range.
+    pub(super) fn inner(&self) -> &dyn Inner {
+        self.inner.as_ref()
+    }
+
     /// From one position to another.
     pub(super) fn new(inner: Arc<dyn Inner>, [from, to]: [f64; 2]) -> Self {
         // An edge of the turn, in every turn on the stroke; at its start and at its end there is none.

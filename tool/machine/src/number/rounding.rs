@@ -51,6 +51,16 @@ pub fn rounded(x: f64) -> String {
     }
 }
 
+/// As [`rounded`], for a positive number that is a bound: not below it.
+pub fn bound(x: f64) -> String {
+    let text = rounded(x);
+    if x > 0.0 && text.parse().is_ok_and(|shown: f64| shown < x) {
+        let last = 10f64.powi(x.log10().floor() as i32 - 5);
+        return rounded(x + 0.5 * last);
+    }
+    text
+}
+
 /// A figure for a message: at most six significant digits, no trailing zeros.
 pub fn figure(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {

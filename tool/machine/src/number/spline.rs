@@ -69,6 +69,17 @@ pub struct Spline {
     periodic: bool,
 }
 
+/// One of the cubics of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Where it holds.
+    pub ends: [f64; 2],
+    /// Where its u is zero.
+    pub origin: f64,
+    /// f = c₀ + c₁·u + c₂·u² + c₃·u³.
+    pub coefficients: [f64; 4],
+}
+
 impl Spline {
     /// A curve over the range of its points; beyond its ends the end's value.
     ///
@@ -145,6 +156,41 @@ impl Spline {
         }
         let slope = b + u * (2.0 * c + u * 3.0 * d);
         [value, slope, 2.0 * c + 6.0 * d * u, 6.0 * d]
+    }
+
+    /// The cubics that f is between two arguments, with the constants beyond the ends of a curve that does not repeat.
+    pub fn pieces_between(&self, [low, high]: [f64; 2]) -> Vec<Piece> {
+        let [from, to] = self.range();
+        let period = to - from;
+        let mut found = Vec::new();
+        let turns = if self.periodic {
+            let turn = |x: f64| ((x - from) / period).floor();
+            // One more on each side, where a rounding may lie in the next.
+            (turn(low) as i64 - 1, turn(high) as i64 + 1)
+        } else {
+            found.push(Piece {
+                ends: [f64::NEG_INFINITY, from],
+                origin: from,
+                coefficients: [self.at(from)[0], 0.0, 0.0, 0.0],
+            });
+            found.push(Piece {
+                ends: [to, f64::INFINITY],
+                origin: to,
+                coefficients: [self.at(to)[0], 0.0, 0.0, 0.0],
+            });
+            (0, 0)
+        };
+        for turn in turns.0..=turns.1 {
+            let ahead = turn as f64 * period;
+            let knots = self.knots.windows(2).zip(&self.pieces);
+            found.extend(knots.map(|(ends, coefficients)| Piece {
+                ends: [ends[0] + ahead, ends[1] + ahead],
+                origin: ends[0] + ahead,
+                coefficients: *coefficients,
+            }));
+        }
+        found.retain(|piece| piece.ends[0] <= high && low <= piece.ends[1]);
+        found
     }
 
     /// ∫f from the beginning of the range to `x`: exact for the cubic pieces.

@@ -44,6 +44,16 @@ impl Tabulated {
         })
     }
 
+    /// The mechanism without them.
+    pub(crate) fn inner(&self) -> &dyn Inner {
+        self.inner.as_ref()
+    }
+
+    /// The curves, in the order of their links.
+    pub(crate) fn courses(&self) -> &[Course] {
+        &self.courses
+    }
+
     /// Number of the mechanism's own links.
     fn own(&self) -> usize {
         self.links.len() - self.courses.len()

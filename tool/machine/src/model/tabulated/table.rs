@@ -135,6 +135,11 @@ impl Table {
         }
     }
 
+    /// Its curve, what its rows run over, and whether they come again with every turn of the drive link.
+    pub(crate) const fn parts(&self) -> (&Spline, Over, bool) {
+        (&self.curve, self.over, self.turns)
+    }
+
     /// The force with three derivatives by φ where the links are at `frames`.
     pub(super) fn at(&self, phi: f64, frames: &[Frame]) -> Transfer {
         let mut place = self.over.value(phi, frames);

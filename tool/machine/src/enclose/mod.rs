@@ -1,0 +1,139 @@
+//! The curves of a machine from a machine file in intervals: what a proof of a table's error rests on.
+//!
+//! Three ways lead to where the links are: linkages by the closure of their joints; gear trains, racks, screws and ropes, whose
+//! coordinates go with φ, by one pose. Curves over a position, which the machine's own equations have as stand-ins, are added
+//! as what they stand for.
+
+mod course;
+
+use jred::Machine;
+use jred::friction::FrictionDrive;
+use jred::machine::{Element, Frame, Load, Mechanism as _};
+use jred::mechanism::{BallScrew, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
+use jred_enclosure::{Closure, Curves, Form, Interval, Parts, Place, Unproven};
+use std::any::Any;
+
+use crate::model::mechanism::{AnyMechanism, Inner};
+use crate::model::tabulated::Course;
+
+/// A machine whose curves can be had on any stretch of its range.
+pub(crate) struct Enclosed<'m> {
+    machine: &'m Machine<AnyMechanism>,
+    motion: Motion<'m>,
+    courses: Vec<&'m Course>,
+    /// What acts on the mechanism's own links.
+    loads: Vec<Load>,
+    elements: Vec<Element>,
+}
+
+/// How the mechanism's own links move.
+enum Motion<'m> {
+    /// As their joints let them.
+    Closed(Closure<'m>),
+    /// Every coordinate goes with the drive link's.
+    Geared(&'m dyn Inner),
+}
+
+impl<'m> Enclosed<'m> {
+    /// The curves of a machine.
+    ///
+    /// # Errors
+    /// A mechanism that cannot be enclosed.
+    pub(crate) fn new(machine: &'m Machine<AnyMechanism>) -> Result<Self, Unproven> {
+        let any = machine.mechanism();
+        let (bare, courses) = any.bare();
+        let own = any.own_links();
+        let phi = machine.mechanism().domain().position(0.3);
+        let motion = if is_geared(bare) {
+            Motion::Geared(bare)
+        } else if any.pairs().is_empty() {
+            Motion::Closed(Closure::new(bare, own, any.own_joints(), phi)?)
+        } else {
+            Motion::Closed(Closure::of_pairs(bare, own, any.pairs(), phi)?)
+        };
+        let on_own = |link: Option<usize>| link.is_none_or(|link| link < own);
+        let elements = machine.elements().iter();
+        let elements =
+            elements.filter(|e| e.between().iter().all(|marker| on_own(marker.body.link())));
+        let loads = machine.loads().iter().filter(|load| load.link() < own);
+        Ok(Self {
+            machine,
+            motion,
+            courses,
+            loads: loads.copied().collect(),
+            elements: elements.copied().collect(),
+        })
+    }
+
+    /// The curves from one position of the drive link to another.
+    ///
+    /// # Errors
+    /// A stretch that is too long, or a place that is singular.
+    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, Unproven> {
+        let places = match &self.motion {
+            Motion::Closed(closure) => closure.places(stretch)?,
+            Motion::Geared(mechanism) => geared(*mechanism, stretch)?,
+        };
+        let own = places.len();
+        let links = self.machine.mechanism().links();
+        let parts = Parts {
+            links: links.get(..own).unwrap_or(links),
+            loads: &self.loads,
+            elements: &self.elements,
+            gravity: self.machine.gravity(),
+            flywheel: self.machine.flywheel(),
+        };
+        let mut curves = Curves::of(&parts, &places, stretch)?;
+        for (k, course) in self.courses.iter().enumerate() {
+            let load = self.machine.loads().iter().find(|load| load.link() == own + k);
+            let window = load.and_then(Load::window);
+            course::add(&mut curves, course, &places, stretch, window.as_ref());
+        }
+        Ok(curves)
+    }
+}
+
+/// Whether all coordinates of a mechanism go with its drive link's.
+fn is_geared(mechanism: &dyn Inner) -> bool {
+    let any: &dyn Any = mechanism;
+    any.is::<RackAndPinion>()
+        || any.is::<BallScrew>()
+        || any.is::<Hoist>()
+        || any.is::<ParallelShafts>()
+        || any.is::<Planetary>()
+        || any.is::<Train>()
+        || any.is::<FrictionDrive>()
+}
+
+/// The links of such a mechanism, from one pose: their rates are the same at all.
+fn geared(mechanism: &dyn Inner, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, Unproven> {
+    let middle = stretch[0].midpoint(stretch[1]);
+    let frames = mechanism
+        .frames(middle)
+        .map_err(|_| Unproven::Pose { phi: middle })?;
+    // A few roundings of double precision.
+    let number = |value: f64| Interval::around(value, 1e-15 * value.abs());
+    let away = Form::variable(stretch) - Form::constant(middle);
+    let planets = (mechanism as &dyn Any).is::<Planetary>();
+    let place = |(k, frame): (usize, &Frame)| {
+        let at = |q: jred::number::Transfer| {
+            let rate = Form::somewhere(number(q.d1));
+            away * rate + Form::somewhere(number(q.value))
+        };
+        // The centre of the planets turns with their carrier.
+        let origin = if planets && k == Planetary::PLANETS {
+            let carrier = frames.get(Planetary::CARRIER)?;
+            let (sin, cos) = at(carrier.psi).sin_cos();
+            let arm = frame.x.value.hypot(frame.y.value);
+            let arm = Form::somewhere(number(arm));
+            [cos * arm, sin * arm]
+        } else {
+            [at(frame.x), at(frame.y)]
+        };
+        Some(Place::new(origin, at(frame.psi)))
+    };
+    let places = frames.iter().enumerate().map(place);
+    places
+        .collect::<Option<_>>()
+        .ok_or(Unproven::Pose { phi: middle })
+}
