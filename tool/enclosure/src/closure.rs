@@ -12,8 +12,8 @@
 
 use std::f64::consts::TAU;
 
+use jred::machine::{Body, Frames, Joint, Jointed, Marker};
 use jred::mechanism::linkage::Pair;
-use jred::machine::{Body, Frame, Frames, Joint, Jointed, Marker};
 
 use crate::fault::Unproven;
 use crate::form::Form;
@@ -28,13 +28,30 @@ enum Equation {
     /// A coordinate (0: x, 1: y) of two points that coincide.
     Same([Point; 2], usize),
     /// A point and a line through another with a direction.
-    OnLine { line: Point, along: [Interval; 2], point: Point },
+    OnLine {
+        line: Point,
+        along: [Interval; 2],
+        point: Point,
+    },
     /// Directions that agree up to a constant, or that turn with the drive.
-    Angle { bodies: [Option<usize>; 2], constant: Interval, drive: bool },
+    Angle {
+        bodies: [Option<usize>; 2],
+        constant: Interval,
+        drive: bool,
+    },
     /// Wheels that roll on each other or on a rack: turns times radii, and the way along the rack.
-    Rolling { turns: Vec<(Option<usize>, Interval)>, rack: Option<(Point, [Interval; 2], Point)>, constant: Interval },
+    Rolling {
+        turns: Vec<(Option<usize>, Interval)>,
+        rack: Option<(Point, [Interval; 2], Point)>,
+        constant: Interval,
+    },
     /// A displacement along a line that the drive sets.
-    Displacement { line: Point, along: [Interval; 2], point: Point, constant: Interval },
+    Displacement {
+        line: Point,
+        along: [Interval; 2],
+        point: Point,
+        constant: Interval,
+    },
 }
 
 /// A point of a link, or of the ground.
@@ -141,7 +158,10 @@ impl<'m> Closure<'m> {
         let middle = from.midpoint(to);
         let frames = self.mechanism.frames(middle);
         let frames = frames.map_err(|_| Unproven::Pose { phi: middle })?;
-        let solve = |phi: Interval| self.series(&frames, phi).ok_or(Unproven::Pose { phi: middle });
+        let solve = |phi: Interval| {
+            self.series(&frames, phi)
+                .ok_or(Unproven::Pose { phi: middle })
+        };
         let at = solve(Interval::of(middle))?;
         let over = solve(Interval::between(from, to))?;
         let places = at.iter().zip(&over);
@@ -159,7 +179,11 @@ impl<'m> Closure<'m> {
                 raise(place, order);
             }
             let sides = self.equations.iter().map(|equation| {
-                let own = if order == 1 { equation.by_drive() } else { Interval::ZERO };
+                let own = if order == 1 {
+                    equation.by_drive()
+                } else {
+                    Interval::ZERO
+                };
                 -(equation.term(&places, order) + own)
             });
             let sides: Vec<Interval> = sides.collect();
@@ -171,25 +195,24 @@ impl<'m> Closure<'m> {
         Some(places)
     }
 
-    /// The coordinates in double precision, and how fast each moves: a measure of its size.
+    /// The coordinates in double precision, and how fast each moves: a measure of its size. Where a coordinate turns back its
+    /// first derivative says nothing.
     fn start(&self, frames: &Frames) -> (Vec<f64>, Vec<f64>) {
         let own = || frames.iter().take(self.links);
-        let of = |frame: &Frame| [frame.x, frame.y, frame.psi];
-        let values = own().flat_map(of).map(|q| q.value).collect();
-        let lengths = own().flat_map(|f| [f.x.d1, f.y.d1]);
-        let angles = own().map(|f| f.psi.d1);
-        let size = |all: &mut dyn Iterator<Item = f64>| {
-            let most = all.map(f64::abs).fold(0.0, f64::max);
+        let coordinates = || own().flat_map(|frame| [frame.x, frame.y, frame.psi]);
+        let rates: Vec<f64> = coordinates().map(|q| q.d1.abs() + q.d2.abs()).collect();
+        // Lengths, then angles.
+        let most = [false, true].map(|angles| {
+            let own = rates
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| (k % 3 == 2) == angles);
+            let most = own.fold(0.0_f64, |most, (_, rate)| most.max(*rate));
             if most > 0.0 { most } else { 1.0 }
-        };
-        let (length, angle) = (size(&mut lengths.into_iter()), size(&mut angles.into_iter()));
-        let unit = |k: usize, rate: f64| {
-            let most = if k % 3 == 2 { angle } else { length };
-            rate.abs().max(0.1 * most)
-        };
-        let rates = own().flat_map(of).map(|q| q.d1);
-        let units = rates.enumerate().map(|(k, rate)| unit(k, rate)).collect();
-        (values, units)
+        });
+        let unit = |(k, rate): (usize, &f64)| rate.max(0.1 * most[usize::from(k % 3 == 2)]);
+        let units = rates.iter().enumerate().map(unit).collect();
+        (coordinates().map(|q| q.value).collect(), units)
     }
 
     /// A box of coordinates with exactly one pose for each φ, and the systems of its equations.
@@ -215,10 +238,17 @@ impl<'m> Closure<'m> {
             let rest = solver.rest(&away.collect::<Vec<_>>());
             let image = middle.iter().zip(newton).zip(rest);
             let image: Vec<Interval> = image.map(|((m, n), r)| *m - n + r).collect();
-            if image.iter().zip(&all).all(|(image, all)| image.is_inside(*all)) {
+            if image
+                .iter()
+                .zip(&all)
+                .all(|(image, all)| image.is_inside(*all))
+            {
                 // The pose lies in the image: once more with that.
                 let solver = Solver::new(inverse, &self.jacobian(&image));
-                let away = image.iter().zip(&middle).map(|(all, middle)| *all - *middle);
+                let away = image
+                    .iter()
+                    .zip(&middle)
+                    .map(|(all, middle)| *all - *middle);
                 let rest = solver.rest(&away.collect::<Vec<_>>());
                 let newton = solver.approximate(&residual);
                 let again = middle.iter().zip(newton).zip(rest).zip(&image);
@@ -257,7 +287,13 @@ impl<'m> Closure<'m> {
                     }
                 }
                 for place in [&mut places[link]] {
-                    for series in [&mut place.x, &mut place.y, &mut place.psi, &mut place.sin, &mut place.cos] {
+                    for series in [
+                        &mut place.x,
+                        &mut place.y,
+                        &mut place.psi,
+                        &mut place.sin,
+                        &mut place.cos,
+                    ] {
                         series.0[1] = Interval::ZERO;
                     }
                 }
@@ -322,7 +358,11 @@ fn of_pair(pair: &Pair, frames: &Frames) -> Option<Vec<Equation>> {
         } => {
             let together = -(Interval::of(*r_a) + Interval::of(*r_b));
             vec![Equation::Rolling {
-                turns: vec![turn(a.body, *r_a), turn(b.body, *r_b), (carrier.link(), together)],
+                turns: vec![
+                    turn(a.body, *r_a),
+                    turn(b.body, *r_b),
+                    (carrier.link(), together),
+                ],
                 rack: None,
                 constant: Interval::of(-phase),
             }]
@@ -383,7 +423,11 @@ fn agree([a, b]: [&Marker; 2], frames: &Frames) -> Equation {
 fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equation> {
     let offset = joint.coordinate(frames).value - phi;
     // Most are zero, and their roundings with them.
-    let offset = if offset.abs() < SAME { Interval::ZERO } else { Interval::around(offset, SAME) };
+    let offset = if offset.abs() < SAME {
+        Interval::ZERO
+    } else {
+        Interval::around(offset, SAME)
+    };
     match joint {
         Joint::Revolute([a, b]) => Some(Equation::Angle {
             bodies: links([a, b]),
@@ -411,7 +455,8 @@ impl Equation {
             }
             Self::Angle { bodies, .. } => bodies.contains(&link),
             Self::Rolling { turns, rack, .. } => {
-                let moved = |(line, _, point): &(Point, _, Point)| line.link == link || point.link == link;
+                let moved =
+                    |(line, _, point): &(Point, _, Point)| line.link == link || point.link == link;
                 turns.iter().any(|(wheel, _)| *wheel == link) || rack.as_ref().is_some_and(moved)
             }
         }
@@ -431,28 +476,48 @@ impl Equation {
         let constant = |value: Interval| if order == 0 { value } else { Interval::ZERO };
         match self {
             Self::Same([a, b], axis) => {
-                coordinate(at(a.link), a.at, *axis, order) - coordinate(at(b.link), b.at, *axis, order)
+                coordinate(at(a.link), a.at, *axis, order)
+                    - coordinate(at(b.link), b.at, *axis, order)
             }
-            Self::Angle { bodies: [a, b], constant: c, .. } => {
+            Self::Angle {
+                bodies: [a, b],
+                constant: c,
+                ..
+            } => {
                 let psi = |link: Option<usize>| at(link).map_or(Interval::ZERO, |p| p.psi.0[order]);
                 psi(*b) - psi(*a) + constant(*c)
             }
-            Self::Rolling { turns, rack, constant: c } => {
+            Self::Rolling {
+                turns,
+                rack,
+                constant: c,
+            } => {
                 let turn = |(link, radius): &(Option<usize>, Interval)| {
                     at(*link).map_or(Interval::ZERO, |place| place.psi.0[order] * *radius)
                 };
-                let sum = turns.iter().fold(constant(*c), |sum, wheel| sum + turn(wheel));
+                let sum = turns
+                    .iter()
+                    .fold(constant(*c), |sum, wheel| sum + turn(wheel));
                 let Some((line, along, point)) = rack else {
                     return sum;
                 };
                 let along = |k: usize| vector(at(line.link), *along, k);
                 sum + product(along, [line, point], &at, order)
             }
-            Self::OnLine { line, along: [cos, sin], point } => {
+            Self::OnLine {
+                line,
+                along: [cos, sin],
+                point,
+            } => {
                 let across = |k: usize| vector(at(line.link), [-*sin, *cos], k);
                 product(across, [line, point], &at, order)
             }
-            Self::Displacement { line, along, point, constant: c } => {
+            Self::Displacement {
+                line,
+                along,
+                point,
+                constant: c,
+            } => {
                 let along = |k: usize| vector(at(line.link), *along, k);
                 product(along, [line, point], &at, order) + constant(*c)
             }
@@ -461,7 +526,12 @@ impl Equation {
 }
 
 /// The coefficient of a coordinate of a point.
-fn coordinate(place: Option<&Place<Series>>, [u, v]: [f64; 2], axis: usize, order: usize) -> Interval {
+fn coordinate(
+    place: Option<&Place<Series>>,
+    [u, v]: [f64; 2],
+    axis: usize,
+    order: usize,
+) -> Interval {
     let Some(place) = place else {
         let fixed = if axis == 0 { u } else { v };
         return Interval::of(if order == 0 { fixed } else { 0.0 });
@@ -476,7 +546,11 @@ fn coordinate(place: Option<&Place<Series>>, [u, v]: [f64; 2], axis: usize, orde
 /// The coefficients of a vector of a body.
 fn vector(place: Option<&Place<Series>>, [u, v]: [Interval; 2], order: usize) -> [Interval; 2] {
     let Some(place) = place else {
-        return if order == 0 { [u, v] } else { [Interval::ZERO; 2] };
+        return if order == 0 {
+            [u, v]
+        } else {
+            [Interval::ZERO; 2]
+        };
     };
     let (sin, cos) = (place.sin.0[order], place.cos.0[order]);
     [cos * u - sin * v, sin * u + cos * v]

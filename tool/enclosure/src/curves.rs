@@ -159,7 +159,8 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
         0.0
     };
     // The turn of positions is the double below 2π, that of the window either.
-    let into = Form::variable([from, to]) - Form::somewhere(Interval::of(start) + Interval::turn() * turns);
+    let into = Form::variable([from, to])
+        - Form::somewhere(Interval::of(start) + Interval::turn() * turns);
     let at = into.at.0[0].middle();
     let values = into.values();
     let end = |end: f64| (Interval::of(end) - Interval::of(ramp)).middle();
@@ -171,13 +172,17 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
     } else if at <= end(width) {
         (Form::constant(1.0), [ramp, end(width)])
     } else if at < width {
-        (rise(Form::constant(width) - into, ramp), [end(width), width])
+        (
+            rise(Form::constant(width) - into, ramp),
+            [end(width), width],
+        )
     } else {
         let next = if window.repeats() { TAU } else { f64::INFINITY };
         (Form::constant(0.0), [width, next])
     };
     // Roundings of these ends, too.
-    let beyond = (low - values.lo()).max(values.hi() - high).max(0.0) + 1e-15 * (1.0 + width + start.abs());
+    let beyond =
+        (low - values.lo()).max(values.hi() - high).max(0.0) + 1e-15 * (1.0 + width + start.abs());
     let beyond = beyond / ramp;
     if beyond > BESIDE {
         return Form::somewhere(Interval::between(0.0, 1.0));

@@ -36,7 +36,10 @@ impl Difference<'_> {
     /// From one distance from the middle of the stretch to another.
     pub(crate) fn bounds(&self, [from, to]: [f64; 2]) -> Bounds {
         let middle = from.midpoint(to);
-        let radius = Interval::of(to.max(from) - middle).hull(Interval::of(middle - from)).size().next_up();
+        let radius = Interval::of(to.max(from) - middle)
+            .hull(Interval::of(middle - from))
+            .size()
+            .next_up();
         let mut bounds = Bounds {
             most: 0.0,
             least: 0.0,
@@ -70,7 +73,9 @@ impl Difference<'_> {
     fn polynomial(&self, coefficients: &[f64; 4], middle: f64) -> [Interval; 4] {
         let place = self.place + self.steepness * middle;
         // What `CellCurves` says of its roundings.
-        let size = coefficients.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        let size = coefficients
+            .iter()
+            .fold(0.0_f64, |most, p| most.max(p.abs()));
         let mut terms = coefficients.map(|p| Interval::around(p, 1e-14 * size));
         shift(&mut terms, place);
         let mut power = Interval::ONE;

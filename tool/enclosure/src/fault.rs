@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Why nothing is proven.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Unproven {
     /// A joint with teeth, a cam, a rope or a belt, whose geometry is not in its equations.
@@ -24,7 +24,9 @@ pub enum Unproven {
         coordinates: usize,
     },
     /// No pose, or more than one, can be proven around a position.
-    #[error("the pose of the links at {phi} (rad, or m) is not proven: it is close to a dead point")]
+    #[error(
+        "the pose of the links at {phi} (rad, or m) is not proven: it is close to a dead point"
+    )]
     Pose {
         /// The position (rad, or m).
         phi: f64,
@@ -45,7 +47,7 @@ pub enum Unproven {
     },
     /// A part of the machine that a caller cannot enclose.
     #[error("{0}")]
-    Part(&'static str),
+    Part(String),
     /// No finite bound was found around a position, however short the stretch.
     #[error("no bound was found around {phi} (rad, or m)")]
     Unbounded {

@@ -62,10 +62,7 @@ impl Place<Form> {
     /// A vector of the link, [u, v], in the coordinates of the mechanism.
     #[must_use]
     pub fn vector(&self, [u, v]: [f64; 2]) -> [Form; 2] {
-        [
-            self.cos * u - self.sin * v,
-            self.sin * u + self.cos * v,
-        ]
+        [self.cos * u - self.sin * v, self.sin * u + self.cos * v]
     }
 
     /// A point of the link.

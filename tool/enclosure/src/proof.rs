@@ -1,7 +1,7 @@
 //! The largest error of a table, bounded over all positions by halving stretches and parts of cells.
 
-use jred::Table;
 use jred::Domain;
+use jred::Table;
 use jred::table::{CellCurves, Format};
 
 use crate::curves::Curves;
@@ -97,8 +97,16 @@ pub fn prove<F: Format>(
     };
     let cuts = cuts(goal);
     for pair in cuts.windows(2) {
-        let parts = ((pair[1] - pair[0]) / goal.span * f64::from(STRETCHES)).ceil().max(1.0);
-        let at = |k: f64| if k < parts { pair[0] + (pair[1] - pair[0]) * (k / parts) } else { pair[1] };
+        let parts = ((pair[1] - pair[0]) / goal.span * f64::from(STRETCHES))
+            .ceil()
+            .max(1.0);
+        let at = |k: f64| {
+            if k < parts {
+                pair[0] + (pair[1] - pair[0]) * (k / parts)
+            } else {
+                pair[1]
+            }
+        };
         let mut k = 0.0;
         while k < parts {
             if !watch((at(k) - goal.start) / goal.span) {
@@ -119,11 +127,17 @@ fn cuts(goal: &Goal<'_>) -> Vec<f64> {
     use std::f64::consts::TAU;
     let end = goal.start + goal.span;
     let within = goal.edges.iter().flat_map(|edge| {
-        let turns = if goal.turns { ((goal.start - edge) / TAU).floor() } else { 0.0 };
+        let turns = if goal.turns {
+            ((goal.start - edge) / TAU).floor()
+        } else {
+            0.0
+        };
         let count = if goal.turns { 3 } else { 1 };
         (0..count).map(move |k| edge + (turns + f64::from(k)) * TAU)
     });
-    let mut cuts: Vec<f64> = within.filter(|edge| goal.start < *edge && *edge < end).collect();
+    let mut cuts: Vec<f64> = within
+        .filter(|edge| goal.start < *edge && *edge < end)
+        .collect();
     cuts.extend([goal.start, end]);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
@@ -180,7 +194,11 @@ impl Search<'_> {
             &curves.viscous,
             &curves.coulomb,
         ];
-        let slack: f64 = forms.iter().zip(self.weights).map(|(form, w)| form.slack(half) * w).sum();
+        let slack: f64 = forms
+            .iter()
+            .zip(self.weights)
+            .map(|(form, w)| form.slack(half) * w)
+            .sum();
         // What is no number is not below.
         let sharp = slack <= SLACK * self.enough();
         let finest = if sharp || !halves { FINEST } else { 2 };
@@ -234,8 +252,16 @@ impl Search<'_> {
         // The ends of the cell, where only roundings lie beyond.
         let beside = 1e-15 * (start.abs() + span);
         let ends = [f64::from(index), f64::from(index + 1)].map(|k| start + span * (k / cells));
-        let low = if index == 0 { from } else { from.max(ends[0] - beside) };
-        let high = if index + 1 == self.cells { to } else { to.min(ends[1] + beside) };
+        let low = if index == 0 {
+            from
+        } else {
+            from.max(ends[0] - beside)
+        };
+        let high = if index + 1 == self.cells {
+            to
+        } else {
+            to.min(ends[1] + beside)
+        };
         let difference = Difference {
             curves,
             cell,

@@ -1,3 +1,7 @@
 //! The one test program of the package.
 
+mod golden;
+mod intervals;
 mod linkages;
+mod mechanics;
+mod taylor;

@@ -13,6 +13,7 @@ mod linkage_file;
 mod machine_file;
 mod mechanisms;
 mod motion;
+mod proven_export;
 mod reading;
 mod rules;
 mod schedule;

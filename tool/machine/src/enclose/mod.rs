@@ -1,7 +1,7 @@
 //! The curves of a machine from a machine file in intervals: what a proof of a table's error rests on.
 //!
-//! Three ways lead to where the links are: linkages by the closure of their joints; gear trains, racks, screws and ropes, whose
-//! coordinates go with φ, by one pose. Curves over a position, which the machine's own equations have as stand-ins, are added
+//! Two ways lead to where the links are: linkages by the closure of their joints; gear trains, racks, screws and ropes, whose
+//! coordinates go with φ, by one pose. A Geneva drive takes both in turn. Curves over a position, which the machine's own equations have as stand-ins, are added
 //! as what they stand for.
 
 mod course;
@@ -9,7 +9,7 @@ mod course;
 use jred::Machine;
 use jred::friction::FrictionDrive;
 use jred::machine::{Element, Frame, Load, Mechanism as _};
-use jred::mechanism::{BallScrew, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
+use jred::mechanism::{BallScrew, Geneva, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
 use jred_enclosure::{Closure, Curves, Form, Interval, Parts, Place, Unproven};
 use std::any::Any;
 
@@ -32,6 +32,8 @@ enum Motion<'m> {
     Closed(Closure<'m>),
     /// Every coordinate goes with the drive link's.
     Geared(&'m dyn Inner),
+    /// Closed on some stretches, and on the others at rest: a Geneva drive.
+    Indexed(&'m dyn Inner),
 }
 
 impl<'m> Enclosed<'m> {
@@ -44,12 +46,24 @@ impl<'m> Enclosed<'m> {
         let (bare, courses) = any.bare();
         let own = any.own_links();
         let phi = machine.mechanism().domain().position(0.3);
+        let named = |why| match why {
+            Unproven::Joint { number } => {
+                let name = any.joint_names().get(number).map_or("", String::as_str);
+                Unproven::Part(format!(
+                    "the motion that joint \"{name}\" of the {} transmits is not enclosed in intervals",
+                    any.kind()
+                ))
+            }
+            other => other,
+        };
         let motion = if is_geared(bare) {
             Motion::Geared(bare)
+        } else if (bare as &dyn Any).is::<Geneva>() {
+            Motion::Indexed(bare)
         } else if any.pairs().is_empty() {
-            Motion::Closed(Closure::new(bare, own, any.own_joints(), phi)?)
+            Motion::Closed(Closure::new(bare, own, any.own_joints(), phi).map_err(named)?)
         } else {
-            Motion::Closed(Closure::of_pairs(bare, own, any.pairs(), phi)?)
+            Motion::Closed(Closure::of_pairs(bare, own, any.pairs(), phi).map_err(named)?)
         };
         let on_own = |link: Option<usize>| link.is_none_or(|link| link < own);
         let elements = machine.elements().iter();
@@ -73,6 +87,16 @@ impl<'m> Enclosed<'m> {
         let places = match &self.motion {
             Motion::Closed(closure) => closure.places(stretch)?,
             Motion::Geared(mechanism) => geared(*mechanism, stretch)?,
+            Motion::Indexed(mechanism) => {
+                let any = self.machine.mechanism();
+                let middle = stretch[0].midpoint(stretch[1]);
+                match Closure::new(*mechanism, any.own_links(), any.own_joints(), middle) {
+                    Ok(closure) => closure.places(stretch)?,
+                    // The dwell.
+                    Err(Unproven::Joint { .. }) => geared(*mechanism, stretch)?,
+                    Err(why) => return Err(why),
+                }
+            }
         };
         let own = places.len();
         let links = self.machine.mechanism().links();

@@ -18,7 +18,7 @@ const NEGLIGIBLE: f64 = 1e-3;
 const SHARE: f64 = 1e-9;
 
 /// What came of a proof.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Proven {
     /// The error is bounded.
     Bounded(Proof),
@@ -116,7 +116,7 @@ impl Export {
             let mut of_all = |share: f64| watch((f64::from(index) + share) / count);
             let found = match &enclosed {
                 Ok(enclosed) => of_type(number, layout, made, &goal, enclosed, &mut of_all)?,
-                Err(why) => Err(*why),
+                Err(why) => Err(why.clone()),
             };
             made.proof = Some(match found {
                 Ok(proof) => Proven::Bounded(proof),
@@ -132,7 +132,7 @@ impl Export {
 
     /// What is proven of all tables together: the largest bounds, or why there is none.
     pub fn proof(&self) -> Option<Proven> {
-        let all = self.chosen().tables.iter().map(|table| table.proof);
+        let all = self.chosen().tables.iter().map(|table| table.proof.clone());
         all.reduce(|a, b| {
             Some(match (a?, b?) {
                 (Proven::Bounded(a), Proven::Bounded(b)) => {
