@@ -166,8 +166,8 @@ pub use tick::{
 /// On the way of the data between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
-        AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf, RowConstants,
-        Shape, SpeedOf, TorqueOf, Usage, words_len,
+        AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf,
+        RowConstants, Shape, SpeedOf, TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{
         CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,

@@ -136,7 +136,7 @@ pub struct Tabulated {
     /// tick's sums and without that of the bases ([`Model::torque`](crate::Model::torque) says what they are).
     pub torque_error: f64,
     /// The same between the places as well (N·m), **estimated, not proven**: an eighth of the largest second difference of the error
-    /// is added, what a parabola through three places rises above them. Only the machine knows its curves between the places,
+    /// is added, what a parabola through three places rises above them. On a host `jred export --prove` proves it. Only the machine knows its curves between the places,
     /// so that a peak narrower than [`spacing`](Self::spacing) may be missed. Of the machine files of the project the search of
     /// the test `hardly_any_place_errs_more_than_the_bound` exceeds it by 0.7 % at most, at corners of the error of tables with an
     /// edge inside, and nowhere without one.

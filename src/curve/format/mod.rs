@@ -138,7 +138,11 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     }
     /// The curves of one cell as polynomials in SI units; `None` of a format without cells.
     #[doc(hidden)]
-    fn cell_curves(_: &Table<'_, Self>, _cell: u32, _cells_per_position: f64) -> Option<CellCurves> {
+    fn cell_curves(
+        _: &Table<'_, Self>,
+        _cell: u32,
+        _cells_per_position: f64,
+    ) -> Option<CellCurves> {
         None
     }
     /// 1/J in machine units.

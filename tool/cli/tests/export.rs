@@ -13,6 +13,7 @@ mod forms;
 mod harmonics;
 mod images;
 mod pieces;
+mod proof;
 // As the command wrote it.
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]

@@ -259,7 +259,8 @@ impl<'m> Closure<'m> {
                 let needed = (*image - Interval::of(*q)).size();
                 *radius = radius.max(1.2 * needed);
             }
-            if radii.iter().any(|radius| !(*radius < 1e6)) {
+            let bounded = |radius: &f64| *radius < 1e6;
+            if !radii.iter().all(bounded) {
                 return None;
             }
         }

@@ -168,12 +168,12 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
     let (form, [low, high]) = if at < 0.0 {
         (Form::constant(0.0), [f64::NEG_INFINITY, 0.0])
     } else if at < ramp {
-        (rise(into, ramp), [0.0, ramp])
+        (rise(&into, ramp), [0.0, ramp])
     } else if at <= end(width) {
         (Form::constant(1.0), [ramp, end(width)])
     } else if at < width {
         (
-            rise(Form::constant(width) - into, ramp),
+            rise(&(Form::constant(width) - into), ramp),
             [end(width), width],
         )
     } else {
@@ -191,7 +191,7 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
 }
 
 /// The 3-4-5 polynomial of a ramp.
-fn rise(into: Form, ramp: f64) -> Form {
+fn rise(into: &Form, ramp: f64) -> Form {
     let x = into.over(&Form::constant(ramp));
     x.polynomial(&[0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
 }

@@ -129,7 +129,8 @@ impl Solver {
             norm = norm.max(in_units(&sizes, row));
         }
         // What is no number is not below.
-        if !(norm < 0.9) {
+        let contracts = norm < 0.9;
+        if !contracts {
             return None;
         }
         let sizes = start.iter().zip(units).map(|(x, unit)| x.size() / unit);

@@ -144,6 +144,11 @@ fn cuts(goal: &Goal<'_>) -> Vec<f64> {
     cuts
 }
 
+/// Whether a bound is not above a limit; what is no number is.
+fn within(bound: f64, limit: f64) -> bool {
+    bound <= limit
+}
+
 struct Search<'s> {
     goal: &'s Goal<'s>,
     curves: &'s dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
@@ -205,7 +210,7 @@ impl Search<'_> {
         let mut parts = Vec::new();
         for (index, cell) in self.cells_of(stretch) {
             let part = self.part(&curves, (index, &cell), stretch, finest);
-            if !sharp && halves && !(part.most <= self.enough()) {
+            if !sharp && halves && !within(part.most, self.enough()) {
                 return self.halve(stretch, middle, depth);
             }
             parts.push(part);
@@ -286,11 +291,11 @@ impl Search<'_> {
             self.found.least = self.found.least.max(bounds.least);
             let centre = a.midpoint(b);
             let fine = depth >= finest || !(a < centre && centre < b);
-            if !fine && !(bounds.most <= self.enough()) {
+            if !fine && !within(bounds.most, self.enough()) {
                 open.extend([([a, centre], depth + 1), ([centre, b], depth + 1)]);
                 continue;
             }
-            if !(bounds.most <= found.most) {
+            if !within(bounds.most, found.most) {
                 (found.most, found.worst) = (bounds.most, middle + centre);
             }
             found.ticked = found.ticked.max((bounds.most + added).next_up());

@@ -69,11 +69,9 @@ impl Series {
     pub fn over(&self, g: &Self) -> Self {
         let mut q = [Interval::ZERO; TERMS];
         for k in 0..TERMS {
-            let mut sum = self.0[k];
-            for j in 0..k {
-                sum = sum - q[j] * g.0[k - j];
-            }
-            q[k] = sum / g.0[0];
+            let known = q.iter().take(k).zip(g.0.iter().take(k + 1).rev());
+            let rest = known.fold(self.0[k], |rest, (q, g)| rest - *q * *g);
+            q[k] = rest / g.0[0];
         }
         Self(q)
     }

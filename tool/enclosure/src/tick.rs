@@ -116,7 +116,7 @@ impl Tick {
         let ops = Roundings(epsilon);
         let coefficients = |p: &[f64; 4], offset: f64| {
             if points {
-                ops.from_points(p, offset)
+                ops.of_points(p, offset)
             } else {
                 p.map(Rounded::exact)
             }
@@ -192,7 +192,7 @@ impl Roundings {
     }
 
     /// The coefficients of a cubic from its control points, whose differences are known from it.
-    fn from_points(&self, [p0, p1, p2, p3]: &[f64; 4], offset: f64) -> [Rounded; 4] {
+    fn of_points(&self, [p0, p1, p2, p3]: &[f64; 4], offset: f64) -> [Rounded; 4] {
         let s0 = p2 / 3.0;
         let [d0, d1] = [(p1 - p2) / 6.0, (p1 + p2) / 6.0];
         let s1 = s0 + p3;

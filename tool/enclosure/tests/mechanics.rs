@@ -81,7 +81,7 @@ pub(crate) fn proof<F: Format>(
         turns: machine.domain() == jred::Domain::Turn,
         omega: range[0],
         alpha: range[1],
-        known: found.torque_error,
+        known: found.torque_error - F::TICK_ROUNDING * f64::from(table.scale().torque()),
         negligible: 1e-12,
     };
     prove(&table, &goal, curves, &mut |_| true)

@@ -92,8 +92,8 @@ fn the_factor_of_a_window_is_the_window() {
         if window.repeats() {
             cuts.extend(window.edges().map(|edge| edge - std::f64::consts::TAU));
         }
-        cuts.extend([0.0, 6.28]);
-        cuts.retain(|cut| (0.0..=6.28).contains(cut));
+        cuts.extend([0.0, 6.25]);
+        cuts.retain(|cut| (0.0..=6.25).contains(cut));
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             for _ in 0..400 {

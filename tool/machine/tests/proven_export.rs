@@ -4,7 +4,7 @@ use jred::image::HEADER_WORDS;
 use jred::table::Format;
 use jred::tabulate::{Request, torque_between};
 use jred::{Cubic, Image, Machine, Phase, Q31, Reducible, Rows16, Spline};
-use jred_machine::export::{Choice, Export, LayoutChoice, Number, Proven, Task};
+use jred_machine::export::{Export, LayoutChoice, Number, Proven, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
 use rand::rngs::ChaCha8Rng;
@@ -92,12 +92,20 @@ fn tick<F: Format>(
     let omega = of::<SpeedOf<F>>(omega / speed);
     let alpha = of::<AccelerationOf<F>>(alpha / acceleration);
     let found = model.torque(phase, omega, alpha);
-    [back(omega) * speed, back(alpha) * acceleration, back(found) * torque]
+    [
+        back(omega) * speed,
+        back(alpha) * acceleration,
+        back(found) * torque,
+    ]
 }
 
 #[test]
 fn no_place_errs_more_than_is_proven() {
-    let kinds: [(Number, LayoutChoice, fn(&Machine<AnyMechanism>, &[u32]) -> [f64; 2]); 3] = [
+    let kinds: [(
+        Number,
+        LayoutChoice,
+        fn(&Machine<AnyMechanism>, &[u32]) -> [f64; 2],
+    ); 3] = [
         (Number::F32, LayoutChoice::Spline, searched::<Spline<f32>>),
         (Number::I32, LayoutChoice::Cubic, searched::<Cubic<Q31>>),
         (Number::I16, LayoutChoice::Rows, searched::<Rows16>),
@@ -106,7 +114,7 @@ fn no_place_errs_more_than_is_proven() {
     for (k, (path, file)) in machines().into_iter().enumerate() {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let (number, layout, searched) = kinds[k % kinds.len()];
-        let Ok(export) = Export::proven(&file, task(number, layout), &mut |_| true) else {
+        let Ok(export) = Export::proven(&file, &task(number, layout), &mut |_| true) else {
             refused.push(name);
             continue;
         };
@@ -122,8 +130,14 @@ fn no_place_errs_more_than_is_proven() {
                 let ticked = proof.ticked.unwrap();
                 println!("{name}: {found:?} {proof:?}");
                 // The tick's arithmetic within the cell is part of what is read.
-                assert!(found[0] <= ticked && found[1] <= ticked, "{name}: {found:?} {proof:?}");
-                assert!(proof.least <= proof.bound && proof.bound <= ticked, "{name}: {proof:?}");
+                assert!(
+                    found[0] <= ticked && found[1] <= ticked,
+                    "{name}: {found:?} {proof:?}"
+                );
+                assert!(
+                    proof.least <= proof.bound && proof.bound <= ticked,
+                    "{name}: {proof:?}"
+                );
                 // Where the error is more than roundings, random places come close to the bound.
                 if found[0] > 4.0 * (ticked - proof.bound) {
                     loosest = loosest.max(proof.bound / found[0]);
@@ -131,7 +145,10 @@ fn no_place_errs_more_than_is_proven() {
                 // The image says what is proven.
                 let image = Image::new(&table.words).unwrap();
                 let stated = f64::from(image.validity().torque_error);
-                assert!(stated >= ticked && stated <= ticked * 1.000_001, "{name}: {stated}");
+                assert!(
+                    stated >= ticked && stated <= ticked * 1.000_001,
+                    "{name}: {stated}"
+                );
                 assert!(table.words.len() > HEADER_WORDS);
                 proven += 1;
             }
@@ -153,7 +170,10 @@ fn with_train(file: &MachineFile) -> Machine<AnyMechanism> {
 #[test]
 fn pieces_and_a_torque_error_are_proven() {
     let all = machines();
-    let (_, file) = all.iter().find(|(path, _)| path.ends_with("press.toml")).unwrap();
+    let (_, file) = all
+        .iter()
+        .find(|(path, _)| path.ends_with("press.toml"))
+        .unwrap();
     let edges: Vec<f64> = (0..).map_while(|k| file.machine.edge(k)).collect();
     for (torque_error, edges) in [(0.5, Vec::new()), (0.05, edges)] {
         let task = Task {
@@ -163,16 +183,23 @@ fn pieces_and_a_torque_error_are_proven() {
             edges,
             ..task(Number::I32, LayoutChoice::Spline)
         };
-        let export = Export::proven(file, task, &mut |_| true).unwrap();
+        let export = Export::proven(file, &task, &mut |_| true).unwrap();
         let Some(Proven::Bounded(proof)) = export.proof() else {
             panic!("{:?}", export.proof());
         };
         let ticked = proof.ticked.unwrap();
         println!("{torque_error}: {proof:?}");
-        assert!(export.excess().is_none() && ticked <= torque_error, "{proof:?}");
+        assert!(
+            export.excess().is_none() && ticked <= torque_error,
+            "{proof:?}"
+        );
         // The smallest table for it: a search that asked for much less would have a larger one.
         assert!(ticked > 0.5 * torque_error, "{proof:?}");
-        let least = export.chosen().tables.iter().map(|table| table.found.torque_error);
+        let least = export
+            .chosen()
+            .tables
+            .iter()
+            .map(|table| table.found.torque_error);
         assert!(least.fold(0.0, f64::max) <= ticked);
     }
 }

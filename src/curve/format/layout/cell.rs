@@ -2,9 +2,9 @@
 
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
+use crate::curve::curves::{self, Set, has};
 use crate::curve::format::bases;
 use crate::curve::{CellCurves, Table};
-use crate::curve::curves::{self, Set, has};
 use crate::number::{Kernel, Ring, Role, Sliding};
 
 /// One cell's words and the place in it.
@@ -200,9 +200,12 @@ pub(super) fn curves<L: Layout>(
             unscaled
         })
     };
-    let constant = |of: Set, role, word, base: f64| match has(set, of) {
-        true => [exact(role, word) * base, 0.0, 0.0, 0.0],
-        false => curve(role, base),
+    let constant = |of: Set, role, word, base: f64| {
+        if has(set, of) {
+            [exact(role, word) * base, 0.0, 0.0, 0.0]
+        } else {
+            curve(role, base)
+        }
     };
     let [torque, speed, inertia_base] = bases(table.scale());
     let inertia = curve(Role::Inertia, inertia_base);

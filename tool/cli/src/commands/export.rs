@@ -110,7 +110,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     };
     let found = if options.prove {
         busy::begin("proving the error of the table");
-        Export::proven(&file, task, &mut |_| true)
+        Export::proven(&file, &task, &mut |_| true)
     } else {
         Export::new(&file, task)
     };

@@ -28,25 +28,25 @@ pub(super) fn add(
     let rates = |on: &Point| point(on, places).map(|c| c.derivative());
     match course {
         Course::Inertia(curve) => {
-            let found = at(curve, phi);
+            let found = at(curve, &phi);
             curves.inertia = curves.inertia + found.value;
             curves.inertia_slope = curves.inertia_slope + found.slope;
         }
         Course::Payload { mass, on, axis } => {
-            let found = at(mass, phi);
+            let found = at(mass, &phi);
             let rate = rates(on)[*axis % 2];
             let square = rate.square();
             curves.inertia = curves.inertia + found.value * square;
             curves.inertia_slope =
                 curves.inertia_slope + found.slope * square + found.value * square.derivative();
         }
-        Course::Torque(curve) => curves.load = curves.load + times(at(curve, phi).value),
-        Course::Potential { torque, .. } => curves.load = curves.load + at(torque, phi).value,
+        Course::Torque(curve) => curves.load = curves.load + times(at(curve, &phi).value),
+        Course::Potential { torque, .. } => curves.load = curves.load + at(torque, &phi).value,
         Course::Opposing(curve) => {
-            curves.coulomb = curves.coulomb + times(at(curve, phi).value.magnitude());
+            curves.coulomb = curves.coulomb + times(at(curve, &phi).value.magnitude());
         }
         Course::Viscous(curve) => {
-            let value = at(curve, phi).value;
+            let value = at(curve, &phi).value;
             // Below zero, by a rounding, it counts as zero.
             let value = if value.values().lo() < 0.0 {
                 Form::somewhere(Interval::between(0.0, value.values().hi().max(0.0)))
@@ -58,11 +58,11 @@ pub(super) fn add(
         Course::Weight { mass, on, gravity } => {
             let [x, y] = rates(on);
             let fall = x * gravity[0] + y * gravity[1];
-            curves.load = curves.load + times(at(mass, phi).value * fall);
+            curves.load = curves.load + times(at(mass, &phi).value * fall);
         }
         Course::Thrust { force, on } => {
             let [x, y] = rates(on);
-            let force = force_at(force, phi, places).magnitude();
+            let force = force_at(force, &phi, places).magnitude();
             curves.coulomb = curves.coulomb + times(force * x.length(&y));
         }
         Course::Force { force, on, along } => {
@@ -72,11 +72,14 @@ pub(super) fn add(
                 Direction::OnLink(vector) => link(on.link, places).vector(*vector),
             };
             let way = e_x * x + e_y * y;
-            curves.load = curves.load + times(force_at(force, phi, places) * way);
+            curves.load = curves.load + times(force_at(force, &phi, places) * way);
         }
-        Course::Moment { moment, link: number } => {
+        Course::Moment {
+            moment,
+            link: number,
+        } => {
             let turn = link(*number, places).psi.derivative();
-            curves.load = curves.load + times(force_at(moment, phi, places) * turn);
+            curves.load = curves.load + times(force_at(moment, &phi, places) * turn);
         }
     }
 }
@@ -90,10 +93,10 @@ fn point(on: &Point, places: &[Place<Form>]) -> [Form; 2] {
 }
 
 /// A force over a position.
-fn force_at(table: &Table, phi: Form, places: &[Place<Form>]) -> Form {
+fn force_at(table: &Table, phi: &Form, places: &[Place<Form>]) -> Form {
     let (curve, over, turns) = table.parts();
     let place = match over {
-        Over::Drive => phi,
+        Over::Drive => *phi,
         Over::Point {
             link: number,
             at,
@@ -102,7 +105,7 @@ fn force_at(table: &Table, phi: Form, places: &[Place<Form>]) -> Form {
         } => link(number, places).point(at)[axis % 2] - Form::constant(zero),
     };
     if !turns {
-        return at(curve, place).value;
+        return at(curve, &place).value;
     }
     // The rows, zero at both ends and beyond, come again with every turn.
     let [from, to] = curve.range();
@@ -114,7 +117,9 @@ fn force_at(table: &Table, phi: Form, places: &[Place<Form>]) -> Form {
         return Form::somewhere(Interval::ALL);
     }
     let rows = curve.pieces_between(curve.range());
-    let rows = rows.iter().filter(|piece| piece.ends.iter().all(|end| end.is_finite()));
+    let rows = rows
+        .iter()
+        .filter(|piece| piece.ends.iter().all(|end| end.is_finite()));
     let gap = Piece {
         ends: [to, from + TAU],
         origin: to,
@@ -131,10 +136,10 @@ fn force_at(table: &Table, phi: Form, places: &[Place<Form>]) -> Form {
     let pieces: Vec<Piece> = shifted
         .filter(|piece| piece.ends[0] <= values.hi() && values.lo() <= piece.ends[1])
         .collect();
-    joined(&pieces, place).value
+    joined(&pieces, &place).value
 }
 
-fn at(curve: &Spline, place: Form) -> Found {
+fn at(curve: &Spline, place: &Form) -> Found {
     let values = place.values();
     let values = [values.lo(), values.hi()];
     if values.iter().any(|end| !end.is_finite()) {
@@ -148,7 +153,7 @@ fn at(curve: &Spline, place: Form) -> Found {
 }
 
 /// The cubic in the middle, and how far the others that the stretch reaches are from it there.
-fn joined(pieces: &[Piece], place: Form) -> Found {
+fn joined(pieces: &[Piece], place: &Form) -> Found {
     let middle = place.at.0[0].middle();
     let values = place.values();
     let away = |piece: &Piece| (piece.ends[0] - middle).max(middle - piece.ends[1]);
@@ -168,7 +173,7 @@ fn joined(pieces: &[Piece], place: Form) -> Found {
         let high = values.hi().min(other.ends[1] + beside);
         if low <= high && other != main {
             let u = Form::variable([low, high]);
-            let [own, its] = [main, other].map(|piece| polynomials(piece, u));
+            let [own, its] = [main, other].map(|piece| polynomials(piece, &u));
             // As series in the middle of where both are looked at.
             let half = 0.5 * (high - low) + beside;
             let size = |a: Form, b: Form| {
@@ -197,8 +202,8 @@ fn joined(pieces: &[Piece], place: Form) -> Found {
     }
 }
 
-fn polynomials(piece: &Piece, place: Form) -> Found {
-    let u = place - Form::constant(piece.origin);
+fn polynomials(piece: &Piece, place: &Form) -> Found {
+    let u = *place - Form::constant(piece.origin);
     let [a, b, c, d] = piece.coefficients;
     Found {
         value: u.polynomial(&[a, b, c, d]),

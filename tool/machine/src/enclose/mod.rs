@@ -109,7 +109,11 @@ impl<'m> Enclosed<'m> {
         };
         let mut curves = Curves::of(&parts, &places, stretch)?;
         for (k, course) in self.courses.iter().enumerate() {
-            let load = self.machine.loads().iter().find(|load| load.link() == own + k);
+            let load = self
+                .machine
+                .loads()
+                .iter()
+                .find(|load| load.link() == own + k);
             let window = load.and_then(Load::window);
             course::add(&mut curves, course, &places, stretch, window.as_ref());
         }

@@ -378,6 +378,11 @@ impl Export {
                     }),
                 );
             }
+            let kind = match self.proof() {
+                Some(Proven::Bounded(_)) => "proven",
+                _ => "estimated",
+            };
+            map.insert("error_between_places".into(), kind.into());
             map.insert("proof".into(), self.proof_json());
             map.insert("alternatives".into(), alternatives.into());
             if let Some(table) = self.whole() {

@@ -129,6 +129,11 @@ impl Export {
     /// # Errors
     /// A machine that cannot be tabulated; no table that meets what is asked for.
     pub fn new(file: &MachineFile, task: Task) -> Result<Self, Failure> {
+        Self::found(file, task, false)
+    }
+
+    /// The same; `provable` leaves out what only `auto` would take and no proof is of.
+    fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
         if let Some(what) = file.scheduled().next() {
             return Err(Failure::Impossible {
                 message: format!(
@@ -181,7 +186,8 @@ impl Export {
         if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
             return Err(why.failure(file));
         }
-        let crank = crank.ok().filter(|_| pieces.is_empty());
+        let left_out = provable && task.layout == LayoutChoice::Auto;
+        let crank = crank.ok().filter(|_| pieces.is_empty() && !left_out);
         let search = Searches::new(&machine, crank, &pieces, goal)?;
         let mut answers = Vec::new();
         for number in Number::ALL {

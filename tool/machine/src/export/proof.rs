@@ -2,7 +2,9 @@
 
 use jred::image::{encode, identify};
 use jred::table::Format;
-use jred::{Cubic, Domain, Error, Image, Q31, Quadratic, Reducible as _, Rows16, Spline, Spline16, Validity};
+use jred::{
+    Cubic, Domain, Error, Image, Q31, Quadratic, Reducible as _, Rows16, Spline, Spline16, Validity,
+};
 use jred_enclosure::{Goal, Proof, Unproven, prove};
 
 use super::candidate::{Answer, Made};
@@ -40,14 +42,14 @@ impl Proven {
 const ATTEMPTS: u32 = 4;
 
 impl Export {
-    /// As [`new`](Self::new), with a proof of the table's error. A table whose proven error is above the one allowed is searched for again, with a
+    /// As [`new`](Self::new), with a proof of the table's error; of a slider-crank in closed form only if it is asked for, because it is not proven. A table whose proven error is above the one allowed is searched for again, with a
     /// smaller one asked for; the last is what there is.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn proven(
         file: &MachineFile,
-        task: Task,
+        task: &Task,
         watch: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, Failure> {
         let allowed = task.torque_error;
@@ -57,7 +59,7 @@ impl Export {
                 torque_error: asked,
                 ..task.clone()
             };
-            let mut export = match (Self::new(file, smaller), last) {
+            let mut export = match (Self::found(file, smaller, true), last) {
                 (Ok(export), _) => export,
                 // Nothing meets the smaller one.
                 (Err(_), Some(last)) => return Ok(last),
@@ -184,7 +186,13 @@ fn of<F: Format>(
     let image = Image::new(&made.words).map_err(ticks::refusal)?;
     let table = image.table::<F>().map_err(ticks::refusal)?;
     let curves = |stretch| enclosed.curves(stretch);
-    Ok(prove(&table, goal, &curves, watch))
+    // Without the rounding of the tick's sums, which is not the table's.
+    let rounding = F::TICK_ROUNDING * f64::from(table.scale().torque());
+    let goal = Goal {
+        known: (goal.known - rounding).max(0.0),
+        ..*goal
+    };
+    Ok(prove(&table, &goal, &curves, watch))
 }
 
 /// Writes the error that is proven into the image.

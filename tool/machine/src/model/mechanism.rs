@@ -5,8 +5,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use jred::machine::PoseError;
-use jred::mechanism::linkage::Pair;
 use jred::machine::{Action, Element, Frames, Jointed, Joints, Load, Mechanism};
+use jred::mechanism::linkage::Pair;
 use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
