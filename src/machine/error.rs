@@ -34,6 +34,11 @@ pub enum PoseError {
         /// Index of the joint at which the branches meet.
         joint: usize,
     },
+    /// The linkage lies flat at a change point: it goes on, but the forces in its joints are not determined there.
+    ChangePoint {
+        /// Position of the drive link (rad, or m for a sliding link).
+        phi: f64,
+    },
     /// The ends of a spring or a damper meet: its direction is not known there.
     EndsMeet {
         /// Position of the drive link (rad, or m for a sliding link).
@@ -72,6 +77,11 @@ impl fmt::Display for PoseError {
                 "the mechanism changes to another branch at {}, where joint {joint} is stretched or folded",
                 Place(phi)
             ),
+            Self::ChangePoint { phi } => write!(
+                f,
+                "the forces in the joints are not determined at {}, a change point, where the linkage lies flat",
+                Place(phi)
+            ),
             Self::EndsMeet { phi } => write!(
                 f,
                 "the ends of a spring or damper meet at {}, where it has no direction",
@@ -102,6 +112,9 @@ impl Curable for PoseError {
             }
             Self::BranchChange { .. } => {
                 "end the drive's stroke before it, or change the lengths"
+            }
+            Self::ChangePoint { .. } => {
+                "look at a position beside it; there what guides the linkage carries the difference"
             }
             Self::EndsMeet { .. } => "move one of them a little aside",
             Self::NoInertia { .. } => "give the drive link or its flywheel an inertia",

@@ -71,12 +71,15 @@ impl<M: Jointed> Machine<M> {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that leave not exactly one freedom, or are at a
-    /// dead point.
+    /// dead point or a [change point](Jointed::determined).
     pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, MachineError> {
         let (omega, alpha) = (finite("speed", omega)?, finite("acceleration", alpha)?);
         let mechanism = self.mechanism();
         let frames = mechanism.frames(phi)?;
         let joints = mechanism.joints(phi, &frames)?;
+        if !mechanism.determined(phi) {
+            return Err(PoseError::ChangePoint { phi }.into());
+        }
         self.forces_in(&frames, &joints, [phi, omega, alpha])
     }
 

@@ -52,6 +52,12 @@ pub trait Jointed: Mechanism {
     fn drive(&self) -> usize {
         0
     }
+
+    /// Whether the joints alone determine the forces in them at `phi` (rad, or m). A linkage that passes a change point lies flat
+    /// there: its motion goes on, but what guides it carries forces as well. True by default.
+    fn determined(&self, _phi: f64) -> bool {
+        true
+    }
 }
 
 impl<M: Jointed + ?Sized> Jointed for &M {
@@ -60,6 +66,9 @@ impl<M: Jointed + ?Sized> Jointed for &M {
     }
     fn drive(&self) -> usize {
         (**self).drive()
+    }
+    fn determined(&self, phi: f64) -> bool {
+        (**self).determined(phi)
     }
 }
 

@@ -49,7 +49,19 @@ pub(super) fn pinned(
     if square.value <= 0.0 || q_square.value <= 0.0 {
         return None;
     }
-    let q = q_square.sqrt() * side.sign();
+    Some(placed(a, c, lengths, q_square.sqrt() * side.sign()))
+}
+
+/// The two links of [`pinned`] where q is known already, of either sign or zero; A and C apart.
+pub(super) fn placed(
+    a: [Transfer; 2],
+    c: [Transfer; 2],
+    [first, second]: [f64; 2],
+    q: Transfer,
+) -> [Frame; 2] {
+    let [x, y] = [c[0] - a[0], c[1] - a[1]];
+    let square = x * x + y * y;
+    let (sum, difference) = (first + second, first - second);
     let along = |p: Transfer, length: f64| {
         let scale = square * length;
         let cos = (p * x - q * y).over(scale);
@@ -60,7 +72,7 @@ pub(super) fn pinned(
     let (sin, cos) = along((excess + square) * 0.5, first);
     let from_a = Frame::moving(a, sin, cos);
     let (sin, cos) = along((excess - square) * 0.5, second);
-    Some([from_a, Frame::moving(c, sin, cos)])
+    [from_a, Frame::moving(c, sin, cos)]
 }
 
 /// A link from the pin B to a slider whose pin runs on the line y = `guide`: frames of the link (at B, towards the

@@ -20,6 +20,17 @@ pub enum Misfit {
         /// The lever turns if the distance is smaller than this (m); never if it is not positive.
         turning: f64,
     },
+    /// A four-bar that is to be kept on its branch, but never lies flat.
+    NeverFlat {
+        /// Sum of the shortest and the longest link (m).
+        ends: f64,
+        /// Sum of the other two (m).
+        others: f64,
+    },
+    /// A four-bar that passes one change point a turn: it comes back after two turns of the crank.
+    TwoTurns,
+    /// A four-bar with crank and coupler, rocker and ground of the same lengths, on the branch on which the rocker stands still.
+    RockerStands,
     /// The centre of mass of the named link is off its axis, and the link does not turn once with the drive link.
     OffAxis {
         /// Which link.
@@ -60,6 +71,19 @@ impl fmt::Display for Misfit {
             Self::ChangePoint { centres, .. } => write!(
                 f,
                 "the slot cannot follow the crank pin through a whole turn: the pivots are {centres} m apart"
+            ),
+            Self::NeverFlat { ends, others } => write!(
+                f,
+                "there is no change point to pass: shortest and longest link together are {ends:.6} m, the other two \
+                 {others:.6} m"
+            ),
+            Self::TwoTurns => f.write_str(
+                "the linkage lies flat once in a turn of the crank and leaves on the other side, so it comes back after two \
+                 turns",
+            ),
+            Self::RockerStands => f.write_str(
+                "the rocker stands still on this side: the rocker pin stays at the crank's pivot, and the coupler lies on \
+                 the crank",
             ),
             Self::OffAxis { link, distance } => write!(
                 f,
@@ -105,6 +129,13 @@ impl Curable for Misfit {
                 }
                 Ok(())
             }
+            Self::NeverFlat { .. } => f.write_str(
+                "keep no branch: this linkage does not leave the one that it is assembled on",
+            ),
+            Self::TwoTurns => {
+                f.write_str("drive it over a stroke, at most of two turns for the whole motion")
+            }
+            Self::RockerStands => f.write_str("take the other side"),
             Self::OffAxis { .. } => f.write_str("balance it: centre of mass [0, 0]"),
             Self::PlanetTeeth { gap, .. } => write!(f, "give the planets {} teeth", gap / 2),
             Self::PlanetSpacing { .. } => f.write_str("change the teeth or the number of planets"),

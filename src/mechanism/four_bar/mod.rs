@@ -11,8 +11,10 @@
 //! The upper sign is [`Side::Left`]: B to the left of the directed line from A to C.
 //!
 //! The crank turns fully if a + d < b + c and |a − d| > |b − c| (see [`Grashof`]). Over a part of the turn it may be driven
-//! as long as it meets no dead point, f = b + c or f = |b − c|, where coupler and rocker are stretched or folded.
+//! as long as it meets no dead point, f = b + c or f = |b − c|, where coupler and rocker are stretched or folded. Where the whole
+//! linkage lies flat there, it is a change point, and a linkage that is guided through it goes on.
 
+mod change_point;
 mod transmission;
 
 use crate::machine::error::PoseError;
@@ -28,6 +30,7 @@ use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
+use change_point::Kept;
 
 /// Distance kept from a dead point, as a share of b + c, so that no position within the range fails by a rounding.
 const HAIR: f64 = 1e-12;
@@ -60,6 +63,8 @@ pub struct FourBar {
     ground: f64,
     side: Side,
     domain: Domain,
+    /// Its branch, if it is kept on one through change points.
+    kept: Option<Kept>,
     /// Added to the angles of coupler and rocker.
     turns: [f64; 2],
     links: [Link; 3],
@@ -121,18 +126,8 @@ impl FourBar {
         if gap >= 0.0 {
             return Err(PoseError::DeadPoint { phi, joint }.into());
         }
-        // The first place from the start on with |AC| equal to one of two lengths.
-        let first = |spans: [f64; 2]| {
-            let places = spans
-                .into_iter()
-                .filter_map(|span| four_bar.crank_angle_of(span));
-            places
-                .flatten()
-                .map(|phi| from + beyond(phi - from))
-                .fold(f64::INFINITY, f64::min)
-        };
-        if first([folded, stretched]) <= to {
-            let phi = first(four_bar.limits());
+        if four_bar.first(&[folded, stretched], from) <= to {
+            let phi = four_bar.first(&four_bar.limits(), from);
             return Err(PoseError::DeadPoint { phi, joint }.into());
         }
         four_bar.with_angles_from(from)
@@ -154,6 +149,7 @@ impl FourBar {
             ground: positive("distance of the pivots", math::sqrt(x * x + y * y))?,
             side,
             domain: Domain::Turn,
+            kept: None,
             turns: [0.0; 2],
             links,
         };
@@ -196,7 +192,8 @@ impl FourBar {
         self.dimensions
     }
 
-    /// On which side of AC the pin B lies.
+    /// On which side of AC the pin B lies; of a linkage that is kept on its branch
+    /// [through change points](Self::through_change_points), while the crank is to the left of OC.
     pub const fn side(&self) -> Side {
         self.side
     }
@@ -227,7 +224,8 @@ impl FourBar {
         Some([beyond(stretched), beyond(folded)])
     }
 
-    /// The crank angles (rad, 0 to 2π) at which the rocker has the angle `psi` (rad): none, one or two.
+    /// The crank angles (rad, 0 to 2π) at which the rocker has the angle `psi` (rad): none, one or two. Of a linkage that comes
+    /// back after two turns, those of its first.
     #[must_use]
     pub fn crank_angles(&self, psi: f64) -> heapless::Vec<f64, 2> {
         let (sin, cos) = math::sin_cos(psi);
@@ -258,9 +256,10 @@ impl FourBar {
                 [b[0] - a[0], b[1] - a[1]],
             );
             let left = to_c[0] * to_b[1] - to_c[1] * to_b[0];
-            if left * self.side.sign() > 0.0 {
+            let phi = beyond(math::atan2(a[1], a[0]));
+            if left * self.side_at(phi) > 0.0 {
                 // Cannot fail: at most two.
-                let _ = found.push(beyond(math::atan2(a[1], a[0])));
+                let _ = found.push(phi);
             }
         }
         found
@@ -287,6 +286,15 @@ impl FourBar {
             self.dimensions.pivot[1] - self.dimensions.crank * sin,
         );
         math::sqrt(x * x + y * y)
+    }
+
+    /// The first crank angle from `from` on at which |AC| has one of some lengths; infinite if there is none.
+    fn first(&self, spans: &[f64], from: f64) -> f64 {
+        let places = spans.iter().filter_map(|span| self.crank_angle_of(*span));
+        places
+            .flatten()
+            .map(|phi| from + beyond(phi - from))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Direction γ of OC.
@@ -324,11 +332,26 @@ impl FourBar {
         let crank = Frame::turning([0.0, 0.0], angle);
         let a = crank.point([self.dimensions.crank, 0.0]);
         let c = self.dimensions.pivot.map(Transfer::constant);
-        let lengths = [self.dimensions.coupler, self.dimensions.rocker];
-        let [coupler, rocker] =
-            dyad::pinned(a, c, lengths, self.side).ok_or(PoseError::DeadPoint { phi, joint: 2 })?;
-        // The direction of AC stays within a quarter turn of OC's (a ≤ d) or of AO's (a > d); coupler and rocker stay on
-        // one side of AC. So their angles follow without a jump.
+        let dead = PoseError::DeadPoint { phi, joint: 2 };
+        let [(coupler, near_coupler), (rocker, near_rocker)] = match &self.kept {
+            Some(kept) => self.along(kept, angle, [a, c]).ok_or(dead)?,
+            None => {
+                let lengths = [self.dimensions.coupler, self.dimensions.rocker];
+                let [coupler, rocker] = dyad::pinned(a, c, lengths, self.side).ok_or(dead)?;
+                // Coupler and rocker stay on one side of AC, so their angles follow without a jump.
+                let (line, quarter) = (self.line(phi, [a, c]), 0.5 * PI * self.side.sign());
+                [(coupler, line + quarter), (rocker, line + PI - quarter)]
+            }
+        };
+        Ok([
+            crank,
+            coupler.unwrapped(near_coupler + self.turns[0]),
+            rocker.unwrapped(near_rocker + self.turns[1]),
+        ])
+    }
+
+    /// Direction of AC without a jump: it stays within a quarter turn of OC's (a ≤ d) or of AO's (a > d).
+    fn line(&self, phi: f64, [a, c]: [[Transfer; 2]; 2]) -> f64 {
         let base = if self.dimensions.crank > self.ground {
             phi + PI
         } else {
@@ -336,13 +359,7 @@ impl FourBar {
         };
         let (sin, cos) = math::sin_cos(base);
         let (x, y) = (c[0].value - a[0].value, c[1].value - a[1].value);
-        let line = base + math::atan2(cos * y - sin * x, cos * x + sin * y);
-        let quarter = 0.5 * PI * self.side.sign();
-        Ok([
-            crank,
-            coupler.unwrapped(line + quarter + self.turns[0]),
-            rocker.unwrapped(line + PI - quarter + self.turns[1]),
-        ])
+        base + math::atan2(cos * y - sin * x, cos * x + sin * y)
     }
 }
 
@@ -372,6 +389,12 @@ impl Jointed for FourBar {
                 Marker::on(Self::ROCKER, origin),
             ),
         ]))
+    }
+
+    /// Not within [`FLAT`](Self::FLAT) of a change point.
+    fn determined(&self, phi: f64) -> bool {
+        self.kept
+            .is_none_or(|kept| !kept.is_flat(phi - self.ground_angle()))
     }
 }
 

@@ -14,7 +14,7 @@ impl FourBar {
     /// cos μ = (b² + c² − f²)/(2·b·c)
     /// ```
     ///
-    /// The rocker is pushed best at 90° and not at all at 0° and 180°. Rule of thumb (H. Alt, 1932): not below 40° and not
+    /// The rocker is pushed best at 90° and not at all at 0° and 180°, as at a change point. Rule of thumb (H. Alt, 1932): not below 40° and not
     /// above 140°.
     ///
     /// # Errors
@@ -23,7 +23,7 @@ impl FourBar {
         let [_, coupler, rocker] = self.place(phi)?;
         let turned = rocker.psi - coupler.psi;
         // From BA to BC as from AB to CB; which way round depends on the side.
-        let angle = turned * self.side.sign();
+        let angle = turned * self.side_at(phi);
         let whole = math::floor(angle.value / TAU) * TAU;
         Ok(angle - Transfer::constant(whole))
     }
@@ -32,7 +32,10 @@ impl FourBar {
     #[must_use]
     pub fn transmission_angle_range(&self) -> [f64; 2] {
         let (b, c) = (self.dimensions.coupler, self.dimensions.rocker);
-        let angle = |span: f64| math::acos((b * b + c * c - span * span) / (2.0 * b * c));
+        // A linkage that flattens does so at cos = ±1, up to rounding.
+        let angle = |span: f64| {
+            math::acos(((b * b + c * c - span * span) / (2.0 * b * c)).clamp(-1.0, 1.0))
+        };
         self.span_range().map(angle)
     }
 

@@ -403,6 +403,9 @@ impl Jointed for AnyMechanism {
     fn drive(&self) -> usize {
         self.inner.drive()
     }
+    fn determined(&self, phi: f64) -> bool {
+        self.inner.determined(phi)
+    }
 }
 
 /// A load with the name that reports use.

@@ -69,4 +69,7 @@ impl Jointed for OnStroke {
     fn drive(&self) -> usize {
         self.inner.drive()
     }
+    fn determined(&self, phi: f64) -> bool {
+        self.inner.determined(phi)
+    }
 }
