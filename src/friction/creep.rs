@@ -72,9 +72,17 @@ impl CreepContact {
     /// (rad/s).
     #[must_use]
     pub fn traction(&self, first: f64, second: f64) -> Traction {
+        let CreepLimit { slip, torque } = self.0;
+        Self::traction_by(first, second, |s| torque * (s / slip).clamp(-1.0, 1.0))
+    }
+
+    /// The same of a contact whose torque L (N·m) is another function of its slip s: a measured curve. To lose power and not to give
+    /// it, L has the sign of s.
+    #[must_use]
+    pub fn traction_by(first: f64, second: f64, torque: impl FnOnce(f64) -> f64) -> Traction {
         let fastest = math::abs(first).max(math::abs(second)).max(Self::SLOW);
         let slip = (first - second) / fastest;
-        let torque = self.0.torque * (slip / self.0.slip).clamp(-1.0, 1.0);
+        let torque = torque(slip);
         Traction {
             torque,
             slip,

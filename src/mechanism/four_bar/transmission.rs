@@ -32,9 +32,16 @@ impl FourBar {
     #[must_use]
     pub fn transmission_angle_range(&self) -> [f64; 2] {
         let (b, c) = (self.dimensions.coupler, self.dimensions.rocker);
-        // A linkage that flattens does so at cos = ±1, up to rounding.
+        let [folded, stretched] = self.reach();
+        // At a dead point, where only a linkage lies that goes through it, the arc cosine would make a rounding its root.
         let angle = |span: f64| {
-            math::acos(((b * b + c * c - span * span) / (2.0 * b * c)).clamp(-1.0, 1.0))
+            if span <= folded {
+                0.0
+            } else if span >= stretched {
+                PI
+            } else {
+                math::acos((b * b + c * c - span * span) / (2.0 * b * c))
+            }
         };
         self.span_range().map(angle)
     }

@@ -27,6 +27,7 @@ fn a_drive_is_found() {
         "geneva.toml",
         "hoist.toml",
         "indexing-cam.toml",
+        "parallel-lift.toml",
         "parallel-shafts.toml",
         "planetary.toml",
         "rack.toml",

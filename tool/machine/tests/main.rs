@@ -7,6 +7,7 @@ mod cross_check;
 mod duty;
 mod duty_meter;
 mod every_machine;
+mod formula;
 mod import;
 mod largest;
 mod linkage_file;

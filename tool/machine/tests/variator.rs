@@ -7,7 +7,7 @@ use crate::simulate::{imbalance, run, simulate};
 use crate::support::machines::SHAFTS;
 use crate::support::{budget, edited, near, near_column, within};
 use jred::machine::Mechanism as _;
-use jred_machine::model::variator::integrability_text;
+use jred_machine::model::variator::{Adhesion, integrability_text};
 
 const PRESS: &str = include_str!("../../../machines/variator-press.toml");
 const FAN: &str = include_str!("../../../machines/friction-fan.toml");
@@ -91,6 +91,93 @@ fn a_ratio_through_points_keeps_the_energy() {
         points,
         &["together with a `ratio` over time"],
     );
+}
+
+/// The text of SHAFTS without its shifts, its ratio by a formula.
+fn by_formula(formula: &str) -> String {
+    let (head, rest) = SHAFTS.split_once("[[variator.shift]]").unwrap();
+    let (_, simulation) = rest.split_once("[simulation]").unwrap();
+    let text = format!("{head}[simulation]{simulation}");
+    edited(&text, "ratio = 0.5", &format!("ratio = \"{formula}\""))
+}
+
+/// A ratio by a formula of the time: a free run keeps ω·√J.
+#[test]
+fn a_ratio_by_a_formula_keeps_the_energy() {
+    let found = simulate(&by_formula("0.8 + 0.3*sin(2*pi*t - 0.4)^2"));
+    let [input, output, t, ratio] =
+        ["input omega [rad/s]", "omega [rad/s]", "t [s]", "ratio"].map(|name| found.get(name));
+    let expected = |t: f64| 0.8 + 0.3 * (std::f64::consts::TAU * t - 0.4).sin().powi(2);
+    let kept = |j: f64| (INPUT + j * j * OUTPUT).sqrt();
+    let first = 10.0 * std::f64::consts::PI / expected(0.0) * kept(expected(0.0));
+    for k in 0..ratio.len() {
+        near("i", ratio[k], expected(t[k]), budget::RATIO);
+        near("j", output[k], ratio[k] * input[k], budget::SWING);
+        near("ω√J", input[k] * kept(ratio[k]), first, budget::SWING);
+    }
+    assert!(imbalance(&found) <= budget::BALANCE);
+}
+
+/// A ratio that depends on the input shaft's angle alone is a relation between the angles: α₂ = ∫ i dα₁.
+#[test]
+fn a_ratio_over_the_angle_is_holonomic() {
+    let text = by_formula("1 + 0.3*cos(phi)");
+    let found = simulate(&text);
+    let [input, output, turned] =
+        ["input phi [deg]", "phi [deg]", "input omega [rad/s]"].map(|name| found.get(name));
+    let kept = |phi: f64| (INPUT + (1.0 + 0.3 * phi.cos()).powi(2) * OUTPUT).sqrt();
+    let first = 10.0 * std::f64::consts::PI / 1.3 * kept(0.0);
+    for k in 0..input.len() {
+        let phi = input[k].to_radians();
+        let expected = (phi + 0.3 * phi.sin()).to_degrees();
+        within("α₂", output[k] - output[0], expected, 1e-6);
+        near("ω√J", turned[k] * kept(phi), first, budget::SWING);
+    }
+    let file = parse(&text).unwrap();
+    let words = integrability_text(&file).unwrap();
+    assert!(words.contains("holonomic: α_b - ∫ j(α_a)"), "{words}");
+}
+
+/// Points on a straight line are that line; the curve passes its points in both directions, and slides beyond the last.
+#[test]
+fn creep_follows_a_measured_curve() {
+    let short = edited(PRESS, "duration = \"5 s\"", "duration = \"1.2 s\"");
+    let line = simulate(&short);
+    let curve =
+        "creep = { curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"30 N m\"], [\"3 %\", \"45 N m\"]] }";
+    let drawn = simulate(&edited(
+        &short,
+        "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+        curve,
+    ));
+    for name in [
+        "phi [deg]",
+        "omega [rad/s]",
+        "slip [%]",
+        "contact torque [N m]",
+        "losses [J]",
+    ] {
+        let (a, b) = (line.get(name), drawn.get(name));
+        near_column(name, &b, &a, 1e-8);
+    }
+    let points = ([0.005, 0.015, 0.03], [12.0, 30.0, 36.0]);
+    let contact = Adhesion::through(&points.0, &points.1).unwrap();
+    for (slip, torque) in points.0.into_iter().zip(points.1).chain([(0.2, 36.0)]) {
+        let [forward, backward] = [
+            contact.traction(100.0, 100.0 * (1.0 - slip)),
+            contact.traction(100.0 * (1.0 - slip), 100.0),
+        ];
+        near("L", forward.torque, torque, 1e-12);
+        near("-L", backward.torque, -torque, 1e-12);
+        near("loss", forward.loss, torque * 100.0 * slip, 1e-12);
+    }
+    // It never carries less for more slip.
+    let mut before = 0.0;
+    for k in 0..=1000 {
+        let now = contact.traction(100.0, 100.0 - 0.004 * f64::from(k)).torque;
+        assert!(now >= before, "{now} after {before}");
+        before = now;
+    }
 }
 
 #[test]

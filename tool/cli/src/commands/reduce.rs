@@ -7,6 +7,7 @@ use crate::commands::{Done, print_parts, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
+use jred_machine::analysis::inspect;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::model::machine::MachineFile;
@@ -84,7 +85,9 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
             "warning: {NOT_CONTAINED}{missing}: use --over time"
         ));
     }
-    let passed = !(moves && columns.has_empty_cells());
+    // The forces in the joints are missing at a change point too; time, position and speed are not.
+    let cells = if sets.reactions { 3 } else { usize::MAX };
+    let passed = !(moves && columns.has_empty_cells(cells));
     let title = reduce_title(&file, sets, (passed, at.is_some()), &missing);
     match options.format {
         Format::Table => {
@@ -135,6 +138,12 @@ fn reduce_title(
     if sets.reactions {
         title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
                   drive train turn with the drive link";
+    }
+    if sets.reactions
+        && let Some(guided) = inspect::change_points(file.machine.mechanism())
+    {
+        title += "\n";
+        title += &guided;
     }
     if !passed {
         title += if single {

@@ -215,6 +215,7 @@ fn check() {
         "four-bar.toml",
         "linkage-press.toml",
         "variator-press.toml",
+        "parallel-lift.toml",
         "drawing-press.toml",
         "flying-shear.toml",
     ];

@@ -7,6 +7,7 @@
 //! near a dead point, and the check fails.
 
 use jred::machine::{Body, Frame, Frames, Joint, Jointed as _, Joints, Mechanism as _};
+use jred::mechanism::FourBar;
 use jred::mechanism::cam::lift_off;
 use jred::{Domain, Error};
 use serde::Serialize;
@@ -153,6 +154,7 @@ impl Findings {
                         .iter()
                         .map(|words| format!("warning: {words}")),
                 )
+                .chain(change_points(mechanism))
                 .chain(file.scheduled())
                 .collect(),
         })
@@ -229,6 +231,22 @@ impl Findings {
     pub fn holds(&self) -> bool {
         self.violations().is_empty()
     }
+}
+
+/// What a linkage that passes change points takes for granted.
+pub fn change_points(mechanism: &AnyMechanism) -> Option<String> {
+    let places: Vec<String> = (mechanism.change_points().iter())
+        .map(|phi| mechanism.coordinate().place(*phi))
+        .collect();
+    (!places.is_empty()).then(|| {
+        format!(
+            "the linkage lies flat at {} and is taken to be guided there, so that it stays on its branch (a second crank, teeth, \
+             another coupler); the forces in its joints are those without the guide: they grow towards these positions, and within \
+             {} deg of them they are not determined",
+            places.join(" and "),
+            short(FourBar::FLAT.to_degrees())
+        )
+    })
 }
 
 /// Properties of this kind of mechanism, and the speeds at which its followers lift off.
@@ -344,6 +362,10 @@ fn transmission(file: &MachineFile) -> Result<Option<Transmission>, Error> {
     const STEPS: usize = 1440;
     const SAMPLES: usize = 24;
     let mechanism = file.machine.mechanism();
+    if !mechanism.change_points().is_empty() {
+        // It passes its dead points, guided.
+        return Ok(None);
+    }
     let drive = mechanism.drive();
     let start = mechanism.domain().position(0.0);
     let joints = mechanism.joints(start, &mechanism.frames(start)?)?;

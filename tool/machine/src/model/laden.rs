@@ -63,9 +63,16 @@ pub fn laden<'a>(
 
 /// A mechanism some of whose links carry something.
 #[derive(Clone, Debug)]
-struct Laden {
+pub(crate) struct Laden {
     inner: AnyMechanism,
     links: Vec<Link>,
+}
+
+impl Laden {
+    /// The mechanism without the masses.
+    pub(crate) const fn inner(&self) -> &AnyMechanism {
+        &self.inner
+    }
 }
 
 impl Mechanism for Laden {
@@ -89,5 +96,8 @@ impl Jointed for Laden {
     }
     fn drive(&self) -> usize {
         self.inner.drive()
+    }
+    fn determined(&self, phi: f64) -> bool {
+        self.inner.determined(phi)
     }
 }

@@ -10,6 +10,7 @@ use jred::mechanism::linkage::Pair;
 use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
+use crate::model::laden::Laden;
 use crate::model::on_stroke::OnStroke;
 use crate::model::tabulated::{Course, StandIn, Tabulated};
 
@@ -76,6 +77,8 @@ pub struct AnyMechanism {
     facts: Vec<Fact>,
     /// The pairs of a linkage: how each of its joints closes.
     pairs: Vec<Pair>,
+    /// Positions at which a linkage lies flat, and passes on its branch.
+    change_points: Vec<f64>,
 }
 
 impl AnyMechanism {
@@ -108,6 +111,7 @@ impl AnyMechanism {
             open_ended: None,
             facts: Vec::new(),
             pairs: Vec::new(),
+            change_points: Vec::new(),
         }
     }
 
@@ -134,6 +138,8 @@ impl AnyMechanism {
                 inner = tabulated.inner();
             } else if let Some(part) = any.downcast_ref::<OnStroke>() {
                 inner = part.inner();
+            } else if let Some(laden) = any.downcast_ref::<Laden>() {
+                inner = laden.inner().inner.as_ref();
             } else {
                 return (inner, courses);
             }
@@ -309,6 +315,18 @@ impl AnyMechanism {
         let (label, text) = (label.into(), text.into());
         self.facts.push(Fact { label, text });
         self
+    }
+
+    /// With the positions (rad) at which the linkage lies flat, and passes on its branch.
+    #[must_use]
+    pub fn with_change_points(mut self, positions: &[f64]) -> Self {
+        self.change_points = positions.to_vec();
+        self
+    }
+
+    /// The positions (rad) at which the linkage lies flat, and passes on its branch: the forces in its joints are not determined there.
+    pub fn change_points(&self) -> &[f64] {
+        &self.change_points
     }
 
     /// The mechanism's own springs.

@@ -7,12 +7,13 @@
 use jred::Error;
 use jred::friction::{
     Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, OperatingPoint, Ramp, RampShape,
-    Stage, Variable,
+    Stage, Traction, Variable,
 };
 use jred::machine::motion::Law;
 use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
+use crate::number::formula::Formula;
 use crate::number::spline::{Fault, Spline, Way};
 
 /// A variator as the machine file gives it.
@@ -27,7 +28,7 @@ pub struct Variator {
 }
 
 /// Slip of the contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Slip {
     /// None, or a constant one.
     Constant {
@@ -39,16 +40,62 @@ pub enum Slip {
         contact: Contact,
     },
     /// Slip that grows with the load, up to the limit of friction.
-    Creep(CreepContact),
+    Creep(Adhesion),
 }
 
-/// A ratio i = ω₂/ω₁ that is shifted in time: by shifts one after another, or by a curve through points.
+/// Torque of the contact over its slip, up to the limit of friction.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Adhesion {
+    /// In proportion, and then sliding.
+    Line(CreepContact),
+    /// A curve through points, the same in both directions; beyond the last it slides.
+    Curve(Spline),
+}
+
+impl Adhesion {
+    /// A curve through slips and their torques (N·m), both rising from zero.
+    ///
+    /// # Errors
+    /// Fewer than three points, or slips that do not rise.
+    pub fn through(slips: &[f64], torques: &[f64]) -> Result<Self, Fault> {
+        let both = |values: &[f64]| {
+            let backward = values.iter().rev().map(|value| -value);
+            let forward = values.iter().copied();
+            // Not zero itself, where a curve of this kind would be level: the piece between is odd, and so passes it.
+            backward.chain(forward).collect::<Vec<f64>>()
+        };
+        let spline = Spline::bounded(&both(slips), &both(torques), Way::Monotone)?;
+        Ok(Self::Curve(spline))
+    }
+
+    /// What the contact does at the speeds of its two surfaces, as angular speeds of the output shaft (rad/s).
+    pub fn traction(&self, first: f64, second: f64) -> Traction {
+        match self {
+            Self::Line(contact) => contact.traction(first, second),
+            Self::Curve(curve) => {
+                CreepContact::traction_by(first, second, |slip| curve.at(slip)[0])
+            }
+        }
+    }
+}
+
+/// A ratio i = ω₂/ω₁ that varies: by shifts one after another, by a curve through points in time, or by a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ratio {
     start: f64,
     shifts: Vec<Shift>,
-    curve: Option<Curve>,
+    whole: Option<Whole>,
 }
+
+/// A course that is given as a whole.
+#[derive(Clone, Debug, PartialEq)]
+enum Whole {
+    Curve(Curve),
+    Formula(Formula),
+}
+
+/// The variables of a formula: the time (s) and the angle of the input shaft (rad).
+pub const VARIABLES: [&str; 2] = ["t", "phi"];
 
 /// A curve through points, level at both ends and constant beyond them.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +118,7 @@ impl Ratio {
         Self {
             start,
             shifts: Vec::new(),
-            curve: None,
+            whole: None,
         }
     }
 
@@ -84,13 +131,23 @@ impl Ratio {
         let spline = Spline::bounded(times, ratios, Way::Level)?;
         let (least, at) = spline.least();
         let ratio = Self {
-            curve: Some(Curve {
+            whole: Some(Whole::Curve(Curve {
                 times: times.to_vec(),
                 spline,
-            }),
+            })),
             ..Self::new(ratios.first().copied().unwrap_or(1.0))
         };
         Ok((ratio, [at, least]))
+    }
+
+    /// A ratio by a formula of [`VARIABLES`].
+    pub fn by(formula: Formula) -> Self {
+        let start = OperatingPoint::at_time(0.0);
+        let ratio = Self::new(formula.at(&[start.t, start.phi]).value);
+        Self {
+            whole: Some(Whole::Formula(formula)),
+            ..ratio
+        }
     }
 
     /// The ratio after the last shift.
@@ -102,8 +159,7 @@ impl Ratio {
     /// When the last shift, or the curve, ends (s).
     pub fn end(&self) -> f64 {
         let shifted = self.shifts.last().map(|shift| shift.to);
-        let curve = self.curve.as_ref();
-        let drawn = curve.and_then(|curve| curve.times.last().copied());
+        let drawn = self.times().last().copied();
         shifted.or(drawn).unwrap_or(f64::NEG_INFINITY)
     }
 
@@ -131,22 +187,43 @@ impl Ratio {
 
     /// The times at which a shift begins or ends, and those of the points of a curve (s), where a derivative of the motion jumps.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
-        let points = self.curve.iter().flat_map(|curve| &curve.times);
+        let points = self.times().iter();
         let shifts = self.shifts.iter().flat_map(|s| [s.from, s.to]);
         shifts.chain(points.copied())
     }
 
-    /// Whether it stays the same.
-    pub const fn is_constant(&self) -> bool {
-        self.shifts.is_empty() && self.curve.is_none()
+    /// The times of the points of a curve.
+    fn times(&self) -> &[f64] {
+        match &self.whole {
+            Some(Whole::Curve(curve)) => &curve.times,
+            _ => &[],
+        }
+    }
+
+    /// Whether it changes with time.
+    pub fn is_shifted(&self) -> bool {
+        match &self.whole {
+            Some(Whole::Formula(formula)) => formula.contains(0),
+            Some(Whole::Curve(_)) => true,
+            None => !self.shifts.is_empty(),
+        }
+    }
+
+    /// Whether it changes with the angle of the input shaft.
+    pub fn is_turned(&self) -> bool {
+        matches!(&self.whole, Some(Whole::Formula(formula)) if formula.contains(1))
     }
 }
 
 impl Course for Ratio {
     fn at(&self, at: OperatingPoint) -> Dual<3> {
-        if let Some(curve) = &self.curve {
-            let [ratio, slope, ..] = curve.spline.at(at.t.value);
-            return at.t.through(ratio, slope);
+        match &self.whole {
+            Some(Whole::Curve(curve)) => {
+                let [ratio, slope, ..] = curve.spline.at(at.t.value);
+                return at.t.through(ratio, slope);
+            }
+            Some(Whole::Formula(formula)) => return formula.at(&[at.t, at.phi]),
+            None => {}
         }
         let begun = self.shifts.partition_point(|s| s.from <= at.t.value);
         let current = begun.checked_sub(1).and_then(|k| self.shifts.get(k));
@@ -210,7 +287,12 @@ pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
     let Some(variator) = &file.variator else {
         return Ok(());
     };
-    let (why, help) = if variator.ratio.is_constant() {
+    let (why, help) = if !variator.ratio.is_shifted() && variator.ratio.is_turned() {
+        (
+            "its ratio changes with the angle of the input shaft, by which no table of the drive link is made",
+            "use `jred simulate` to integrate the motion; for the machine behind the variator alone, remove [variator]",
+        )
+    } else if !variator.ratio.is_shifted() {
         (
             "a variator can only be simulated, with or without slip",
             "write a constant ratio as a stage: a belt with its efficiency under [[drive_train]], without [variator]",

@@ -135,9 +135,10 @@ impl Columns {
         heads.filter(move |(_, head)| head.quantity == quantity)
     }
 
-    /// Whether a value is missing anywhere.
-    pub fn has_empty_cells(&self) -> bool {
-        self.rows.iter().flatten().any(Option::is_none)
+    /// Whether a value is missing anywhere in the first columns, so many.
+    pub fn has_empty_cells(&self, columns: usize) -> bool {
+        let first = |row: &Vec<Option<f64>>| row.iter().take(columns).any(Option::is_none);
+        self.rows.iter().any(first)
     }
 
     /// The rows.

@@ -3,6 +3,7 @@
 pub mod columns;
 pub mod csv;
 pub mod figures;
+pub mod formula;
 pub mod numerics;
 pub mod parabola;
 pub mod rounding;

@@ -1,9 +1,10 @@
 //! `[variator]`: a friction variator between the motor and the drive train.
 
-use jred::friction::{Contact, CreepContact, CreepLimit, Flow};
+use jred::friction::{Contact, Course as _, CreepContact, CreepLimit, Flow, OperatingPoint};
 use jred::machine::motion::Law;
 
-use crate::model::variator::{Ratio, Slip, Variator};
+use crate::model::variator::{Adhesion, Ratio, Slip, VARIABLES, Variator};
+use crate::number::formula::Formula;
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
@@ -49,9 +50,11 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
         "power_flow",
         "shift",
     ]);
-    let list = section.peek("ratio").filter(Item::is_list);
-    let mut ratio = match &list {
-        Some(list) => points(list)?,
+    let given = section.peek("ratio");
+    let whole = given.filter(|item| item.is_list() || item.is_text());
+    let mut ratio = match &whole {
+        Some(list) if list.is_list() => points(list)?,
+        Some(text) => formula(text, root)?,
         None => Ratio::new(ratio(&section)?),
     };
     let input = section.quantity("input_inertia", &INERTIA)?.positive()?;
@@ -61,12 +64,12 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
     let slip = slip(&section)?;
     if let Some(item) = section.get("shift") {
         let shifts = item.sections("[[variator.shift]]")?;
-        if let Some(list) = &list {
+        if let Some(whole) = &whole {
             return Err(item
                 .problem("is given together with a `ratio` over time", "shifts")
-                .at(list.key_span(), "a curve")
+                .at(whole.key_span(), "its whole course")
                 .help(
-                    "give one ratio and its shifts, or the whole course of the ratio as a list",
+                    "give one ratio and its shifts, or the whole course of the ratio as a list or as a formula",
                 ));
         }
         if shifts.len() > MAX_SHIFTS {
@@ -95,6 +98,65 @@ fn ratio(section: &Section) -> Result<f64> {
             "ratio = 0.5, the output speed over the input speed",
         )?
         .number(RATIOS, "0.5")
+}
+
+/// Times of a simulation at which a formula is tried.
+const TRIED: u32 = 4000;
+
+/// `ratio = "0.8 + 0.3*sin(2*pi*t)"`: a formula of the time (s) and of the angle of the input shaft (rad).
+fn formula(item: &Item, root: &Section) -> Result<Ratio> {
+    let text = item.text("0.8 + 0.3*sin(2*pi*t)")?;
+    let formula = Formula::parse(text, &VARIABLES).map_err(|fault| {
+        let shown = text.get(fault.place).unwrap_or_default();
+        let label = if shown.is_empty() {
+            "this formula".to_owned()
+        } else {
+            format!("at \"{shown}\"")
+        };
+        item.problem(&format!("is no formula: {}", fault.what), &label).help(
+            "write a ratio as a number, ratio = 0.5, or as a formula of the time t (s) and the angle phi (rad) of the input shaft: \
+             ratio = \"0.8 + 0.3*sin(2*pi*t)\"",
+        )
+    })?;
+    // Until the end of the simulation; over the angle, over one turn from the start. Beyond, the simulation looks itself.
+    let simulation = root.peek("simulation").filter(Item::is_table);
+    let duration = match simulation {
+        Some(item) => match item.section("[simulation]".into())?.peek("duration") {
+            Some(duration) => duration.quantity(&TIME)?.si,
+            None => 0.0,
+        },
+        None => 0.0,
+    };
+    let ratio = Ratio::by(formula);
+    for k in 0..=TRIED {
+        let share = f64::from(k) / f64::from(TRIED);
+        let (t, phi) = (
+            share * duration,
+            (share * 64.0).fract() * std::f64::consts::TAU,
+        );
+        let found = ratio.at(OperatingPoint::at_time(t).with_angle(phi));
+        let value = found.value;
+        if !found.is_finite() || !(RATIOS[0]..=RATIOS[1]).contains(&value) {
+            let mut at = format!("t = {} s", figure(t));
+            if ratio.is_turned() {
+                at += &format!(", phi = {} rad", figure(phi));
+            }
+            let what = if value.is_finite() && found.is_finite() {
+                format!(
+                    "is {} at {at}, but must be between {} and {}",
+                    figure(value),
+                    RATIOS[0],
+                    RATIOS[1]
+                )
+            } else {
+                format!("has no finite value or slope at {at}")
+            };
+            return Err(item.problem(&what, "this formula").help(
+                "the output speed over the input speed is positive at every instant of the simulation: check the signs, and what is divided by",
+            ));
+        }
+    }
+    Ok(ratio)
 }
 
 /// `ratio = [["0 s", 0.5], …]`: a curve through points in time.
@@ -207,7 +269,19 @@ pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
 
 fn creep(item: &Item) -> Result<Slip> {
     let section = item.section("`creep` of [variator]".into())?;
-    section.expects(&["slip", "torque"]);
+    section.expects(&["slip", "torque", "curve"]);
+    if let Some(curve) = section.get("curve") {
+        for key in ["slip", "torque"] {
+            if let Some(other) = section.peek(key) {
+                return Err(curve
+                    .problem(&format!("is given together with `{key}`"), "the whole curve")
+                    .at(other.key_span(), "a point of a straight line")
+                    .help("keep the curve, whose last point is where the contact begins to slide, or slip and torque of that point alone"));
+            }
+        }
+        section.finish()?;
+        return adhesion(&curve).map(Slip::Creep);
+    }
     let slip = section.quantity("slip", &SHARE)?;
     slip.check_positive()?;
     if slip.si >= 1.0 {
@@ -222,12 +296,48 @@ fn creep(item: &Item) -> Result<Slip> {
         slip: slip.si,
         torque,
     })
-    .map(Slip::Creep)
+    .map(|contact| Slip::Creep(Adhesion::Line(contact)))
     .map_err(|error| {
         section
             .problem(error.to_string(), "in this table")
             .help(error.cure().to_string())
     })
+}
+
+/// `curve = [["0.5 %", "12 N m"], …]`: slip over the torque of the contact.
+fn adhesion(list: &Item) -> Result<Adhesion> {
+    const EXAMPLE: &str =
+        "[[\"0.5 %\", \"12 N m\"], [\"1.5 %\", \"30 N m\"], [\"3 %\", \"36 N m\"]]";
+    let (mut slips, mut torques): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    for point in list.list("point", EXAMPLE)? {
+        let [slip, torque] = point.pair([&SHARE, &TORQUE])?;
+        for (value, before) in [(&slip, slips.last()), (&torque, torques.last())] {
+            value.check_positive()?;
+            if before.is_some_and(|before| value.si <= *before) {
+                let what = format!("is {}, not more than the one before", value.shown());
+                return Err(value
+                    .problem(&what, "does not increase")
+                    .help("a contact that carries more slips more: give the points by rising slip and torque, without [0, 0]; beyond the last point it slides"));
+            }
+        }
+        if slip.si >= 1.0 {
+            let what = format!("is {}, but must be below 100 %", slip.shown());
+            return Err(slip
+                .problem(&what, "nothing is coupled")
+                .help(format!("write curve = {EXAMPLE}")));
+        }
+        slips.push(slip.si);
+        torques.push(torque.si);
+    }
+    let count = slips.len();
+    if !(3..=MAX_SHIFTS).contains(&count) {
+        let what = format!("has {count} points, but needs 3 to {MAX_SHIFTS}");
+        return Err(list.problem(&what, "points").help(
+            "from the point alone where it begins to slide: creep = { slip = \"3 %\", torque = \"45 N m\" }, with slip in proportion to the torque",
+        ));
+    }
+    Adhesion::through(&slips, &torques)
+        .map_err(|fault| list.problem(&format!("is no curve: {fault}"), "these points"))
 }
 
 /// One shift after the others.

@@ -243,6 +243,11 @@ impl<'a> Item<'a> {
             .help(format!("{near}possible: {}", quoted(words))))
     }
 
+    /// Whether the value is a text.
+    pub(crate) fn is_text(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::String(_))
+    }
+
     /// Whether the value is a list.
     pub(crate) fn is_list(&self) -> bool {
         matches!(self.value.get_ref(), DeValue::Array(_))

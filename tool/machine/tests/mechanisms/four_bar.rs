@@ -100,6 +100,50 @@ fn a_swinging_crank_is_driven_over_a_stroke() {
     );
 }
 
+/// The trough translates on a circle: J = 2·(J₁ + m₁·r₁²) + m₂·a² + flywheel at every position, and its weight and those of the cranks'
+/// counterweights are what the drive holds, m·g·r·cos φ.
+#[test]
+fn a_parallelogram_is_kept_on_its_branch() {
+    let file = machine("parallel-lift.toml");
+    let own = 2.0 * (18e-4 + 2.2 * 0.02 * 0.02) + 24.0 * 0.06 * 0.06 + 0.02;
+    let held = 9.81 * (24.0 * 0.06 - 2.0 * 2.2 * 0.02);
+    for degrees in [0.0f64, 1e-9, 0.03, 57.0, 180.0, 275.0] {
+        let phi = degrees.to_radians();
+        let point = file.machine.bare_reduction(phi).unwrap();
+        close(point.inertia, own);
+        close(point.inertia_slope, 0.0);
+        close(point.potential_slope, held * phi.cos());
+    }
+    assert_eq!(file.machine.mechanism().change_points().len(), 2);
+    let text = include_str!("../../../../machines/parallel-lift.toml").to_owned();
+    refuses_edit(
+        &text,
+        "keep_branch = true ",
+        "keep_branch = false",
+        &[
+            "the crank cannot turn fully",
+            "flattens",
+            "write keep_branch = true",
+        ],
+    );
+    refuses_edit(
+        &text,
+        "[\"900 mm\", \"0 mm\"]",
+        "[\"890 mm\", \"0 mm\"]",
+        &[
+            "there is no change point to pass",
+            "0.960000 m, the other two 0.950000 m",
+            "nothing to keep",
+        ],
+    );
+    refuses_edit(
+        &text,
+        "keep_branch = true ",
+        "keep_branch = \"yes\" ",
+        &["`keep_branch`", "true or false"],
+    );
+}
+
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);

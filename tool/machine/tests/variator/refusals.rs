@@ -4,6 +4,97 @@ use super::{FAN, PRESS, SHAFTS, refuses};
 use crate::support::edited;
 
 #[test]
+fn wrong_formulas_are_refused_with_their_place() {
+    let edits: [(&str, &[&str]); 9] = [
+        (
+            "0.5 + 0.2*tim",
+            &["\"tim\" is not known here", "t, phi, pi", "sin, cos"],
+        ),
+        (
+            "0.5 + ",
+            &["it ends where a number, a name or ( is expected"],
+        ),
+        ("0.5 * (1 + t", &["this bracket is not closed", "at \"(\""]),
+        ("2 t", &["\"t\" is not expected here", "such as *"]),
+        (
+            "sin t",
+            &["the function sin needs its argument in brackets: sin(…)"],
+        ),
+        (
+            "0.5 + 1e-9/(t - 2.5)",
+            &["has no finite value or slope at t = 2.5 s", "divided by"],
+        ),
+        (
+            "1 - t",
+            &["is 0 at t = 1 s, but must be between 0.001 and 1000"],
+        ),
+        ("1 - 1.2*cos(phi)", &["is -0.2 at t = 0 s, phi = 0 rad"]),
+        ("1.2.3", &["\"1.2.3\" is no number"]),
+    ];
+    let (head, rest) = PRESS.split_once("[[variator.shift]]").unwrap();
+    let (_, tail) = rest.split_once("# From the variator").unwrap();
+    let base = format!("{head}# From the variator{tail}");
+    for (formula, words) in edits {
+        refuses(
+            &base,
+            "ratio = 0.35",
+            &format!("ratio = \"{formula}\""),
+            words,
+        );
+    }
+    refuses(
+        PRESS,
+        "ratio = 0.35",
+        "ratio = \"0.35 + 0*t\"",
+        &["together with a `ratio` over time"],
+    );
+    let long = format!("ratio = \"0.5{}\"", " + 0".repeat(300));
+    refuses(
+        &base,
+        "ratio = 0.35",
+        &long,
+        &["longer than 1000 characters"],
+    );
+    let deep = format!("ratio = \"{}1{}\"", "(".repeat(200), ")".repeat(200));
+    refuses(
+        &base,
+        "ratio = 0.35",
+        &deep,
+        &["nested deeper than 64 times"],
+    );
+}
+
+#[test]
+fn wrong_creep_curves_are_refused() {
+    let creep = "creep = { slip = \"3 %\", torque = \"45 N m\" }";
+    let edits: [(&str, &[&str]); 5] = [
+        (
+            "curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"14 N m\"]]",
+            &["is 14 N m, not more than the one before", "slips more"],
+        ),
+        (
+            "curve = [[\"0 %\", \"0 N m\"], [\"2 %\", \"14 N m\"]]",
+            &["greater than zero"],
+        ),
+        (
+            "curve = [[\"1 %\", \"15 N m\"]]",
+            &["has 1 points, but needs 3 to 1000"],
+        ),
+        (
+            "curve = [[\"1 %\", \"15 N m\"], [\"100 %\", \"20 N m\"]]",
+            &["must be below 100 %"],
+        ),
+        (
+            "slip = \"3 %\", curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"20 N m\"]]",
+            &["is given together with `slip`"],
+        ),
+    ];
+    for (curve, words) in edits {
+        refuses(PRESS, creep, &format!("creep = {{ {curve} }}"), words);
+    }
+}
+
+#[test]
 fn wrong_variators_are_refused_with_their_cure() {
     let edits: [(&str, &str, &[&str]); 12] = [
         (

@@ -1,6 +1,6 @@
 //! Independent checks: d'Alembert's principle against the reduced equation, work against energy.
 
-use jred::machine::Mechanism as _;
+use jred::machine::{Jointed as _, Mechanism as _};
 use jred::{Error, Machine, Reducible as _};
 use serde::Serialize;
 
@@ -87,6 +87,9 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
     for (now, [phi, omega, alpha]) in states {
         let machine = machines.at(&now);
+        if !machine.mechanism().determined(phi) {
+            continue;
+        }
         let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
         let found = machine.forces(phi, omega, alpha)?.drive;
         worst = worst.max((found - terms.total()).abs());
@@ -160,8 +163,17 @@ impl<'m> Part<'m> {
     /// Power of the drive.
     fn drive(&self, t: f64) -> Result<f64, Error> {
         let state = self.motion.at(t);
-        let forces = self.machine.forces(state.phi, state.omega, state.alpha)?;
-        Ok(forces.drive * state.omega)
+        let (phi, omega, alpha) = (state.phi, state.omega, state.alpha);
+        // At a change point there is one way only.
+        let drive = if self.machine.mechanism().determined(phi) {
+            self.machine.forces(phi, omega, alpha)?.drive
+        } else {
+            self.machine
+                .bare_reduction(phi)?
+                .torque(omega, alpha)
+                .total()
+        };
+        Ok(drive * omega)
     }
 
     /// What loads and losses leave of it.

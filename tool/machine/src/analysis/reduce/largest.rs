@@ -5,7 +5,7 @@ use jred::machine::motion::State;
 use jred::{Domain, Error, Reducible as _};
 use serde::{Serialize, Serializer};
 
-use super::reactions::Reactions;
+use super::reactions::{self, Reactions};
 use super::{Over, Pass, Place, Request, Set as _, Source};
 use crate::analysis::duty::{INSIDE, smooth_stretches};
 use crate::model::machine::MachineFile;
@@ -75,8 +75,13 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
     let heads = search.reactions.heads(&source);
     // Magnitudes and moments; the components say no more.
     let judged = [Quantity::DriveEffort, Quantity::Force, Quantity::Moment];
-    let judged = heads.iter().map(|head| judged.contains(&head.quantity));
-    let judged: Vec<bool> = judged.collect();
+    // Towards a change point the forces in the joints grow without bound; those of the drive and the shaking force, which come first
+    // and last, do not.
+    let guided = !source.machine.mechanism().change_points().is_empty();
+    let joints = 1..heads.len().saturating_sub(reactions::LOADS.len());
+    let judged: Vec<bool> = (heads.iter().enumerate())
+        .map(|(k, head)| judged.contains(&head.quantity) && !(guided && joints.contains(&k)))
+        .collect();
     let mut most: Vec<Option<(f64, usize, usize)>> = vec![None; heads.len()];
     let mut scale = 0.0f64;
     for (number, stretch) in stretches.iter().enumerate() {

@@ -11,7 +11,7 @@ use super::{Place, Set, Source};
 use crate::number::columns::{Column, Quantity};
 
 /// Symbols and units of the columns of a joint.
-const LOADS: [(Quantity, &str, &str); 4] = [
+pub(super) const LOADS: [(Quantity, &str, &str); 4] = [
     (Quantity::Other, "F_x", "N"),
     (Quantity::Other, "F_y", "N"),
     (Quantity::Force, "F", "N"),
@@ -81,6 +81,15 @@ impl Set for Reactions {
             return Ok(vec![None; self.heads(source).len()]);
         };
         let machine = source.machines.at(&place.now);
+        if !machine.mechanism().determined(place.phi) {
+            // At a change point the drive's effort is that of the reduced link, and no joint's force is known.
+            let mut values = vec![None; self.heads(source).len()];
+            let terms = (machine.bare_reduction(place.phi)?).torque(state.omega, state.alpha);
+            if let Some(drive) = values.first_mut() {
+                *drive = Some(terms.total());
+            }
+            return Ok(values);
+        }
         let forces = machine.forces(place.phi, state.omega, state.alpha)?;
         let mut values = vec![forces.drive];
         for (k, reaction) in forces.reactions.iter().enumerate().take(self.carries.len()) {

@@ -112,8 +112,8 @@ impl<'a> Plant<'a> {
         let n = self.file.drive_train.ratio();
         let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
         let (i, j) = (ratios.geometric.value, ratios.speed.value);
-        // The ratio depends on time alone.
-        let rate = ratios.speed.slope[0];
+        let [by_time, by_angle, _] = ratios.speed.slope;
+        let rate = by_time + by_angle * y[1];
         let second = if self.creeps() { y[3] } else { j * y[1] };
         let omega = second / n;
         let point = self.file.machine.bare_reduction(y[2])?;
@@ -146,7 +146,7 @@ impl<'a> Plant<'a> {
             potential: point.potential_energy,
             ..Instant::default()
         };
-        if let Slip::Creep(contact) = self.variator.slip {
+        if let Slip::Creep(contact) = &self.variator.slip {
             let traction = contact.traction(i * y[1], second);
             let alpha = newton(|alpha| {
                 let [torque, slope, _] = behind.torque(alpha);

@@ -113,6 +113,9 @@ impl Jointed for Tabulated {
     fn drive(&self) -> usize {
         self.inner.drive()
     }
+    fn determined(&self, phi: f64) -> bool {
+        self.inner.determined(phi)
+    }
 }
 
 /// A single drive link, on its bearing or guide.

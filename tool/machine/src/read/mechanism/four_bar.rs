@@ -1,5 +1,6 @@
 //! `type = "four-bar"`.
 
+use jred::Domain;
 use jred::machine::PoseError;
 use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, Side};
 use jred::number::RangeError;
@@ -16,7 +17,15 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;
     let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
     let side = side(section.get("side"))?;
-    let stroke = section.get("stroke");
+    let keep = section.get("keep_branch");
+    let kept = keep.as_ref().map_or(Ok(false), Item::flag)?;
+    let stroke = match section.get("stroke") {
+        Some(item) => {
+            let range = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
+            Some((item, range))
+        }
+        None => None,
+    };
     let parts = ["crank", "coupler", "rocker"];
     let [crank, coupler, rocker] = [
         section.section(parts[0])?,
@@ -31,25 +40,36 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         pivot,
     };
     let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
-    let mechanism = match &stroke {
-        None => FourBar::new(dimensions, side, links)
-            .map_err(|error| blocked(section, &length, &length, error))?,
-        Some(item) => {
-            let [from, to] = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
-            FourBar::over_stroke(dimensions, side, [from, to], links)
-                .map_err(|error| stopped(section, item, error))?
+    let built = match (&stroke, kept) {
+        (None, false) => FourBar::new(dimensions, side, links),
+        (Some((_, range)), false) => FourBar::over_stroke(dimensions, side, *range, links),
+        (stroke, true) => {
+            let stroke = stroke.as_ref().map(|(_, [from, to])| (*from, *to));
+            let domain = stroke.map_or(Domain::Turn, |(from, to)| Domain::Stroke { from, to });
+            FourBar::through_change_points(dimensions, side, domain, links)
         }
     };
+    let mechanism = built.map_err(|error| match (&keep, &stroke, error) {
+        (Some(keep), _, BuildError::Misfit(misfit)) => {
+            Problem::new(format!("{}: {misfit}", section.title()))
+                .at(keep.span(), "nothing to keep like this")
+                .help(misfit.cure().to_string())
+        }
+        (_, Some((item, _)), _) => stopped(section, item, error),
+        (_, None, _) => blocked(section, &length, &length, error),
+    })?;
     let joints = ["crank pivot", "crank pin", "rocker pin", "rocker pivot"];
     let [least, most] = mechanism.transmission_angle_range().map(f64::to_degrees);
     let angles = format!("{} to {} deg", short(least), short(most));
     let grashof = grashof(mechanism.grashof());
+    let change_points = mechanism.change_points();
     Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
         .with_point("A", FourBar::CRANK, [dimensions.crank, 0.0])
         .with_point("B", FourBar::ROCKER, [dimensions.rocker, 0.0])
         .with_point("C", FourBar::ROCKER, [0.0, 0.0])
         .with_fact("Grashof's type", grashof)
-        .with_fact("transmission angle over the crank's range", angles))
+        .with_fact("transmission angle over the crank's range", angles)
+        .with_change_points(&change_points))
 }
 
 fn grashof(kind: Grashof) -> &'static str {
@@ -93,9 +113,15 @@ pub(super) fn blocked(
         Blocked::TooShort { .. } => (last, "too short"),
         _ => (crank, "this crank"),
     };
+    let guided = match blocked {
+        Blocked::FourBar { lengths, .. } if Grashof::of(lengths) == Grashof::ChangePoint => {
+            "; if something guides it through the flat position, write keep_branch = true"
+        }
+        _ => "",
+    };
     Problem::new(format!("{}: {blocked}", section.title()))
         .at(place.span(), label)
-        .help(blocked.cure().to_string())
+        .help(format!("{}{guided}", blocked.cure()))
 }
 
 /// A stroke that the linkage cannot follow.

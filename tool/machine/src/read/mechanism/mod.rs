@@ -96,7 +96,15 @@ const TYPES: [(&str, &[&str], Reader); 23] = [
     ),
     (
         FOUR_BAR,
-        &["pivot", "side", "stroke", "crank", "coupler", "rocker"],
+        &[
+            "pivot",
+            "side",
+            "keep_branch",
+            "stroke",
+            "crank",
+            "coupler",
+            "rocker",
+        ],
         four_bar::read,
     ),
     (

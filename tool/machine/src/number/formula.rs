@@ -1,0 +1,324 @@
+//! Formulas of a few variables, with their derivatives.
+//!
+//! ```text
+//! sum      = product { ("+" | "-") product }
+//! product  = sign { ("*" | "/") sign }
+//! sign     = { "+" | "-" } power
+//! power    = atom [ "^" sign ]                 -2^2 = -4, 2^3^2 = 2^9
+//! atom     = number | name | function "(" sum ")" | "(" sum ")"
+//! ```
+//!
+//! Evaluated in dual numbers, so that the slopes are exact. Written here and not taken from a library: those that know derivatives bring an engine
+//! for regular expressions with them, ten times the size of this file's code, and say less of where a mistake is.
+
+use std::ops::Range;
+
+use jred::friction::Dual;
+
+/// Deepest nesting.
+const DEPTH: usize = 64;
+
+/// Longest text (bytes).
+const LONGEST: usize = 1000;
+
+/// Functions of one argument: value and derivative. Angles are in radians.
+const FUNCTIONS: [(&str, fn(f64) -> [f64; 2]); 8] = [
+    ("sin", |x| [x.sin(), x.cos()]),
+    ("cos", |x| [x.cos(), -x.sin()]),
+    ("tan", |x| [x.tan(), 1.0 + x.tan() * x.tan()]),
+    ("atan", |x| [x.atan(), 1.0 / (1.0 + x * x)]),
+    ("tanh", |x| [x.tanh(), 1.0 - x.tanh() * x.tanh()]),
+    ("exp", |x| [x.exp(), x.exp()]),
+    ("ln", |x| [x.ln(), 1.0 / x]),
+    ("sqrt", |x| [x.sqrt(), 0.5 / x.sqrt()]),
+];
+
+/// Where in the text a formula cannot be read, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Bytes of the text.
+    pub place: Range<usize>,
+    /// What is wrong there.
+    pub what: String,
+}
+
+/// A formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    root: Node,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Number(f64),
+    Variable(usize),
+    Call(usize, Box<Node>),
+    Negative(Box<Node>),
+    Pair(Operation, Box<[Node; 2]>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Operation {
+    Plus,
+    Minus,
+    Times,
+    Over,
+    Power,
+}
+
+impl Formula {
+    /// The formula of a `text` in these variables.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, Fault> {
+        if text.len() > LONGEST {
+            return Err(Fault {
+                place: 0..0,
+                what: format!("it is longer than {LONGEST} characters"),
+            });
+        }
+        let mut reader = Reader {
+            text,
+            at: 0,
+            depth: 0,
+            variables,
+        };
+        let root = reader.sum()?;
+        match reader.next() {
+            None => Ok(Self { root }),
+            Some((place, found)) => Err(Fault {
+                place,
+                what: format!(
+                    "\"{found}\" is not expected here: write an operator such as * before it"
+                ),
+            }),
+        }
+    }
+
+    /// Its value, with derivatives by what the `variables` depend on.
+    pub fn at<const N: usize>(&self, variables: &[Dual<N>]) -> Dual<N> {
+        value(&self.root, variables)
+    }
+
+    /// Whether it contains the variable of this number.
+    pub fn contains(&self, variable: usize) -> bool {
+        contains(&self.root, variable)
+    }
+}
+
+fn contains(node: &Node, variable: usize) -> bool {
+    match node {
+        Node::Number(_) => false,
+        Node::Variable(k) => *k == variable,
+        Node::Call(_, inner) | Node::Negative(inner) => contains(inner, variable),
+        Node::Pair(_, pair) => pair.iter().any(|node| contains(node, variable)),
+    }
+}
+
+fn value<const N: usize>(node: &Node, variables: &[Dual<N>]) -> Dual<N> {
+    match node {
+        Node::Number(number) => Dual::constant(*number),
+        Node::Variable(k) => variables
+            .get(*k)
+            .copied()
+            .unwrap_or(Dual::constant(f64::NAN)),
+        Node::Negative(inner) => -value(inner, variables),
+        Node::Call(function, inner) => {
+            let inner = value(inner, variables);
+            let [at, slope] = FUNCTIONS[*function].1(inner.value);
+            inner.through(at, slope)
+        }
+        Node::Pair(operation, pair) => {
+            let [a, b] = [&pair[0], &pair[1]].map(|node| value(node, variables));
+            match operation {
+                Operation::Plus => a + b,
+                Operation::Minus => a - b,
+                Operation::Times => a * b,
+                Operation::Over => a / b,
+                Operation::Power => power(a, b),
+            }
+        }
+    }
+}
+
+/// aᵇ; a constant exponent asks for no logarithm, so that a may be negative or zero.
+fn power<const N: usize>(a: Dual<N>, b: Dual<N>) -> Dual<N> {
+    let at = a.value.powf(b.value);
+    let mut slope = if b.value == 0.0 {
+        Dual::constant(1.0)
+    } else {
+        a.through(at, b.value * a.value.powf(b.value - 1.0))
+    };
+    if b.slope.iter().any(|by| *by != 0.0) {
+        let by_exponent = b.through(0.0, at * a.value.ln());
+        for (sum, more) in slope.slope.iter_mut().zip(by_exponent.slope) {
+            *sum += more;
+        }
+    }
+    slope
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+    depth: usize,
+    variables: &'t [&'t str],
+}
+
+impl<'t> Reader<'t> {
+    /// The next word, number or sign with its place, if there is one.
+    fn next(&mut self) -> Option<(Range<usize>, &'t str)> {
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+        let rest = &self.text[self.at..];
+        let first = rest.chars().next()?;
+        let length = if first.is_ascii_digit() || first == '.' {
+            number_length(rest)
+        } else if first.is_alphabetic() {
+            let end = |c: char| !(c.is_alphanumeric() || c == '_');
+            rest.find(end).unwrap_or(rest.len())
+        } else {
+            first.len_utf8()
+        };
+        Some((self.at..self.at + length, &rest[..length]))
+    }
+
+    /// Takes the next sign, if it is one of these.
+    fn take(&mut self, signs: &[&str]) -> Option<usize> {
+        let (place, found) = self.next()?;
+        let which = signs.iter().position(|sign| *sign == found)?;
+        self.at = place.end;
+        Some(which)
+    }
+
+    fn fault<T>(&self, place: Range<usize>, what: impl Into<String>) -> Result<T, Fault> {
+        let what = what.into();
+        Err(Fault { place, what })
+    }
+
+    fn sum(&mut self) -> Result<Node, Fault> {
+        let mut node = self.product()?;
+        while let Some(which) = self.take(&["+", "-", "−"]) {
+            let operation = [Operation::Plus, Operation::Minus, Operation::Minus][which];
+            node = Node::Pair(operation, Box::new([node, self.product()?]));
+        }
+        Ok(node)
+    }
+
+    fn product(&mut self) -> Result<Node, Fault> {
+        let mut node = self.sign()?;
+        while let Some(which) = self.take(&["*", "·", "/"]) {
+            let operation = [Operation::Times, Operation::Times, Operation::Over][which];
+            node = Node::Pair(operation, Box::new([node, self.sign()?]));
+        }
+        Ok(node)
+    }
+
+    fn sign(&mut self) -> Result<Node, Fault> {
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return self.fault(
+                self.at..self.at,
+                format!("it is nested deeper than {DEPTH} times"),
+            );
+        }
+        let node = match self.take(&["-", "−", "+"]) {
+            Some(2) => self.sign()?,
+            Some(_) => Node::Negative(Box::new(self.sign()?)),
+            None => self.power()?,
+        };
+        self.depth -= 1;
+        Ok(node)
+    }
+
+    fn power(&mut self) -> Result<Node, Fault> {
+        let base = self.atom()?;
+        if self.take(&["^"]).is_none() {
+            return Ok(base);
+        }
+        let exponent = self.sign()?;
+        Ok(Node::Pair(Operation::Power, Box::new([base, exponent])))
+    }
+
+    fn atom(&mut self) -> Result<Node, Fault> {
+        let Some((place, found)) = self.next() else {
+            let end = self.text.len();
+            return self.fault(end..end, "it ends where a number, a name or ( is expected");
+        };
+        self.at = place.end;
+        let first = found.chars().next().unwrap_or(' ');
+        if found == "(" {
+            let inner = self.sum()?;
+            return self.closed(inner, place);
+        }
+        if first.is_ascii_digit() || first == '.' {
+            return match found.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(Node::Number(number)),
+                _ => self.fault(place, format!("\"{found}\" is no number")),
+            };
+        }
+        if !first.is_alphabetic() {
+            return self.fault(
+                place,
+                format!("\"{found}\" stands where a number, a name or ( is expected"),
+            );
+        }
+        if found == "pi" || found == "π" {
+            return Ok(Node::Number(std::f64::consts::PI));
+        }
+        if let Some(variable) = self.variables.iter().position(|name| *name == found) {
+            return Ok(Node::Variable(variable));
+        }
+        if let Some(function) = FUNCTIONS.iter().position(|(name, _)| *name == found) {
+            let Some((bracket, "(")) = self.next() else {
+                return self.fault(
+                    place,
+                    format!("the function {found} needs its argument in brackets: {found}(…)"),
+                );
+            };
+            self.at = bracket.end;
+            let inner = self.sum()?;
+            let inner = self.closed(inner, bracket)?;
+            return Ok(Node::Call(function, Box::new(inner)));
+        }
+        let functions: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
+        self.fault(
+            place,
+            format!(
+                "\"{found}\" is not known here: there are {}, pi and the functions {}",
+                self.variables.join(", "),
+                functions.join(", ")
+            ),
+        )
+    }
+
+    /// What stands in brackets that were opened at `open`.
+    fn closed(&mut self, inner: Node, open: Range<usize>) -> Result<Node, Fault> {
+        match self.take(&[")"]) {
+            Some(_) => Ok(inner),
+            None => self.fault(open, "this bracket is not closed"),
+        }
+    }
+}
+
+/// Bytes of the number at the beginning of the text.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| {
+        let part = &bytes[from.min(bytes.len())..];
+        from + part
+            .iter()
+            .take_while(|b| b.is_ascii_digit() || **b == b'.')
+            .count()
+    };
+    let end = digits(0);
+    if !matches!(bytes.get(end), Some(b'e' | b'E')) {
+        return end;
+    }
+    let signed = end + 1 + usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+    match digits(signed) {
+        last if last > signed => last,
+        _ => end,
+    }
+}
