@@ -10,6 +10,7 @@ use crate::output;
 use crate::output::print_parts;
 use jred::Reducible as _;
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -42,6 +43,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "fastest")?;
+    drive_train::refuse(&file, "fastest")?;
     file.refuse_scheduled("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;

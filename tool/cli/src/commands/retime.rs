@@ -8,6 +8,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::{Done, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, Retime};
 use crate::output;
+use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
@@ -30,6 +31,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "retime")?;
+    drive_train::refuse(&file, "retime")?;
     file.refuse_scheduled("retime")?;
     let motion = file.required_motion()?;
     let catalogue = match &options.drive {

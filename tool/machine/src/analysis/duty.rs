@@ -2,11 +2,12 @@
 
 use jred::machine::TorqueTerms;
 use jred::machine::motion::State;
-use jred::mechanism::{Train, TrainOutput};
+use jred::mechanism::TrainOutput;
 use jred::{Error, Reducible as _, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
+use crate::model::drive_train::DriveTrain;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
@@ -225,7 +226,7 @@ impl Instant {
     }
 
     /// The same with a drive train that is about to move in this direction, which decides on the side of its losses.
-    fn towards(mut self, train: &Train, direction: f64) -> Self {
+    fn towards(mut self, train: &DriveTrain, direction: f64) -> Self {
         self.direction = direction;
         let input = train.input(&TrainOutput {
             torque: self.terms.total(),

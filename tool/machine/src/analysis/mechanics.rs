@@ -83,8 +83,9 @@ impl Mechanics {
             let torque = terms.potential + terms.viscous + terms.coulomb;
             let resisting = torque * instant.omega.signum() / ratio;
             let [most, driving] = &mut constant;
-            *most = most.max(resisting / efficiency);
-            *driving = driving.max(-resisting * efficiency);
+            let beside = file.drive_train.beside(instant.omega);
+            *most = most.max(resisting / efficiency + beside);
+            *driving = driving.max(-resisting * efficiency - beside);
         }
         Self {
             moves: self.moves,

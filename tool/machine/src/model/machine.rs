@@ -1,9 +1,9 @@
 //! A machine as described by a machine file, checked and in SI units.
 
 use jred::machine::{Element, Mechanism as _};
-use jred::mechanism::Train;
 use jred::{Error, Machine, Reduction};
 
+use crate::model::drive_train::DriveTrain;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
@@ -33,7 +33,7 @@ pub struct MachineFile {
     /// The springs and dampers, in the order of the machine's.
     pub elements: Vec<NamedElement>,
     /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; empty if there is none.
-    pub drive_train: Train,
+    pub drive_train: DriveTrain,
     /// Friction variator between the motor and the drive train, if there is one.
     pub variator: Option<Variator>,
     /// The prescribed motion, if the file has one.

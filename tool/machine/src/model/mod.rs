@@ -2,6 +2,7 @@
 
 pub mod characteristic;
 pub mod coordinate;
+pub mod drive_train;
 pub mod laden;
 pub mod machine;
 pub mod mechanism;

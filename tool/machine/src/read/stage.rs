@@ -109,6 +109,52 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
     .map_err(|error| core(section, error))
 }
 
+/// The stage of a table with `type = "friction"`: a friction wheel, a V-belt, a disc, whose slip loses speed and so power. The torques are
+/// in the ratio of the radii, so that the efficiency is 1 − ε.
+pub(super) fn friction(section: &Section) -> Result<Placed> {
+    let item = section.require(
+        "ratio",
+        "ratio = 0.5, the output speed over the input speed without slip",
+    )?;
+    let ratio = item.number([-1e3, 1e3], "0.5")?;
+    if ratio.abs() < 1e-3 {
+        return Err(item
+            .problem(&format!("is {ratio}, too close to zero"), "nothing turns")
+            .help(
+                "write the output speed over the input speed; negative if the direction reverses",
+            ));
+    }
+    let slip = match section.get("slip") {
+        Some(item) => super::variator::share(&item)?,
+        None => 0.0,
+    };
+    let input = section
+        .quantity("input_inertia", &INERTIA)?
+        .not_negative()?;
+    let output = section
+        .quantity("output_inertia", &INERTIA)?
+        .not_negative()?;
+    Stage::new(1.0 / (ratio * (1.0 - slip)), [input, output])
+        .and_then(|stage| stage.with_efficiency(1.0 - slip))
+        .map(|stage| Placed {
+            stage,
+            place: section.header(),
+        })
+        .map_err(|error| core(section, error))
+}
+
+/// The same stages with an inertia (kg·m²) more behind the last.
+pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Placed>> {
+    if let Some(last) = stages.last_mut() {
+        let [driver, driven] = last.stage.inertias();
+        let efficiency = last.stage.efficiency();
+        last.stage = Stage::new(last.stage.ratio(), [driver, driven + inertia])
+            .and_then(|stage| stage.with_efficiency(efficiency))
+            .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))?;
+    }
+    Ok(stages)
+}
+
 /// The stage of a table with `type = "ball-screw"`: 2π/lead radians of the screw for each metre of the nut.
 pub(super) fn screw(section: &Section) -> Result<Placed> {
     let lead = section.quantity("lead", &LENGTH)?.positive()?;

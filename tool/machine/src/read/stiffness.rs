@@ -1,8 +1,7 @@
 //! `[stiffness]`: stiffness of the shafts between gearbox and machine, and backlash of the drive train.
 
-use jred::mechanism::Train;
-
 use super::drive_link::DriveLink;
+use crate::model::drive_train::DriveTrain;
 use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -21,7 +20,7 @@ pub(super) struct Stiffness {
 }
 
 /// The section, if the file has it.
-pub(super) fn read(root: &Section, drive: DriveLink, train: &Train) -> Result<Stiffness> {
+pub(super) fn read(root: &Section, drive: DriveLink, train: &DriveTrain) -> Result<Stiffness> {
     let Some(item) = root.get("stiffness") else {
         return Ok(Stiffness::default());
     };

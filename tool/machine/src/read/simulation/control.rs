@@ -1,8 +1,7 @@
 //! `[simulation.control]`, `[simulation.stop]` and `[simulation.end_stops]`.
 
-use jred::mechanism::Train;
-
 use crate::model::characteristic::Characteristic;
+use crate::model::drive_train::DriveTrain;
 use crate::model::motion::Motion;
 use crate::model::simulation::{Control, EndStops, FeedForward, Halt, Shaft};
 
@@ -23,7 +22,7 @@ const MOST_RESTITUTION: f64 = 0.99;
 #[derive(Clone, Copy)]
 pub(in crate::read) struct Around<'a> {
     pub(in crate::read) drive: DriveLink,
-    pub(in crate::read) drive_train: &'a Train,
+    pub(in crate::read) drive_train: &'a DriveTrain,
     pub(in crate::read) motion: Option<&'a Motion>,
     pub(in crate::read) variator: bool,
 }

@@ -1,0 +1,183 @@
+//! The drive train: stages in a chain from the motor to the drive link, and branches beside it.
+//!
+//! A branch is a shaft that one of the train's shafts drives over stages of its own, as a friction disc drives several rollers or a line
+//! shaft its pumps: a fan. Each has its own direction of power: while the machine brakes, the inertia of a branch may feed back through its
+//! stages though the machine takes power, and its losses change sides with it. With the torque M of the branch's own friction at its end
+//!
+//! ```text
+//! T_k = T_(chain behind k) + Σ T_branch       T_branch = (J·α_b + M·sgn ω_b + b·ω_b) through its stages, by its own flow of power
+//! ```
+
+use jred::Error;
+use jred::mechanism::{Stage, Train, TrainInput, TrainOutput};
+use miette::{Report, miette};
+
+use crate::model::machine::MachineFile;
+
+/// Refuses a machine whose drive train has branches for a command that looks for the bends of the torque in the chain alone.
+///
+/// # Errors
+/// The drive train has branches.
+pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
+    let Some(branch) = file.drive_train.branches().first() else {
+        return Ok(());
+    };
+    Err(miette!(
+        help = "for this command refer the branches to the drive link: their inertia as `flywheel`, their friction as a [[load]] on it",
+        "`jred {command}` cannot be used with branches of the drive train: {} has losses of its own, which change sides at its own instants",
+        branch.name
+    ))
+}
+
+/// A shaft beside the chain, and what it drives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Name in reports.
+    pub name: String,
+    /// The shaft of the chain that drives it: 0 is the input, then one behind each stage.
+    pub shaft: usize,
+    /// Its stages, seen from that shaft, with the inertia of what it drives.
+    pub train: Train,
+    /// Friction of what it drives (N·m), against its rotation.
+    pub opposing: f64,
+    /// The same in proportion to its speed (N·m·s/rad).
+    pub viscous: f64,
+}
+
+impl Branch {
+    /// What the chain's shaft must give it.
+    fn input(&self, shaft: &TrainOutput) -> TrainInput {
+        let ratio = self.train.ratio();
+        let [omega, alpha, direction] =
+            [shaft.omega, shaft.alpha, shaft.direction].map(|of| of / ratio);
+        let sense = if direction == 0.0 {
+            0.0
+        } else {
+            direction.signum()
+        };
+        let torque = self.opposing * sense + self.viscous * omega;
+        let mut input = self.train.input(&TrainOutput {
+            torque,
+            torque_per_alpha: 0.0,
+            omega,
+            alpha,
+            direction,
+        });
+        // By the acceleration of the chain's shaft.
+        input.torque_per_alpha /= ratio;
+        input.loss += torque * omega;
+        input
+    }
+
+    /// Inertia at the chain's shaft (kg·m²).
+    fn inertia(&self) -> f64 {
+        self.train.inertia_at_input()
+    }
+}
+
+/// The fixed stages between the motor and the drive link, with what is driven beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveTrain {
+    chain: Train,
+    /// Each stage of the chain alone.
+    steps: Vec<Train>,
+    branches: Vec<Branch>,
+}
+
+impl DriveTrain {
+    /// A chain with its branches.
+    ///
+    /// # Errors
+    /// None for a chain that was built without error.
+    pub fn new(chain: Train, branches: Vec<Branch>) -> Result<Self, Error> {
+        let steps = chain
+            .stages()
+            .iter()
+            .map(|stage| Ok(Train::new(&[*stage])?));
+        Ok(Self {
+            steps: steps.collect::<Result<_, Error>>()?,
+            chain,
+            branches,
+        })
+    }
+
+    /// The stages of the chain, in order from the motor.
+    pub fn stages(&self) -> &[Stage] {
+        self.chain.stages()
+    }
+
+    /// The branches.
+    pub fn branches(&self) -> &[Branch] {
+        &self.branches
+    }
+
+    /// Signed ratio of the chain, ω_input/ω_output.
+    pub fn ratio(&self) -> f64 {
+        self.chain.ratio()
+    }
+
+    /// Efficiency of the chain.
+    pub fn efficiency(&self) -> f64 {
+        self.chain.efficiency()
+    }
+
+    /// Inertia of all shafts, those of the branches included, at the input shaft (kg·m²).
+    pub fn inertia_at_input(&self) -> f64 {
+        let beside = self.branches.iter().map(|branch| {
+            let before = self.stages().iter().take(branch.shaft);
+            let ratio: f64 = before.map(Stage::ratio).product();
+            branch.inertia() / (ratio * ratio)
+        });
+        self.chain.inertia_at_input() + beside.sum::<f64>()
+    }
+
+    /// The torque at the input that the branches ask for at a constant speed of the drive link (N·m), in the direction of motion.
+    pub fn beside(&self, omega: f64) -> f64 {
+        let input = self.input(&TrainOutput {
+            omega,
+            direction: omega,
+            ..TrainOutput::default()
+        });
+        input.torque.abs()
+    }
+
+    /// What the input shaft must give so that the output shaft delivers its torque in its motion: shaft by shaft, each stage
+    /// of the chain and of a branch by its own direction of power ([`Train::input`]). The losses contain the friction of the branches.
+    pub fn input(&self, output: &TrainOutput) -> TrainInput {
+        if self.branches.is_empty() {
+            return self.chain.input(output);
+        }
+        let mut input = TrainInput::default();
+        let mut shaft = *output;
+        // Per acceleration of the present shaft, which turns `ratio` times as fast as the output.
+        let mut ratio = 1.0;
+        for k in (0..=self.steps.len()).rev() {
+            for branch in self.branches.iter().filter(|branch| branch.shaft == k) {
+                let own = branch.input(&shaft);
+                shaft.torque += own.torque;
+                shaft.torque_per_alpha += own.torque_per_alpha;
+                input.loss += own.loss;
+            }
+            let Some((step, stage)) = k
+                .checked_sub(1)
+                .and_then(|k| Some((self.steps.get(k)?, self.stages().get(k)?)))
+            else {
+                break;
+            };
+            let before = step.input(&shaft);
+            input.loss += before.loss;
+            let i = stage.ratio();
+            ratio *= i;
+            shaft = TrainOutput {
+                torque: before.torque,
+                torque_per_alpha: before.torque_per_alpha / i,
+                omega: shaft.omega * i,
+                alpha: shaft.alpha * i,
+                direction: shaft.direction * i,
+            };
+        }
+        input.torque = shaft.torque;
+        input.torque_per_alpha = shaft.torque_per_alpha * ratio;
+        input
+    }
+}
