@@ -42,6 +42,7 @@ fn a_drive_is_found() {
         "linkage-four-bar.toml",
         "linkage-press.toml",
         "linkage-planetary.toml",
+        "line-shaft.toml",
         "friction-fan.toml",
     ] {
         jred([&"reduce", &machine(name)]).ends(0);
