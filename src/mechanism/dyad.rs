@@ -49,18 +49,17 @@ pub(super) fn pinned(
     if square.value <= 0.0 || q_square.value <= 0.0 {
         return None;
     }
-    Some(placed(a, c, lengths, q_square.sqrt() * side.sign()))
+    let q = q_square.sqrt() * side.sign();
+    Some(placed([a, c], ([x, y], square), lengths, q))
 }
 
-/// The two links of [`pinned`] where q is known already, of either sign or zero; A and C apart.
+/// The two links of [`pinned`] where AC with its square f² > 0, and q, of either sign or zero, are known already.
 pub(super) fn placed(
-    a: [Transfer; 2],
-    c: [Transfer; 2],
+    [a, c]: [[Transfer; 2]; 2],
+    ([x, y], square): ([Transfer; 2], Transfer),
     [first, second]: [f64; 2],
     q: Transfer,
 ) -> [Frame; 2] {
-    let [x, y] = [c[0] - a[0], c[1] - a[1]];
-    let square = x * x + y * y;
     let (sum, difference) = (first + second, first - second);
     let along = |p: Transfer, length: f64| {
         let scale = square * length;

@@ -239,7 +239,7 @@ impl FourBar {
             root(square - Transfer::constant(difference * difference))?
         };
         let q = first * second * (0.5 * kept.sign);
-        let [from_a, from_c] = dyad::placed(a, c, [b, rocker], q);
+        let [from_a, from_c] = dyad::placed([a, c], ([x, y], square), [b, rocker], q);
         // The half angle of a link with AC has the tangent ±√((c − b + f)·(c + b − f))/√((b + f − c)·(b + f + c)), and its two roots
         // have the signs of those of q.
         let half = |own: f64, other: f64| match (kept.folded && other > own, kept.stretched) {

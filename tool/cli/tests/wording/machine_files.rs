@@ -177,6 +177,29 @@ fn mechanisms() {
         ],
     );
     mistakes(
+        "machine-change-points",
+        "parallel-lift.toml",
+        "reduce",
+        &[
+            ("keep_branch = true ", "keep_branch = false"),
+            ("[\"900 mm\", \"0 mm\"]", "[\"890 mm\", \"0 mm\"]"),
+            (
+                "keep_branch = true ",
+                "keep_branch = true\nstroke = [\"10 deg\", \"10 deg\"] ",
+            ),
+        ],
+    );
+    mistakes(
+        "machine-branches",
+        "line-shaft.toml",
+        "size",
+        &[
+            ("at = \"driver\"", "at = \"output\""),
+            ("ratio = -2.5", "ratio = \"1:2\""),
+            ("opposing_moment = \"0.6 N m\"", "moment = \"0.6 N m\""),
+        ],
+    );
+    mistakes(
         "machine-planetary-gears",
         "planetary.toml",
         "reduce",
@@ -509,6 +532,13 @@ fn rules_and_simulations() {
                 "creep = { slip = \"3 %\", torque = \"45 N m\" }",
                 "slip = \"2 %\"\npower_flow = \"output-drives\"",
             ),
+            (
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+                "creep = { curve = [[\"1 %\", \"20 N m\"], [\"2 %\", \"18 N m\"], [\"3 %\", \"45 N m\"]] }",
+            ),
+            ("ratio = 0.35", "ratio = \"0.35 + 0.2*time\""),
+            ("ratio = 0.35", "ratio = \"0.35 - t\""),
+            ("ratio = 0.35", "ratio = \"0.35 + 0.1*sin(t)\""),
         ],
     );
 }

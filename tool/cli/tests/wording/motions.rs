@@ -49,6 +49,7 @@ fn fastest() {
         "conveyor.toml",
         "linear-gripper.toml",
         "variator-press.toml",
+        "line-shaft.toml",
     ]);
     let press = ["fastest", "press.toml", "--catalogue", "drives"];
     let plain = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
@@ -109,6 +110,7 @@ fn fastest() {
             &with(&[&press, &["--drive", "sgmsh-15b"]]),
             &with(&[&["fastest", "conveyor.toml"], &plain]),
             &with(&[&["fastest", "variator-press.toml"], &plain]),
+            &with(&[&["fastest", "line-shaft.toml"], &plain]),
         ]),
     );
 }
