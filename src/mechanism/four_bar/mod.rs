@@ -333,15 +333,14 @@ impl FourBar {
         let a = crank.point([self.dimensions.crank, 0.0]);
         let c = self.dimensions.pivot.map(Transfer::constant);
         let dead = PoseError::DeadPoint { phi, joint: 2 };
-        let [(coupler, near_coupler), (rocker, near_rocker)] = match &self.kept {
-            Some(kept) => self.along(kept, angle, [a, c]).ok_or(dead)?,
-            None => {
-                let lengths = [self.dimensions.coupler, self.dimensions.rocker];
-                let [coupler, rocker] = dyad::pinned(a, c, lengths, self.side).ok_or(dead)?;
-                // Coupler and rocker stay on one side of AC, so their angles follow without a jump.
-                let (line, quarter) = (self.line(phi, [a, c]), 0.5 * PI * self.side.sign());
-                [(coupler, line + quarter), (rocker, line + PI - quarter)]
-            }
+        let [(coupler, near_coupler), (rocker, near_rocker)] = if let Some(kept) = &self.kept {
+            self.along(kept, angle, [a, c]).ok_or(dead)?
+        } else {
+            let lengths = [self.dimensions.coupler, self.dimensions.rocker];
+            let [coupler, rocker] = dyad::pinned(a, c, lengths, self.side).ok_or(dead)?;
+            // Coupler and rocker stay on one side of AC, so their angles follow without a jump.
+            let (line, quarter) = (self.line(phi, [a, c]), 0.5 * PI * self.side.sign());
+            [(coupler, line + quarter), (rocker, line + PI - quarter)]
         };
         Ok([
             crank,

@@ -21,8 +21,11 @@ const DEPTH: usize = 64;
 /// Longest text (bytes).
 const LONGEST: usize = 1000;
 
-/// Functions of one argument: value and derivative. Angles are in radians.
-const FUNCTIONS: [(&str, fn(f64) -> [f64; 2]); 8] = [
+/// A function of one argument: value and derivative.
+type Function = fn(f64) -> [f64; 2];
+
+/// The functions by name. Angles are in radians.
+const FUNCTIONS: [(&str, Function); 8] = [
     ("sin", |x| [x.sin(), x.cos()]),
     ("cos", |x| [x.cos(), -x.sin()]),
     ("tan", |x| [x.tan(), 1.0 + x.tan() * x.tan()]),
@@ -192,11 +195,6 @@ impl<'t> Reader<'t> {
         Some(which)
     }
 
-    fn fault<T>(&self, place: Range<usize>, what: impl Into<String>) -> Result<T, Fault> {
-        let what = what.into();
-        Err(Fault { place, what })
-    }
-
     fn sum(&mut self) -> Result<Node, Fault> {
         let mut node = self.product()?;
         while let Some(which) = self.take(&["+", "-", "−"]) {
@@ -218,7 +216,7 @@ impl<'t> Reader<'t> {
     fn sign(&mut self) -> Result<Node, Fault> {
         self.depth += 1;
         if self.depth > DEPTH {
-            return self.fault(
+            return fault(
                 self.at..self.at,
                 format!("it is nested deeper than {DEPTH} times"),
             );
@@ -244,7 +242,7 @@ impl<'t> Reader<'t> {
     fn atom(&mut self) -> Result<Node, Fault> {
         let Some((place, found)) = self.next() else {
             let end = self.text.len();
-            return self.fault(end..end, "it ends where a number, a name or ( is expected");
+            return fault(end..end, "it ends where a number, a name or ( is expected");
         };
         self.at = place.end;
         let first = found.chars().next().unwrap_or(' ');
@@ -255,11 +253,11 @@ impl<'t> Reader<'t> {
         if first.is_ascii_digit() || first == '.' {
             return match found.parse::<f64>() {
                 Ok(number) if number.is_finite() => Ok(Node::Number(number)),
-                _ => self.fault(place, format!("\"{found}\" is no number")),
+                _ => fault(place, format!("\"{found}\" is no number")),
             };
         }
         if !first.is_alphabetic() {
-            return self.fault(
+            return fault(
                 place,
                 format!("\"{found}\" stands where a number, a name or ( is expected"),
             );
@@ -272,7 +270,7 @@ impl<'t> Reader<'t> {
         }
         if let Some(function) = FUNCTIONS.iter().position(|(name, _)| *name == found) {
             let Some((bracket, "(")) = self.next() else {
-                return self.fault(
+                return fault(
                     place,
                     format!("the function {found} needs its argument in brackets: {found}(…)"),
                 );
@@ -283,7 +281,7 @@ impl<'t> Reader<'t> {
             return Ok(Node::Call(function, Box::new(inner)));
         }
         let functions: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
-        self.fault(
+        fault(
             place,
             format!(
                 "\"{found}\" is not known here: there are {}, pi and the functions {}",
@@ -297,9 +295,14 @@ impl<'t> Reader<'t> {
     fn closed(&mut self, inner: Node, open: Range<usize>) -> Result<Node, Fault> {
         match self.take(&[")"]) {
             Some(_) => Ok(inner),
-            None => self.fault(open, "this bracket is not closed"),
+            None => fault(open, "this bracket is not closed"),
         }
     }
+}
+
+fn fault<T>(place: Range<usize>, what: impl Into<String>) -> Result<T, Fault> {
+    let what = what.into();
+    Err(Fault { place, what })
 }
 
 /// Bytes of the number at the beginning of the text.

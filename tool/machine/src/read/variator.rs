@@ -137,10 +137,11 @@ fn formula(item: &Item, root: &Section) -> Result<Ratio> {
         let found = ratio.at(OperatingPoint::at_time(t).with_angle(phi));
         let value = found.value;
         if !found.is_finite() || !(RATIOS[0]..=RATIOS[1]).contains(&value) {
-            let mut at = format!("t = {} s", figure(t));
-            if ratio.is_turned() {
-                at += &format!(", phi = {} rad", figure(phi));
-            }
+            let at = if ratio.is_turned() {
+                format!("t = {} s, phi = {} rad", figure(t), figure(phi))
+            } else {
+                format!("t = {} s", figure(t))
+            };
             let what = if value.is_finite() && found.is_finite() {
                 format!(
                     "is {} at {at}, but must be between {} and {}",
