@@ -16,6 +16,9 @@ mod phases;
 pub mod sweep;
 pub mod track;
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use jred::{Domain, Reducible as _};
 use jred_machine::model::machine::MachineFile;
 
 use crate::trace::{Node, Trace};
@@ -44,8 +47,13 @@ const ROUNDS: u32 = 24;
 /// Most parts of a cell in the next round.
 const MOST_PARTS: f64 = 8.0;
 
-/// Share of the motion below which a step is not looked into: there the acceleration is the difference of roundings.
-const SHORT: f64 = 1e-6;
+/// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
+/// less accurate is none.
+const MOST_EXCESS: f64 = 1e-6;
+const MOST_CHANGE: f64 = 1e-6;
+
+/// Cells in a turn of a machine that changes within it, about the middle of the way where they are longest.
+const PER_TURN: f64 = 16.0;
 
 /// Places between two nodes at which that is looked at.
 const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
@@ -74,7 +82,7 @@ pub struct Fastest {
     pub trace: Trace,
     /// Which limit it follows from where to where.
     pub phases: Vec<Phase>,
-    /// Share by which a limit is exceeded at most between the nodes; at most 1e-9 unless the cells ran out.
+    /// Share by which a limit is exceeded at most between the nodes, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
     pub excess: f64,
     /// Cells of the way.
     pub cells: usize,
@@ -107,6 +115,8 @@ fn refine(
     let limits = task.limits;
     let field = Field { way: &way, limits };
     let length = (task.to - task.from).abs();
+    let [first, most] = CELLS;
+    let mut count = first.max(least_cells(&field, task.from, length)?);
     let ends = Ends {
         from: task.from,
         length,
@@ -114,7 +124,6 @@ fn refine(
         corners: corners::corners(&field, task.from, length)?,
     };
     let z = ends.speeds.map(|v| 0.5 * v * v);
-    let [mut count, most] = CELLS;
     let mut before: Option<f64> = None;
     let mut settled = f64::INFINITY;
     let mut finer: Vec<f64> = Vec::new();
@@ -136,14 +145,23 @@ fn refine(
             settled = change;
         }
         let trace = trace(&way, &ends, &track, &pieces, &times);
-        let (excess, places) = if within.is_finite() {
-            excess(&field, &ends, &trace, within)?
+        let (worst, places) = if within.is_finite() {
+            excess(&field, &ends, (&track, &pieces), &trace, within)?
         } else {
-            (0.0, Vec::new())
+            ((0.0, task.from), Vec::new())
         };
         if !places.is_empty() && may_go_on {
             finer.extend(places);
             continue;
+        }
+        let (excess, phi) = worst;
+        if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
+            return Err(NoMotion::NotAccurate {
+                excess,
+                phi,
+                change: settled / time,
+                coordinate: way.coordinate(),
+            });
         }
         return Ok(Fastest {
             time,
@@ -175,6 +193,29 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     Ok(Way::new(file, actuator.clone(), length.signum()))
 }
 
+/// Cells that a way of many turns takes at least. Those of a machine that changes within a turn must show it, and corners are borders of
+/// cells.
+fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion> {
+    let Domain::Turn = field.way.file.machine.domain() else {
+        return Ok(0);
+    };
+    let turns = length / TAU;
+    // Nodes lie as the cosine of equal parts: the longest cell is π/2 times the mean one.
+    let each = (PER_TURN * FRAC_PI_2).max(4.0 * corners::count(field) as f64);
+    let [_, most] = CELLS;
+    let most = most as f64 / 4.0;
+    if each * turns <= CELLS[0] as f64 || !corners::changes(field, from)? {
+        return Ok(0);
+    }
+    if each * turns > most {
+        return Err(NoMotion::TooLong {
+            turns,
+            most: most / each,
+        });
+    }
+    Ok((PER_TURN * FRAC_PI_2 * turns).ceil() as usize)
+}
+
 /// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
 fn check(field: &Field, track: &Track, pieces: &[Piece]) -> Result<(), NoMotion> {
     if !field.may_be_empty() {
@@ -202,7 +243,7 @@ fn check(field: &Field, track: &Track, pieces: &[Piece]) -> Result<(), NoMotion>
 fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
     let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
     let mut t = 0.0;
-    let mut push = |t: f64, piece: &Piece, end: usize| {
+    let mut push = |t: f64, step: f64, piece: &Piece, end: usize| {
         let Step { u, z, a, .. } = &piece.step;
         let cell = &track.cells[piece.cell];
         let alpha = a[end] * way.direction;
@@ -212,15 +253,16 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
         }
         nodes.push(Node {
             t,
+            step,
             phi: ends.from + way.direction * (cell.x + u[end] * cell.length),
             omega: speed(z[end]) * way.direction,
             alpha: [if t == 0.0 { 0.0 } else { alpha }, alpha],
         });
     };
     for (piece, time) in pieces.iter().zip(times) {
-        push(t, piece, 0);
+        push(t, 0.0, piece, 0);
         t += time;
-        push(t, piece, 1);
+        push(t, *time, piece, 1);
     }
     if let Some(last) = nodes.last_mut() {
         last.alpha[1] = 0.0;
@@ -229,32 +271,31 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
     Trace::new(way.coordinate(), nodes)
 }
 
-/// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place; and the distances at which cells
-/// must meet so that it is no more than `within`.
+/// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
+/// which cells must meet so that it is no more than `within`. Each step is looked at in its own time, however short it is.
 fn excess(
     field: &Field,
     ends: &Ends,
+    (track, pieces): (&Track, &[Piece]),
     trace: &Trace,
     within: f64,
-) -> Result<(f64, Vec<f64>), NoMotion> {
+) -> Result<((f64, f64), Vec<f64>), NoMotion> {
     let way = field.way;
     let direction = way.direction;
-    let mut largest = 0.0_f64;
+    let mut largest = (0.0_f64, ends.from);
     let mut places = Vec::new();
     let (top, _) = field.top();
-    for pair in trace.nodes().windows(2) {
+    for (pair, piece) in trace.nodes().windows(2).zip(pieces) {
         let [a, b] = [&pair[0], &pair[1]];
-        if b.t - a.t < SHORT * trace.duration() {
-            continue;
-        }
+        let cell = &track.cells[piece.cell];
+        let inside = ends.inside(cell.length);
         let mut most = 0.0_f64;
         for share in LOOKS {
-            let t = a.t + share * (b.t - a.t);
-            if !(a.t < t && t < b.t) {
-                continue;
-            }
-            let state = trace.at(t);
-            let place = way.place(state.phi)?;
+            let state = b.after(a, share);
+            // A place at a corner has the values of its own side.
+            let x = (state.phi - ends.from) * direction;
+            let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
+            let place = way.place(ends.from + direction * x)?;
             let (v, alpha) = (state.omega * direction, state.alpha * direction);
             // A torque at its limit is measured by that of the motor at rest: the limit itself may be nothing.
             let limits = field.motor_torques(v);
@@ -274,7 +315,9 @@ fn excess(
                 most = most.max(-alpha / limit - 1.0);
             }
         }
-        largest = largest.max(most);
+        if most > largest.0 {
+            largest = (most, a.phi);
+        }
         if most > within {
             // The error falls with the third power of the step.
             let parts = (most / within).cbrt().ceil().clamp(2.0, MOST_PARTS) as usize;

@@ -391,6 +391,7 @@ fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
             Some(node) => node.alpha[1] = alpha,
             None => nodes.push(Node {
                 t,
+                step: 0.0,
                 phi,
                 omega,
                 alpha: [0.0, alpha],
@@ -401,6 +402,7 @@ fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
         phi += way;
         nodes.push(Node {
             t,
+            step: phase.duration,
             phi,
             omega,
             alpha: [alpha, 0.0],

@@ -11,12 +11,52 @@ use jred_machine::model::coordinate::Coordinate;
 pub struct Node {
     /// Time (s).
     pub t: f64,
+    /// Time since the node before (s), of the first node 0: after a long motion `t` has too few digits for a short step.
+    pub step: f64,
     /// Position (rad, or m).
     pub phi: f64,
     /// Speed (rad/s, or m/s).
     pub omega: f64,
     /// Acceleration before and after the instant (rad/s², or m/s²).
     pub alpha: [f64; 2],
+}
+
+/// What two speeds may differ by in the last digits, as a share of them.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+impl Node {
+    /// The state at a share u of the step from the node before:
+    ///
+    /// ```text
+    /// v(u) = v₀ + a₀·u + ½·(a₁ − a₀)·u² + e·(3u² − 2u³)
+    /// ```
+    ///
+    /// with a₀ and a₁ the accelerations times the step, and e what their mean misses of the change of the speed. Where e is rounding, as in
+    /// a step that changes the speed by a few of its last digits, it is no acceleration.
+    pub fn after(&self, before: &Self, u: f64) -> State<f64> {
+        let step = self.step;
+        let [a0, a1] = [before.alpha[1] * step, self.alpha[0] * step];
+        let bend = a1 - a0;
+        let missed = self.omega - before.omega - 0.5 * (a0 + a1);
+        let largest = self.omega.abs().max(before.omega.abs());
+        let felt = if missed.abs() > ROUNDING * largest {
+            missed
+        } else {
+            0.0
+        };
+        let way = |u: f64| {
+            let cubic = missed * u * u * (1.0 - 0.5 * u);
+            step * u * (before.omega + u * (0.5 * a0 + u * bend / 6.0) + cubic)
+        };
+        // What its integral misses, with ends that have neither slope nor curvature.
+        let rest = (self.phi - before.phi) - way(1.0);
+        let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
+        State {
+            phi: before.phi + way(u) + rest * share,
+            omega: before.omega + u * (a0 + u * (0.5 * bend + missed * (3.0 - 2.0 * u))),
+            alpha: (a0 + u * (bend + felt * 6.0 * (1.0 - u))) / step,
+        }
+    }
 }
 
 /// A motion through nodes: between two of them the speed is the cubic through both speeds and accelerations, the position the quintic
@@ -35,6 +75,7 @@ impl Trace {
             coordinate,
             nodes: vec![Node {
                 t: 0.0,
+                step: 0.0,
                 phi,
                 omega: 0.0,
                 alpha: [0.0; 2],
@@ -64,9 +105,14 @@ impl Trace {
             return;
         };
         for (k, node) in next.iter().enumerate() {
-            let before = if k == 0 { end.alpha[0] } else { node.alpha[0] };
+            let (step, before) = if k == 0 {
+                (end.step, end.alpha[0])
+            } else {
+                (node.step, node.alpha[0])
+            };
             self.nodes.push(Node {
                 t: end.t + node.t,
+                step,
                 alpha: [before, node.alpha[1]],
                 ..*node
             });
@@ -81,6 +127,7 @@ impl Trace {
         end.alpha[1] = 0.0;
         let after = Node {
             t: end.t + duration,
+            step: duration,
             alpha: [0.0; 2],
             ..*end
         };
@@ -93,30 +140,13 @@ impl Trace {
         let (Some(a), b) = (self.nodes.get(next.saturating_sub(1)), self.nodes.get(next)) else {
             return State::default();
         };
-        let b = b.unwrap_or(a);
-        let step = b.t - a.t;
-        if next == 0 || step <= 0.0 {
-            let alpha = a.alpha[usize::from(next > 0)];
-            return State {
+        match b.filter(|b| next > 0 && b.step > 0.0) {
+            Some(b) => b.after(a, ((t - a.t) / b.step).clamp(0.0, 1.0)),
+            None => State {
                 phi: a.phi,
                 omega: a.omega,
-                alpha,
-            };
-        }
-        let u = (t - a.t) / step;
-        let [a0, a1] = [a.alpha[1] * step, b.alpha[0] * step];
-        // v(u) = v₀ + a₀·u + c·u² + d·u³
-        let rise = b.omega - a.omega;
-        let (c, d) = (3.0 * rise - 2.0 * a0 - a1, a0 + a1 - 2.0 * rise);
-        let way = step * u * (a.omega + u * (0.5 * a0 + u * (c / 3.0 + u * d / 4.0)));
-        let whole = step * (a.omega + 0.5 * a0 + c / 3.0 + d / 4.0);
-        // What its integral misses, with ends that have neither slope nor curvature.
-        let missed = (b.phi - a.phi) - whole;
-        let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
-        State {
-            phi: a.phi + way + missed * share,
-            omega: a.omega + u * (a0 + u * (c + u * d)),
-            alpha: (a0 + u * (2.0 * c + 3.0 * u * d)) / step,
+                alpha: a.alpha[usize::from(next > 0)],
+            },
         }
     }
 

@@ -1,6 +1,7 @@
 //! Minimum time against closed forms, quadratures and a dynamic programme.
 
 mod closed_form;
+mod lengths;
 mod programme;
 mod refusals;
 mod scales;

@@ -13,13 +13,15 @@ fn a_cubic_of_the_speed_is_given_back() {
     let phi = |t: f64| 0.3 + t * t - 0.4 * t.powi(3) + 0.1 * t.powi(4);
     let omega = |t: f64| 2.0 * t - 1.2 * t * t + 0.4 * t.powi(3);
     let alpha = |t: f64| 2.0 - 2.4 * t + 1.2 * t * t;
-    let node = |t: f64| Node {
+    let node = |(t, step): (f64, f64)| Node {
         t,
+        step,
         phi: phi(t),
         omega: omega(t),
         alpha: [alpha(t); 2],
     };
-    let trace = Trace::new(Coordinate::Angle, [0.0, 0.5, 1.3].map(node).to_vec());
+    let nodes = [(0.0, 0.0), (0.5, 0.5), (1.3, 0.8)].map(node);
+    let trace = Trace::new(Coordinate::Angle, nodes.to_vec());
     for k in 0..=130 {
         let t = f64::from(k) * 0.01;
         let found = trace.at(t);
@@ -39,6 +41,7 @@ fn a_profile_is_read_as_the_same_motion() {
         let z = f64::from(k) / 200.0;
         Node {
             t: z,
+            step: if k == 0 { 0.0 } else { 1.0 / 200.0 },
             phi: law(z),
             omega: speed(z),
             alpha: [bend(z); 2],
@@ -72,6 +75,7 @@ fn a_profile_is_read_as_the_same_motion() {
 fn a_cam_table_has_derivatives_by_the_master() {
     let node = |t: f64| Node {
         t,
+        step: t,
         phi: t * t,
         omega: 2.0 * t,
         alpha: [2.0; 2],

@@ -8,51 +8,92 @@ use jred_machine::number::numerics::least;
 
 use super::field::Field;
 
-/// Places in a turn, or on the whole way where that is more, between which friction vanishes at most once.
+/// Places in a turn, or on the whole way where that is less, between which friction vanishes at most once.
 const PLACES: f64 = 360.0;
 
 /// Share of its largest value below which the friction of a load vanishes.
 const NOTHING: f64 = 1e-6;
 
+/// Places of a turn, no divisor of which is a number of teeth, at which it is looked whether the machine changes.
+const CHANGES: u32 = 61;
+
+/// Share of its largest value by which a quantity must change to be called changing.
+const SAME: f64 = 1e-12;
+
 /// Distances from the start, inside the way, at which the machine is not smooth: its own edges, and where what a load rubs on comes to
-/// rest and turns back, as a slider does at its dead centres.
+/// rest and turns back, as a slider does at its dead centres. On a way of several turns those of one are repeated.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere on the way.
 pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
-    let mut found = edges(field, from, length);
+    let turns = field.way.file.machine.domain() == Domain::Turn;
+    let mut found: Vec<f64> = edges(field, from);
     found.extend(reversals(field, from, length)?);
+    if turns {
+        found.iter_mut().for_each(|x| *x = x.rem_euclid(TAU));
+        let more = |x: &f64| {
+            let x = *x;
+            let repeats = (1..).map(move |k| x + TAU * f64::from(k));
+            repeats.take_while(move |x| *x < length)
+        };
+        let repeated: Vec<f64> = found.iter().flat_map(more).collect();
+        found.extend(repeated);
+    }
     found.retain(|x| *x > 0.0 && *x < length);
     Ok(found)
 }
 
-fn edges(field: &Field, from: f64, length: f64) -> Vec<f64> {
+/// Corners of one turn, or of a stroke, that the machine itself names.
+pub fn count(field: &Field) -> usize {
     let machine = &field.way.file.machine;
-    let mut found = Vec::new();
-    for phi in (0..).map_while(|k| machine.edge(k)) {
-        let x = (phi - from) * field.way.direction;
-        match machine.domain() {
-            Domain::Turn => {
-                let mut x = x.rem_euclid(TAU);
-                while x < length {
-                    found.push(x);
-                    x += TAU;
-                }
-            }
-            Domain::Stroke { .. } => found.push(x),
-        }
-    }
-    found
+    (0..).map_while(|k| machine.edge(k)).count()
 }
 
+/// Whether the machine is another one at other places of a turn; of a stroke always.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere.
+pub fn changes(field: &Field, from: f64) -> Result<bool, Error> {
+    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 {
+        return Ok(true);
+    }
+    let torques = field.way.actuator.torques(0.0).map(f64::abs);
+    let torque = torques[0].max(torques[1]) * field.way.motor_speed(1.0);
+    let first = field.way.place(from)?;
+    for k in 0..CHANGES {
+        let place = field
+            .way
+            .place(from + TAU * f64::from(k) / f64::from(CHANGES))?;
+        let same = |value: f64, other: f64, scale: f64| (value - other).abs() <= SAME * scale;
+        let is_same = same(place.inertia, first.inertia, first.inertia)
+            && same(place.inertia_slope, 0.0, first.inertia)
+            && same(place.load, first.load, torque)
+            && same(place.viscous, first.viscous, first.viscous)
+            && same(place.coulomb, first.coulomb, torque);
+        if !is_same {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn edges(field: &Field, from: f64) -> Vec<f64> {
+    let machine = &field.way.file.machine;
+    let edges = (0..).map_while(|k| machine.edge(k));
+    edges
+        .map(|phi| (phi - from) * field.way.direction)
+        .collect()
+}
+
+/// In the way, or in the first turn of a longer one.
 fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let machine = &field.way.file.machine;
-    let turns = match machine.domain() {
-        Domain::Turn => (length / TAU).max(1.0),
-        Domain::Stroke { .. } => 1.0,
-    };
-    let count = (PLACES * turns).ceil() as usize;
-    let place = |k: usize| length * k as f64 / count as f64;
+    let whole = machine.domain() == Domain::Turn && length > TAU;
+    let length = if whole { TAU } else { length };
+    let count = PLACES as usize;
+    // A whole turn has no ends: it is looked at one place before and after it as well.
+    let outside = usize::from(whole);
+    let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
     let mut found = Vec::new();
     for load in machine.loads() {
         let friction = |x: f64| -> Result<f64, Error> {
@@ -64,7 +105,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
         if load.has_fixed_direction() {
             continue;
         }
-        let values: Vec<f64> = (0..=count)
+        let values: Vec<f64> = (0..=count + 2 * outside)
             .map(|k| friction(place(k)))
             .collect::<Result<_, _>>()?;
         let largest = values.iter().copied().fold(0.0, f64::max);

@@ -200,12 +200,12 @@ pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<Mo
     let mut peaks = [0.0_f64; 2];
     for pair in trace.nodes().windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        let (step, heading) = (b.t - a.t, b.phi - a.phi);
+        let (step, heading) = (b.step, b.phi - a.phi);
         if step <= 0.0 {
             continue;
         }
         for share in GAUSS {
-            let motor = ways.torque(&trace.at(a.t + share * step), heading)?;
+            let motor = ways.torque(&b.after(a, share), heading)?;
             squares += 0.5 * step * motor * motor;
         }
         turns += heading.abs();

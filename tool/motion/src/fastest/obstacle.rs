@@ -65,6 +65,24 @@ pub enum NoMotion {
         /// What the drive link is.
         coordinate: Coordinate,
     },
+    /// The way has more turns than can be computed of a machine that changes within a turn.
+    TooLong {
+        /// Turns.
+        turns: f64,
+        /// The most.
+        most: f64,
+    },
+    /// With the most cells limits are exceeded, or the time is not settled.
+    NotAccurate {
+        /// Share by which a limit is exceeded.
+        excess: f64,
+        /// Position where it is exceeded most (rad, or m).
+        phi: f64,
+        /// Share by which the time changed with the last number of cells.
+        change: f64,
+        /// What the drive link is.
+        coordinate: Coordinate,
+    },
     /// No acceleration is left.
     Empty {
         /// Position (rad, or m).
@@ -168,6 +186,9 @@ impl NoMotion {
             },
             Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
             Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
+            Self::TooLong { .. } | Self::NotAccurate { .. } => {
+                "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed)".to_owned()
+            }
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
             }
@@ -273,6 +294,24 @@ impl fmt::Display for NoMotion {
                 short(*most),
                 coordinate.speed_unit()
             ),
+            Self::TooLong { turns, most } => write!(
+                f,
+                "the way of {} turns is too long: of a machine that changes within a turn, the fastest motion is computed over at most {} turns",
+                short(*turns),
+                short(most.floor())
+            ),
+            Self::NotAccurate {
+                excess,
+                phi,
+                change,
+                coordinate,
+            } => {
+                let place = coordinate.place(*phi);
+                write!(
+                    f,
+                    "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
+                )
+            }
             Self::Empty {
                 phi,
                 speed,

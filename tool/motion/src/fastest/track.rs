@@ -13,8 +13,8 @@ const LOOKS: u32 = 24;
 /// Share of a cell by which a place at a corner lies inside it: what jumps there has the value of its own side.
 const INSIDE: f64 = 1e-9;
 
-/// Places closer than this share of the way are one.
-const SAME: f64 = 1e-12;
+/// Places closer than this share of the largest position are one: their last digits.
+const SAME: f64 = 16.0 * f64::EPSILON;
 
 /// A cell of the way. Between its three places every quantity is the parabola through them.
 #[derive(Clone, Debug)]
@@ -107,6 +107,18 @@ pub struct Ends {
     pub corners: Vec<f64>,
 }
 
+impl Ends {
+    /// Places closer than this are one.
+    fn near(&self) -> f64 {
+        SAME * (self.from.abs() + self.length)
+    }
+
+    /// How far inside a cell of this length the machine has the values of the cell's own side.
+    pub fn inside(&self, length: f64) -> f64 {
+        (INSIDE * length).max(self.near()).min(0.25 * length)
+    }
+}
+
 impl Track {
     /// About `count` cells, finer towards an end at rest, which also meet at the distances `finer`; none across a corner of the machine.
     ///
@@ -123,14 +135,15 @@ impl Track {
         for (k, pair) in nodes.windows(2).enumerate() {
             let &[x, end] = pair else { continue };
             let length = end - x;
+            let inside = ends.inside(length);
             let first = match cells.last() {
                 Some(last) if !is_edge[k] => (last.places[2], last.caps[2]),
-                _ if is_edge[k] => with_cap(x + INSIDE * length)?,
+                _ if is_edge[k] => with_cap(x + inside)?,
                 _ => with_cap(x)?,
             };
             let middle = with_cap(x + 0.5 * length)?;
             let last = if is_edge[k + 1] {
-                with_cap(end - INSIDE * length)?
+                with_cap(end - inside)?
             } else {
                 with_cap(end)?
             };
@@ -162,10 +175,12 @@ fn nodes(ends: &Ends, count: usize, finer: &[f64]) -> (Vec<f64>, Vec<bool>) {
     all.push((0.0, true));
     all.push((ends.length, true));
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let near = SAME * ends.length;
+    let near = ends.near();
     all.dedup_by(|b, a| {
         let same = b.0 - a.0 <= near;
-        a.1 |= same && b.1;
+        if same && b.1 && !a.1 {
+            *a = *b;
+        }
         same
     });
     if let Some(last) = all.last_mut() {
