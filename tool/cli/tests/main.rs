@@ -19,6 +19,7 @@ mod hidden;
 mod machines;
 mod many_rows;
 mod meter;
+mod motions;
 mod outputs;
 mod points;
 mod press;

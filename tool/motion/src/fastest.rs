@@ -23,7 +23,7 @@ use jred_machine::model::machine::MachineFile;
 
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, Way};
-pub use field::{Binding, Limits};
+pub use field::{Binding, Limits, Reserve};
 use field::{Field, speed};
 use leg::Step;
 pub use obstacle::NoMotion;

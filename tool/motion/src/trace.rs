@@ -5,57 +5,14 @@ use std::fmt::Write as _;
 
 use jred::machine::motion::State;
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::motion::step_at;
 
-/// The drive link at one instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Node {
-    /// Time (s).
-    pub t: f64,
-    /// Time since the node before (s), of the first node 0: after a long motion `t` has too few digits for a short step.
-    pub step: f64,
-    /// Position (rad, or m).
-    pub phi: f64,
-    /// Speed (rad/s, or m/s).
-    pub omega: f64,
-    /// Acceleration before and after the instant (rad/s², or m/s²).
-    pub alpha: [f64; 2],
-}
+pub use jred_machine::model::motion::Node;
 
-/// What two speeds may differ by in the last digits, as a share of them.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-impl Node {
-    /// The state at a share u of the step from the node before:
-    ///
-    /// ```text
-    /// v(u) = v₀ + a₀·u + ½·(a₁ − a₀)·u² + e·(3u² − 2u³)
-    /// ```
-    ///
-    /// with a₀ and a₁ the accelerations times the step, and e what their mean misses of the change of the speed. Where e is rounding, as in
-    /// a step that changes the speed by a few of its last digits, it is no acceleration.
-    pub fn after(&self, before: &Self, u: f64) -> State<f64> {
-        let step = self.step;
-        let [a0, a1] = [before.alpha[1] * step, self.alpha[0] * step];
-        let bend = a1 - a0;
-        let missed = self.omega - before.omega - 0.5 * (a0 + a1);
-        let largest = self.omega.abs().max(before.omega.abs());
-        let felt = if missed.abs() > ROUNDING * largest {
-            missed
-        } else {
-            0.0
-        };
-        let way = |u: f64| {
-            let cubic = missed * u * u * (1.0 - 0.5 * u);
-            step * u * (before.omega + u * (0.5 * a0 + u * bend / 6.0) + cubic)
-        };
-        // What its integral misses, with ends that have neither slope nor curvature.
-        let rest = (self.phi - before.phi) - way(1.0);
-        let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
-        State {
-            phi: before.phi + way(u) + rest * share,
-            omega: before.omega + u * (a0 + u * (0.5 * bend + missed * (3.0 - 2.0 * u))),
-            alpha: (a0 + u * (bend + felt * 6.0 * (1.0 - u))) / step,
-        }
+fn at_rest(node: &Node) -> State<f64> {
+    State {
+        phi: node.phi,
+        ..State::default()
     }
 }
 
@@ -136,28 +93,15 @@ impl Trace {
 
     /// The state at a time (s), clamped to the motion; where the acceleration jumps, the one after.
     pub fn at(&self, t: f64) -> State<f64> {
-        let next = self.nodes.partition_point(|node| node.t <= t);
-        let (Some(a), b) = (self.nodes.get(next.saturating_sub(1)), self.nodes.get(next)) else {
-            return State::default();
-        };
-        match b.filter(|b| next > 0 && b.step > 0.0) {
-            Some(b) => b.after(a, ((t - a.t) / b.step).clamp(0.0, 1.0)),
-            None => State {
-                phi: a.phi,
-                omega: a.omega,
-                alpha: a.alpha[usize::from(next > 0)],
-            },
-        }
+        step_at(&self.nodes, t).map_or_else(
+            || self.nodes.first().map_or(State::default(), at_rest),
+            |([before, after], share)| after.after(before, share),
+        )
     }
 
     /// The way (rad, or m) between the nodes around a time, at its end those before: its sign is the direction, 0 where the machine stands.
     pub fn heading(&self, t: f64) -> f64 {
-        let next = self.nodes.partition_point(|node| node.t <= t);
-        let next = next.clamp(1, self.nodes.len().max(2) - 1);
-        match (self.nodes.get(next - 1), self.nodes.get(next)) {
-            (Some(a), Some(b)) => b.phi - a.phi,
-            _ => 0.0,
-        }
+        step_at(&self.nodes, t).map_or(0.0, |([before, after], _)| after.phi - before.phi)
     }
 
     /// Equal times over the motion, both ends included.
@@ -169,16 +113,40 @@ impl Trace {
         })
     }
 
-    /// Positions over equal times, which `[motion] type = "profile"` reads.
-    pub fn profile(&self, rows: usize) -> String {
-        let (name, unit) = match self.coordinate {
-            Coordinate::Angle => ("phi", "rad"),
-            Coordinate::Length => ("s", "m"),
-        };
-        let mut text = format!("t [s],{name} [{unit}]\n");
-        for (t, state) in self.rows(rows) {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "{t},{}", state.phi);
+    /// The nodes with positions, speeds and accelerations, which `[motion] type = "profile"` reads as this motion; where the acceleration
+    /// jumps, two rows of the same time.
+    pub fn profile(&self) -> String {
+        let mut text = match self.coordinate {
+            Coordinate::Angle => "t [s],phi [rad],omega [rad/s],alpha [rad/s^2]\n",
+            Coordinate::Length => "t [s],s [m],v [m/s],a [m/s^2]\n",
+        }
+        .to_owned();
+        let last = self.nodes.len().saturating_sub(1);
+        let mut before = f64::NEG_INFINITY;
+        for (k, node) in self.nodes.iter().enumerate() {
+            // A step that is shorter than the last digit of the time is none.
+            if node.t <= before && k < last {
+                continue;
+            }
+            before = node.t;
+            let Node {
+                t,
+                phi,
+                omega,
+                alpha,
+                ..
+            } = node;
+            let [earlier, later] = *alpha;
+            let mut row = |alpha: f64| {
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "{t},{phi},{omega},{alpha}");
+            };
+            if k > 0 {
+                row(earlier);
+            }
+            if k == 0 || k < last && earlier.total_cmp(&later).is_ne() {
+                row(later);
+            }
         }
         text
     }

@@ -1,9 +1,20 @@
 //! A motion through nodes, and the files that it becomes.
 
+use std::fmt::Write as _;
+
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::read;
+use jred_motion::fastest::Limits;
+use jred_motion::fastest::cycle::cycle;
+use jred_motion::moves::{self, Move, Part};
 use jred_motion::trace::{Node, Trace};
+use jred_motion::way::Actuator;
+use jred_sizing::catalogue::Motor;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::thermal::classify::Features;
 
 use crate::support::{Folder, edited, press_text};
 
@@ -52,7 +63,7 @@ fn a_profile_is_read_as_the_same_motion() {
     trace.dwell(0.5);
     assert!((trace.duration() - 1.5).abs() < 1e-15);
     let folder = Folder::new();
-    folder.file("profile.csv", trace.profile(3001));
+    folder.file("profile.csv", trace.profile());
     let text = press_text();
     let begin = text.find("[motion]").unwrap();
     let end = text.find("# Start from rest").unwrap();
@@ -64,10 +75,105 @@ fn a_profile_is_read_as_the_same_motion() {
         let t = f64::from(k) / 60.0;
         let found = motion.at(t);
         assert!((found.phi - law(t)).abs() < 1e-10, "{t}");
-        assert!((found.omega - speed(t)).abs() < 1e-7, "{t}");
-        assert!((found.alpha - bend(t)).abs() < 1e-3, "{t}");
+        // The cubic of the speed: h⁴/384 of its fourth derivative, 720.
+        assert!((found.omega - speed(t)).abs() < 2e-9, "{t}");
+        assert!((found.alpha - bend(t)).abs() < 1e-5, "{t}");
     }
     assert!(Duty::new(&file, motion, 200).is_ok());
+}
+
+/// Motor torque at the input of the drive train, and no more.
+const DIRECT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+
+/// The fastest motions of the press, there, a pause, and back, written and read again: largest and RMS torque of the duty are the motor's limit and
+/// the figures of the motion, although the acceleration jumps.
+#[test]
+fn a_profile_keeps_the_corners() {
+    let none = std::collections::BTreeMap::<String, String>::new();
+    let file = read::parse("press.toml", &press_text(), none).unwrap();
+    let motor = Motor {
+        peak_curve: vec![[0.0, 30.0], [150.0, 25.0]],
+        ..Motor::default()
+    };
+    let actuator = Actuator {
+        coefficients: DIRECT,
+        ratio: 1.0,
+        envelope: Envelope::of(&motor),
+    };
+    let step = |from: f64, to: f64| {
+        Part::Move(Move {
+            from,
+            to,
+            duration: 1.0,
+        })
+    };
+    let dwell = Part::Dwell {
+        at: 2.0,
+        duration: 0.4,
+    };
+    let parts = [step(1.0, 2.0), dwell, step(2.0, 1.0)];
+    let made = cycle(&file, &actuator, Limits::default(), &parts).unwrap();
+    let folder = Folder::new();
+    folder.file("profile.csv", made.trace.profile());
+    let text = press_text();
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Start from rest").unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n";
+    let machine = folder.file("press.toml", edited(&text, &text[begin..end], motion));
+    let file = read::read(&machine).unwrap();
+    let motion = file.required_motion().unwrap();
+    for k in 0..=1000 {
+        let t = made.trace.duration() * f64::from(k) / 1000.0;
+        let [own, read] = [made.trace.at(t), motion.at(t)];
+        assert!((own.phi - read.phi).abs() < 1e-13);
+        assert!((own.omega - read.omega).abs() < 1e-12);
+    }
+    let found = Cycle::new(&Duty::new(&file, motion, 2000).unwrap());
+    let peak = found.peak_torque(&DIRECT);
+    assert!((peak / 30.0 - 1.0).abs() < 1e-6, "{peak}");
+    let rms = found.rms_torque(&DIRECT);
+    assert!(
+        (rms / made.load.rms - 1.0).abs() < 1e-6,
+        "{rms} {}",
+        made.load.rms
+    );
+    // The second move begins from rest; the first one where the cycle turns back, without one.
+    assert_eq!(Features::of(&found, &DIRECT, 1.0).starts, 1);
+    let parts = moves::parts(motion).unwrap();
+    let same = matches!(
+        parts.as_slice(),
+        [Part::Move(_), Part::Dwell { .. }, Part::Move(_)]
+    );
+    assert!(same, "{parts:?}");
+}
+
+/// A curve through rows of a move and a pause swings around the rest: that is no start. Digits are cut as in a recording.
+#[test]
+fn a_recorded_pause_is_followed_by_one_start() {
+    let law = |z: f64| z * z * z * (10.0 - z * (15.0 - 6.0 * z));
+    let mut rows = String::from("t [s],phi [deg]\n");
+    for k in 0..=900 {
+        let t = f64::from(k) * 1e-3;
+        let turns = match t {
+            t if t < 0.1 => 0.0,
+            t if t < 0.3 => law((t - 0.1) / 0.2),
+            t if t < 0.5 => 1.0,
+            t if t < 0.8 => 1.0 + law((t - 0.5) / 0.3),
+            _ => 2.0,
+        };
+        writeln!(rows, "{t:.3},{:.4}", 360.0 * turns).unwrap();
+    }
+    let folder = Folder::new();
+    folder.file("profile.csv", rows);
+    let text = press_text();
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Start from rest").unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n";
+    let machine = folder.file("press.toml", edited(&text, &text[begin..end], motion));
+    let file = read::read(&machine).unwrap();
+    let duty = Duty::new(&file, file.required_motion().unwrap(), 2000).unwrap();
+    let features = Features::of(&Cycle::new(&duty), &DIRECT, 1.0);
+    assert_eq!(features.starts, 2);
 }
 
 /// The master of a cam table turns once; derivatives are by its angle.

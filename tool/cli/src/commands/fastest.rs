@@ -5,7 +5,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{Done, print, warn_of_supply};
-use crate::options::fastest::Fastest as Options;
+use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
 use jred::Reducible as _;
@@ -16,7 +16,7 @@ use jred_machine::model::variator;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, single};
-use jred_motion::fastest::{Limits, NoMotion, Task};
+use jred_motion::fastest::{Limits, NoMotion, Reserve, Task};
 use jred_motion::moves::{NoMoves, parts};
 use jred_motion::way::Actuator;
 use jred_report::list;
@@ -47,7 +47,12 @@ pub fn fastest(options: &Options) -> Result<Done> {
     file.refuse_scheduled("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
-    let limits = limits(options, &file, chosen.limits)?;
+    let reserve = match options.reserve {
+        None => Reserve::default(),
+        Some(Asked::Share(share)) => Reserve::of_motor(share),
+        Some(Asked::Rules) => Reserve::of(&file.rules),
+    };
+    let limits = limits(options, &file, chosen.limits)?.with_reserve(reserve);
     let cycle = match task {
         Some(task) => {
             let task = Task { limits, ..task };
@@ -56,7 +61,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         None => of_motion(&file, &chosen.actuator, limits)?,
     };
     if let Some(path) = &options.profile {
-        let text = cycle.trace.profile(options.rows as usize);
+        let text = cycle.trace.profile();
         output::write(path, text.as_bytes())?;
     }
     if let Some(path) = &options.cam {
@@ -68,6 +73,8 @@ pub fn fastest(options: &Options) -> Result<Done> {
         drive: &chosen.name,
         actuator: &chosen.actuator,
         cycle: &cycle,
+        reserve,
+        of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
     };
     print_parts(answer.write(options.format).map_err(core_report)?)?;

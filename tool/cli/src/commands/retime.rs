@@ -68,7 +68,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let rows = options.rows as usize;
     let mut written = String::new();
     for (path, what, text) in [
-        (&options.profile, "motion", retimed.trace.profile(rows)),
+        (&options.profile, "motion", retimed.trace.profile()),
         (&options.cam, "cam table", retimed.trace.cam(rows)),
     ] {
         if let Some(path) = path {
@@ -81,7 +81,6 @@ pub fn retime(options: &Retime) -> Result<Done> {
         drive: drive.map(|drive| drive.name()),
         request: &request,
         retimed: &retimed,
-        rows,
         written,
     };
     print_parts([list::retime::write(&shown, options.format)])?;

@@ -6,7 +6,24 @@ use clap::Args;
 
 use super::search::SizingOptions;
 use super::word::word;
+use jred_machine::read;
 use jred_report::table::output::Format;
+
+/// The reserve that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// A share of torque and speed.
+    Share(f64),
+    /// What the rules ask for.
+    Rules,
+}
+
+fn asked(text: &str) -> Result<Asked, String> {
+    if text == "rules" {
+        return Ok(Asked::Rules);
+    }
+    read::reserve_argument(text).map(Asked::Share)
+}
 
 /// `jred fastest`
 #[derive(Debug, Args)]
@@ -55,6 +72,10 @@ pub struct Fastest {
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
     #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
+    /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": what the rules of `jred size` ask for
+    /// ([rules] of the file); nothing if not given.
+    #[arg(long, value_name = "SHARE|rules", value_parser = asked)]
+    pub reserve: Option<Asked>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
@@ -70,7 +91,7 @@ pub struct Fastest {
     /// Write the motion as an electronic cam's table over a master that turns once in the length of the motion.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]
     pub cam: Option<PathBuf>,
-    /// Number of rows of these files.
+    /// Number of rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
     pub rows: u32,
     /// Number of instants in the list of CSV and JSON.

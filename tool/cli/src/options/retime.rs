@@ -43,7 +43,7 @@ pub struct Retime {
     /// Write it to this file as a table for an electronic cam.
     #[arg(long, value_name = "CSV", value_parser = output_file())]
     pub cam: Option<PathBuf>,
-    /// Rows of these files.
+    /// Rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub rows: u32,
     /// Output format.

@@ -12,6 +12,7 @@ use piece::{Kind, Piece};
 
 mod course;
 mod limits;
+mod nodes;
 mod piece;
 mod recording;
 mod segment;
@@ -19,6 +20,7 @@ mod tool;
 
 pub use course::SegmentCourse;
 pub use limits::{Limits, TooShort, change, fastest};
+pub use nodes::{Node, step_at};
 pub use recording::{Closing, Recording};
 pub use segment::{Course, Phase, Segment};
 pub use tool::{Measure, Standstill, ToolCoordinate};
@@ -189,6 +191,25 @@ impl Motion {
         ))
     }
 
+    /// A motion through nodes, of which there are two at least, in the order of their times, the first at t = 0.
+    pub fn nodes(nodes: &[Node], cyclic: bool) -> Self {
+        let piece = |run: &[Node]| {
+            let [start, end] = [run.first(), run.last()].map(|node| node.map_or(0.0, |n| n.t));
+            Piece {
+                segment: 0,
+                of_drive: false,
+                start,
+                duration: end - start,
+                kind: Kind::Nodes(run.to_vec()),
+            }
+        };
+        Self {
+            pieces: nodes::runs(nodes).into_iter().map(piece).collect(),
+            tool: None,
+            cyclic,
+        }
+    }
+
     fn recorded(duration: f64, recording: &Recording, kind: Kind) -> Self {
         Self {
             pieces: vec![Piece {
@@ -238,6 +259,12 @@ impl Motion {
                 Kind::Positions { .. } | Kind::Speeds { .. } => {
                     let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
                     (1..RECORDED).for_each(|k| reach(place(k)));
+                }
+                Kind::Nodes(nodes) => {
+                    for pair in nodes.windows(2) {
+                        let [from, to] = [&pair[0], &pair[1]].map(|node| node.t - piece.start);
+                        [from.midpoint(to), to].into_iter().for_each(&mut reach);
+                    }
                 }
                 Kind::Move(_) => {}
             }

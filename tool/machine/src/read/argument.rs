@@ -7,7 +7,7 @@ use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, LENGTH, MASS,
-    TORQUE, VELOCITY,
+    SHARE, TORQUE, VELOCITY,
 };
 use crate::units::quantity;
 
@@ -50,6 +50,22 @@ pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, S
 /// A message for the command line.
 pub fn inertia_argument(text: &str) -> Result<f64, String> {
     positive(text, &INERTIA)
+}
+
+/// A share from zero up to less than one, such as "10 %".
+///
+/// # Errors
+/// A message for the command line.
+pub fn reserve_argument(text: &str) -> Result<f64, String> {
+    let share = any(text, &SHARE)?;
+    if (0.0..1.0).contains(&share) {
+        Ok(share)
+    } else {
+        Err(
+            "it must be at least 0 % and less than 100 %, such as \"10 %\", or \"rules\""
+                .to_owned(),
+        )
+    }
 }
 
 /// A torque of either sign, such as "20 N m" (N·m).

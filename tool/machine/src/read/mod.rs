@@ -33,7 +33,7 @@ mod window;
 
 pub use argument::{
     Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, drive_states,
-    inertia_argument, largest_acceleration, largest_speed, length_argument, mass_argument,
+    inertia_argument, largest_acceleration, largest_speed, length_argument, mass_argument, reserve_argument,
     torque_argument,
 };
 pub use mechanism::mechanism_types;

@@ -17,7 +17,12 @@ use crate::text::csv;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, LENGTH, TIME, VELOCITY};
+use crate::units::kind::{
+    ACCELERATION as LINEAR_ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, CUTOFF,
+    LENGTH, TIME, VELOCITY,
+};
+
+mod states;
 
 /// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
 /// or of the stroke, unless the file says how much it may miss.
@@ -36,19 +41,22 @@ const CUTOFFS: f64 = 2.0;
 const TIME_COLUMN: usize = 0;
 const POSITION: usize = 1;
 const SPEED: usize = 2;
+const ACCELERATION: usize = 3;
 
 /// The columns of a drive link that turns or swings.
-const ANGLES: [Known; 3] = [
+const ANGLES: [Known; 4] = [
     known(&["t", "time"], &TIME),
     known(&["phi", "φ", "psi", "ψ", "angle", "position"], &ANGLE),
     known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
+    known(&["alpha", "α", "acceleration"], &ANGULAR_ACCELERATION),
 ];
 
 /// The columns of one that slides.
-const LENGTHS: [Known; 3] = [
+const LENGTHS: [Known; 4] = [
     known(&["t", "time"], &TIME),
     known(&["s", "x", "y", "position"], &LENGTH),
     known(&["v", "speed"], &VELOCITY),
+    known(&["a", "acceleration"], &LINEAR_ACCELERATION),
 ];
 
 /// Cure for most faults of the time column.
@@ -131,9 +139,13 @@ fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
         min_rows: MIN_POINTS,
     };
     let columns = columns::read(text, &format)?;
-    if columns.get(POSITION).is_some() == columns.get(SPEED).is_some() {
+    let given = [POSITION, SPEED, ACCELERATION].map(|index| columns.get(index).is_some());
+    if !matches!(
+        given,
+        [true, false, false] | [false, true, false] | [true, true, true]
+    ) {
         return Err(Problem::new(
-            "the header must have a column either for the position or for the speed",
+            "the header must have a column either for the position or for the speed, or for position, speed and acceleration",
         )
         .at(csv::header_place(text), "header")
         .help(format!(
@@ -153,6 +165,11 @@ fn check_request(request: &Request, columns: &Columns, prescribed: &Prescribed) 
     }
     if let Some(start) = &request.start {
         prescribed.check_start(start)?;
+    }
+    if let (Some(smoothing), true) = (&request.smoothing, columns.get(ACCELERATION).is_some()) {
+        return Err(smoothing
+            .problem("is given, but the file has speeds and accelerations: no curve is laid through its rows", "not needed")
+            .help("remove this, or the columns of speed and acceleration"));
     }
     match (&request.step, columns.get(TIME_COLUMN)) {
         (Some(step), Some(_)) => Err(step
@@ -195,7 +212,15 @@ fn curve(
             .map_or(default, |value| value.si)
     };
     let mut advance = 0.0;
-    let motion = if let Some(positions) = columns.get(POSITION) {
+    let motion = if columns.get(ACCELERATION).is_some() {
+        let nodes = states::nodes(columns, &times)?;
+        if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
+            check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
+            let way = [first.phi, last.phi - first.phi];
+            closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+        }
+        Motion::nodes(&nodes, request.cyclic)
+    } else if let Some(positions) = columns.get(POSITION) {
         let (first, last) = (
             positions.first().copied().unwrap_or_default(),
             positions.last().copied().unwrap_or_default(),
@@ -270,8 +295,12 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
     if let Some(step) = &request.step {
         return Ok((0..columns.rows()).map(|k| k as f64 * step.si).collect());
     }
-    columns.check_rising(TIME_COLUMN, "time", TIMES)?;
     let times = columns.get(TIME_COLUMN).unwrap_or_default();
+    let first = times.first().copied().unwrap_or_default();
+    if columns.get(ACCELERATION).is_some() {
+        return Ok(times.iter().map(|t| t - first).collect());
+    }
+    columns.check_rising(TIME_COLUMN, "time", TIMES)?;
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     // The usual step is the middle one: a single gap then does not shift what is expected of all others.
     let mut sorted = steps.clone();
@@ -289,7 +318,6 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
             "a curve through a gap of more than {GAP} steps would be guesswork: add the missing rows, including those at standstill"
         )));
     }
-    let first = times.first().copied().unwrap_or_default();
     Ok(times.iter().map(|t| t - first).collect())
 }
 

@@ -181,3 +181,77 @@ fn a_profile_that_cannot_be_read_is_shown_in_the_machine_file() {
         }
     }
 }
+
+/// Position, speed and acceleration of a parabola up and a parabola down: rows at the corners are enough, and the jumps of the acceleration
+/// stay.
+#[test]
+fn a_profile_with_states_keeps_its_corners() {
+    let rows = |more: &str| {
+        format!(
+            "t [s],phi [deg],n [deg/s],alpha [deg/s^2]\n0,0,0,720\n0.5,90,360,720\n0.5,90,360,-720\n1,180,0,-720\n1,180,0,0\n{more}"
+        )
+    };
+    let rest = rows("1.5,180,0,0\n");
+    assert_eq!(report(&rest, "cyclic = false"), "accepted, 1.5 s");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("profile.csv"), &rest).unwrap();
+    let text = machine("profile.csv", "cyclic = false");
+    let file = read::parse("machine.toml", &text, folder.path()).unwrap();
+    let motion = file.motion.unwrap();
+    for k in 0..=300 {
+        let t = f64::from(k) * 0.005;
+        let expected = match t {
+            t if t < 0.5 => [360.0 * t * t, 720.0 * t, 720.0],
+            t if t < 1.0 => [180.0 - 360.0 * (1.0 - t).powi(2), 720.0 * (1.0 - t), -720.0],
+            _ => [180.0, 0.0, 0.0],
+        };
+        let found = motion.at(t);
+        let found = [found.phi, found.omega, found.alpha].map(f64::to_degrees);
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-10, "{t}: {found} {expected}");
+        }
+    }
+    assert_eq!(motion.stretches().len(), 3);
+    let asked = [
+        (
+            rows("1.5,180,0,0\n"),
+            "smoothing = \"4 Hz\"\ncyclic = false",
+            "no curve is laid through its rows",
+        ),
+        (
+            rows("1,180,0,1\n"),
+            "cyclic = false",
+            "t = 1 s does not increase",
+        ),
+        (
+            rows("0.9,180,0,0\n"),
+            "cyclic = false",
+            "t = 0.9 s does not increase",
+        ),
+        (
+            rows("1.5,250,0,0\n"),
+            "cyclic = false",
+            "row 6: phi = 250 deg does not follow from the speeds",
+        ),
+        (
+            rows("1.5,180,90,0\n"),
+            "cyclic = false",
+            "does not follow from the",
+        ),
+        (
+            rows("1.5,180,0,0\n"),
+            "",
+            "180 deg short of a whole number of turns",
+        ),
+    ];
+    for (rows, more, words) in asked {
+        let said = report(&rows, more);
+        assert!(said.contains(words), "{said}");
+    }
+    // A speed in the wrong unit.
+    let wrong = rest.replace("[deg/s]", "[rpm]");
+    let said = report(&wrong, "cyclic = false");
+    assert!(said.contains("does not follow from"), "{said}");
+    let two = rest.replace("alpha [deg/s^2]", "x");
+    assert!(report(&two, "").contains("unknown column"));
+}

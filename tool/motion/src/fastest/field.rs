@@ -1,5 +1,8 @@
 //! Which accelerations every limit leaves at a place and speed, and which limit is the nearest.
 
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+
 use crate::way::{Place, Way};
 
 /// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
@@ -15,6 +18,79 @@ pub struct Limits {
     pub gearbox_torque: Option<f64>,
     /// Largest speed of the gearbox input (rad/s).
     pub gearbox_speed: Option<f64>,
+    /// What is left unused of motor and gearbox.
+    pub reserve: Reserve,
+}
+
+/// Share of a limit by which a motion with a reserve stays below what the reserve leaves, so that a rule that asks for the same
+/// reserve is satisfied whatever the last digits: they are known to 1e-9 between the nodes.
+const BELOW: f64 = 1e-6;
+
+/// What a motion leaves unused, as shares of torque and speed of motor and gearbox; 0: nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reserve {
+    /// Of the motor's torque, driving and braking.
+    pub torque: f64,
+    /// Of its largest speed.
+    pub speed: f64,
+    /// Of the gearbox's torque.
+    pub gearbox_torque: f64,
+    /// Of its largest input speed.
+    pub gearbox_speed: f64,
+}
+
+impl Reserve {
+    /// The same share of the motor's torque and of its speed.
+    pub const fn of_motor(share: f64) -> Self {
+        Self {
+            torque: share,
+            speed: share,
+            gearbox_torque: 0.0,
+            gearbox_speed: 0.0,
+        }
+    }
+
+    /// What rules for a motion of a given drive ask for.
+    pub fn of(rules: &RuleSet) -> Self {
+        let share = |rule: Rule| {
+            let limit = rules.limit(rule);
+            (1.0 - limit.fail.or(limit.warn).unwrap_or(1.0)).max(0.0)
+        };
+        Self {
+            torque: share(Rule::PeakTorque),
+            speed: share(Rule::Speed),
+            gearbox_torque: share(Rule::GearboxPeak),
+            gearbox_speed: share(Rule::GearboxSpeed),
+        }
+    }
+
+    /// Whether there is one.
+    pub fn is_some(&self) -> bool {
+        *self != Self::default()
+    }
+
+    /// What it leaves of a limit.
+    fn leaves(&self, share: f64) -> f64 {
+        if self.is_some() {
+            (1.0 - share) * (1.0 - BELOW)
+        } else {
+            1.0
+        }
+    }
+}
+
+impl Limits {
+    /// The same limits with a reserve of motor and gearbox.
+    #[must_use]
+    pub fn with_reserve(self, reserve: Reserve) -> Self {
+        let left = |limit: Option<f64>, share| limit.map(|limit| limit * reserve.leaves(share));
+        Self {
+            gearbox_torque: left(self.gearbox_torque, reserve.gearbox_torque),
+            gearbox_speed: left(self.gearbox_speed, reserve.gearbox_speed),
+            reserve,
+            ..self
+        }
+    }
 }
 
 /// A limit that a motion can be at.
@@ -92,13 +168,17 @@ impl Field<'_, '_> {
     fn motor_end(&self) -> f64 {
         let envelope = &self.way.actuator.envelope;
         let ends = [false, true].map(|braking| envelope.limit(braking).end());
-        envelope.max_speed().min(ends[0]).min(ends[1])
+        let reserve = &self.limits.reserve;
+        let most = envelope.max_speed() * reserve.leaves(reserve.speed);
+        most.min(ends[0]).min(ends[1])
     }
 
     /// The motor's torque at a speed of the drive link; at its largest speed rounding must not step beyond.
     fn motor_torque(&self, v: f64, braking: bool) -> f64 {
         let limit = self.way.actuator.envelope.limit(braking);
+        let reserve = &self.limits.reserve;
         let torque = limit.torque(self.way.motor_speed(v).min(limit.end()));
+        let torque = torque * reserve.leaves(reserve.torque);
         if braking { -torque } else { torque }
     }
 

@@ -13,7 +13,7 @@ use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::number::words::counted;
 use jred_motion::fastest::cycle::{Cost, Cycle, MORE, Made};
-use jred_motion::fastest::{Binding, Phase};
+use jred_motion::fastest::{Binding, Phase, Reserve};
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::study::cell::Cell;
 
@@ -33,6 +33,10 @@ pub struct Answer<'a> {
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
+    /// What it leaves unused of motor and gearbox.
+    pub reserve: Reserve,
+    /// Whether the drive is one of the catalogue, which `jred size` can judge.
+    pub of_catalogue: bool,
     /// Instants of the course.
     pub instants: usize,
 }
@@ -169,6 +173,7 @@ impl Answer<'_> {
                 "the RMS torque exceeds the S1 torque, and no pause helps: holding the machine alone takes more than that",
             ),
         }
+        line(&mut text, "reserve", &self.reserve());
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
         let error = cycle.moves.iter().map(|made| made.fastest.error);
         let error = error.sum::<f64>();
@@ -183,6 +188,33 @@ impl Answer<'_> {
             text += &self.one_move(k + 1, made);
         }
         text
+    }
+
+    fn reserve(&self) -> String {
+        let shares = |reserve: &Reserve| {
+            let shares = [
+                (reserve.torque, "motor torque"),
+                (reserve.speed, "motor speed"),
+                (reserve.gearbox_torque, "gearbox torque"),
+                (reserve.gearbox_speed, "gearbox speed"),
+            ];
+            let given = shares.into_iter().filter(|(share, _)| *share > 0.0);
+            let all: Vec<String> = given
+                .map(|(share, of)| format!("{} of the {of}", percent(share)))
+                .collect();
+            all.join(", ")
+        };
+        let asked = Reserve::of(&self.file.rules);
+        if self.reserve.is_some() {
+            return shares(&self.reserve);
+        }
+        if self.of_catalogue && asked.is_some() {
+            return format!(
+                "none; `jred size` keeps {}: --reserve rules leaves that unused",
+                shares(&asked)
+            );
+        }
+        "none".to_owned()
     }
 
     fn one_move(&self, number: usize, made: &Made) -> String {
@@ -244,6 +276,16 @@ impl Answer<'_> {
         map.insert("duration".into(), cycle.trace.duration().into());
         map.insert("duration_before".into(), json!(cycle.before));
         map.insert("at_rest".into(), cycle.dwells.into());
+        let reserve = &self.reserve;
+        map.insert(
+            "reserve".into(),
+            json!({
+                "torque": reserve.torque,
+                "speed": reserve.speed,
+                "gearbox_torque": reserve.gearbox_torque,
+                "gearbox_speed": reserve.gearbox_speed,
+            }),
+        );
         let known = Some(load.continuous).filter(|torque| torque.is_finite());
         map.insert(
             "motor".into(),

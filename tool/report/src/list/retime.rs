@@ -31,8 +31,6 @@ pub struct Shown<'a> {
     pub request: &'a Request,
     /// The result.
     pub retimed: &'a Retimed,
-    /// Rows of the motion.
-    pub rows: usize,
     /// Which files were written.
     pub written: String,
 }
@@ -40,7 +38,7 @@ pub struct Shown<'a> {
 /// The result in one of the formats; CSV is the motion alone.
 pub fn write(shown: &Shown, format: Format) -> String {
     match format {
-        Format::Csv => shown.retimed.trace.profile(shown.rows),
+        Format::Csv => shown.retimed.trace.profile(),
         Format::Table => text(shown),
         Format::Json => format!("{:#}\n", json(shown)),
     }

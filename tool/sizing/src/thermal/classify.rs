@@ -14,8 +14,8 @@
 
 use std::fmt;
 
-use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
+use crate::cycle::{Cycle, Sample};
 
 /// Features of the motor's operation in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ use crate::cycle::form::Coefficients;
 pub struct Features {
     /// Share of the time at standstill.
     pub rest: f64,
-    /// Starts from rest in a cycle.
+    /// Starts from rest in a cycle, to more than a hundredth of the largest speed.
     pub starts: u32,
     /// Whether the motor turns power back.
     pub braking: bool,
@@ -61,6 +61,30 @@ const ROUNDING: f64 = 1e-9;
 /// Share of the squared torque up to which starts do not count thermally.
 const NEGLIGIBLE: f64 = 0.05;
 
+/// The speed as a share of the largest that a start from rest must exceed: a curve through recorded rows swings around its rests.
+const START: f64 = 1e-2;
+
+/// How often the speeds of a cycle rise from rest, its end goes on with its beginning. From its fastest instant on: there it moves.
+fn starts(speeds: impl Iterator<Item = f64> + Clone) -> u32 {
+    let sizes = speeds.map(f64::abs);
+    let (first, largest) =
+        sizes.clone().enumerate().fold(
+            (0, 0.0),
+            |most, own| if own.1 > most.1 { own } else { most },
+        );
+    let mut starts = 0;
+    let mut resting = false;
+    for size in sizes.clone().skip(first).chain(sizes.take(first + 1)) {
+        if size == 0.0 {
+            resting = true;
+        } else if resting && size > START * largest {
+            resting = false;
+            starts += 1;
+        }
+    }
+    starts
+}
+
 impl Features {
     /// Features of the motor of a drive.
     pub fn of(cycle: &Cycle, coefficients: &Coefficients, ratio: f64) -> Self {
@@ -69,9 +93,6 @@ impl Features {
         let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
         let [mut rest, mut back, mut turned] = [0.0; 3];
         let [mut squares, mut accelerating] = [0.0; 2];
-        let mut starts = 0;
-        // Whether the cycle ends at rest: then its first move is a start.
-        let mut resting = samples.last().is_some_and(|s| s.speed() == 0.0);
         for sample in samples {
             let torque = coefficients.torque(&sample.loads());
             let speed = sample.speed() * ratio;
@@ -80,8 +101,6 @@ impl Features {
             least = least.min(torque);
             most = most.max(torque);
             let still = speed == 0.0;
-            starts += u32::from(resting && !still);
-            resting = still;
             let weight = sample.weight;
             rest += if still { weight } else { 0.0 };
             let power = torque * speed;
@@ -98,7 +117,7 @@ impl Features {
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         Self {
             rest: rest / cycle.duration(),
-            starts,
+            starts: starts(samples.iter().map(Sample::speed)),
             braking: back > ROUNDING * turned,
             constant_speed: constant(slowest, fastest),
             constant_torque: constant(least, most),

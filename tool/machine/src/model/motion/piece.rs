@@ -2,6 +2,7 @@
 
 use jred::machine::motion::{Move, Polynomial, State};
 
+use super::nodes::{Node, step_at};
 use crate::number::spline::Spline;
 
 #[derive(Clone, Debug)]
@@ -38,6 +39,8 @@ pub(super) enum Kind {
         advance: f64,
         standstill: f64,
     },
+    /// Two at least, at the times of the motion.
+    Nodes(Vec<Node>),
 }
 
 impl Piece {
@@ -47,7 +50,10 @@ impl Piece {
 
     /// Whether it is a curve through recorded rows.
     pub(super) const fn is_recorded(&self) -> bool {
-        matches!(self.kind, Kind::Positions { .. } | Kind::Speeds { .. })
+        matches!(
+            self.kind,
+            Kind::Positions { .. } | Kind::Speeds { .. } | Kind::Nodes(_)
+        )
     }
 
     /// The third derivative at `t` (s) after its start; `None`: the acceleration jumps within the piece or at its ends.
@@ -61,6 +67,10 @@ impl Piece {
             }
             Kind::Positions { curve, .. } => Some(curve.at(t)[3]),
             Kind::Speeds { curve, .. } => Some(curve.at(t)[2]),
+            Kind::Nodes(nodes) => {
+                let ([before, after], share) = step_at(nodes, self.start + t)?;
+                Some(after.jerk_after(before, share))
+            }
         }
     }
 
@@ -103,6 +113,10 @@ impl Piece {
                     alpha,
                 }
             }
+            Kind::Nodes(nodes) => step_at(nodes, self.start + t)
+                .map_or(State::default(), |([before, after], share)| {
+                    after.after(before, share)
+                }),
         }
     }
 }

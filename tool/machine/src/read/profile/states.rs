@@ -1,0 +1,87 @@
+//! A profile with position, speed and acceleration in each row: the motion itself, with its corners. Two rows of the same time are a jump of
+//! the acceleration.
+
+use crate::model::motion::Node;
+use crate::text::columns::Columns;
+use crate::text::problem::{Problem, Result};
+
+use super::{ACCELERATION, POSITION, SPEED, TIME_COLUMN};
+
+/// Share of the largest speed times the step by which a position may miss the speeds, and of the largest acceleration times the step by which
+/// a speed may miss the accelerations: more is another unit.
+const MISSED: [f64; 2] = [0.05, 0.7];
+
+/// The same of the largest speed and of the largest position, for short steps: digits that were cut.
+const DIGITS: f64 = 1e-4;
+
+const CURE: &str = "each column is the derivative of the one before over the time: check the units; without the columns of speed and \
+                    acceleration, a smooth curve is laid through the positions";
+
+/// The nodes of the rows, at these times.
+pub(super) fn nodes(columns: &Columns, times: &[f64]) -> Result<Vec<Node>> {
+    let column = |index: usize| columns.get(index).unwrap_or_default();
+    let [positions, speeds, accelerations] = [POSITION, SPEED, ACCELERATION].map(column);
+    let mut nodes: Vec<Node> = Vec::with_capacity(times.len());
+    let mut rows: Vec<usize> = Vec::with_capacity(times.len());
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let range = largest(
+        &positions
+            .iter()
+            .map(|x| x - positions[0])
+            .collect::<Vec<_>>(),
+    );
+    let [fastest, hardest] = [speeds, accelerations].map(largest);
+    for (row, &t) in times.iter().enumerate() {
+        let (phi, omega, alpha) = (positions[row], speeds[row], accelerations[row]);
+        let count = nodes.len();
+        let Some(last) = nodes.last_mut().filter(|last| t <= last.t) else {
+            let step = nodes.last().map_or(0.0, |last| t - last.t);
+            nodes.push(Node {
+                t,
+                step,
+                phi,
+                omega,
+                alpha: [alpha; 2],
+            });
+            rows.push(row);
+            continue;
+        };
+        let same = (phi - last.phi).abs() <= DIGITS * range
+            && (omega - last.omega).abs() <= DIGITS * fastest;
+        if rows[count - 1] + 1 != row || !same {
+            return Err(columns
+                .problem(TIME_COLUMN, row, "does not increase")
+                .help("times rise; two rows of the same time, with the same position and speed, are a jump of the acceleration"));
+        }
+        last.alpha[1] = alpha;
+    }
+    for (pair, row) in nodes.windows(2).zip(rows.into_iter().skip(1)) {
+        let [before, after] = [&pair[0], &pair[1]];
+        let [position, speed] = after.missed_since(before).map(f64::abs);
+        let step = after.step;
+        if position > MISSED[0] * step * fastest + DIGITS * range {
+            return Err(columns
+                .problem(
+                    POSITION,
+                    row,
+                    "does not follow from the speeds since the row before",
+                )
+                .help(CURE));
+        }
+        if speed > MISSED[1] * step * hardest + DIGITS * fastest {
+            return Err(columns
+                .problem(
+                    SPEED,
+                    row,
+                    "does not follow from the accelerations since the row before",
+                )
+                .help(CURE));
+        }
+    }
+    if nodes.len() < 2 {
+        return Err(
+            Problem::new("the motion has one instant only").help("give rows at several times")
+        );
+    }
+    Ok(nodes)
+}
