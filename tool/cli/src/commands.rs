@@ -13,7 +13,6 @@ mod simulate;
 pub mod size;
 pub mod split;
 pub mod steady;
-mod suited;
 pub mod tolerance;
 pub mod vary;
 

@@ -160,7 +160,7 @@ fn refine(
                 excess,
                 phi,
                 change: settled / time,
-                coordinate: way.coordinate(),
+                axis: file.axis(),
             });
         }
         return Ok(Fastest {

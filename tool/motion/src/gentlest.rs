@@ -13,7 +13,8 @@
 //! - [`mesh`](self): w in cubic pieces, the machine at Gauss points.
 //! - [`solve`](self): Newton's method.
 //! - [`bound`](self): the lower bound;
-//! - [`task`](self): mesh after mesh, and the time that is better waited.
+//! - [`task`](self): mesh after mesh, and the time that is better waited;
+//! - [`outcome`](self): cost, optimum and motion of what was found.
 
 use jred::Error;
 use jred_machine::model::motion::Phase;
@@ -21,12 +22,14 @@ use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
 
-use self::task::{Task, Waits, edges};
+use self::outcome::Waits;
+use self::task::{Task, edges};
 use crate::way::{Actuator, Way};
 
 mod bound;
 mod cost;
 mod mesh;
+mod outcome;
 mod shape;
 mod solve;
 mod task;
@@ -162,6 +165,8 @@ pub struct Gentle {
     pub discretisation: f64,
     /// Number of elements.
     pub elements: usize,
+    /// The motion law that is better than what was found, if one is: then the motion is its.
+    pub law: Option<&'static str>,
     /// The motion, in polynomials one after another.
     pub phases: Vec<Phase>,
 }

@@ -9,7 +9,8 @@
 //! 4. [`trace`]: a motion that was made, and the files that it becomes;
 //! 5. [`gentlest`]: least RMS torque, energy or peak in a given time;
 //! 6. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
-//! 7. [`balance`]: counterweights and springs that relieve the drive.
+//! 7. [`suited`]: drives, each with the motion that is the gentlest for it;
+//! 8. [`balance`]: counterweights and springs that relieve the drive.
 #![forbid(unsafe_code)]
 
 pub mod balance;
@@ -18,5 +19,6 @@ pub mod gentlest;
 pub mod moves;
 pub mod retime;
 mod skyline;
+pub mod suited;
 pub mod trace;
 pub mod way;

@@ -17,6 +17,8 @@ use crate::way::{Actuator, Way};
 use self::even::constant_energy;
 
 mod even;
+mod law;
+mod standing;
 
 /// The laws of VDI 2143 between two rests, by the names of machine files.
 pub const LAWS: [(&str, Law); 9] = [
@@ -96,6 +98,10 @@ pub struct Figures {
     pub speed: f64,
     /// Largest share of the drive's short-time torque; infinite beyond its largest speed.
     pub used: f64,
+    /// RMS torque as a share of the S1 torque at the mean speed; 0 where that is not known.
+    pub rms_used: f64,
+    /// Largest speed as a share of the motor's; 0 where that is not known.
+    pub speed_used: f64,
 }
 
 impl Figures {
@@ -123,6 +129,9 @@ pub struct Row {
 pub struct Retimed {
     /// The motion of the file.
     pub own: Figures,
+    /// Links that stand still while the drive moves, with the time (s) for which they do in the motion of the file and in the gentlest one, where
+    /// these differ.
+    pub standing: Vec<(String, [f64; 2])>,
     /// The laws, or of a rotation without rest the classical motions.
     pub laws: Vec<Row>,
     /// The gentlest motion.
@@ -216,11 +225,13 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         let number = gentle.len() + 1;
         gentle.push(found.map_err(|fault| Obstacle::Move(number, *step, fault))?);
     }
-    let mut found = gentle.iter();
-    let best = asked.motion(&parts, |step| {
-        let phases = found.next().map(|gentle| gentle.phases.clone());
-        Segment::phases(step.to - step.from, phases.unwrap_or_default())
-    })?;
+    let found = |gentle: &[Gentle]| {
+        let mut found = gentle.iter();
+        asked.motion(&parts, |step| {
+            let phases = found.next().map(|gentle| gentle.phases.clone());
+            Segment::phases(step.to - step.from, phases.unwrap_or_default())
+        })
+    };
     let laws = if endless {
         asked.classical(&parts)?
     } else {
@@ -233,11 +244,28 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         });
         rows.collect::<Result<_, Error>>()?
     };
-    let figures = asked.figures(&best)?;
+    let mut best = found(&gentle)?;
+    let mut figures = asked.figures(&best)?;
+    // The mean of a high power is not quite the peak: a law may have a lower one.
+    if request.goal == Goal::Peak
+        && let Some((name, law)) = asked.better_law(&laws, figures.peak)
+    {
+        for gentle in &mut gentle {
+            let Travel {
+                distance, duration, ..
+            } = gentle.travel;
+            gentle.phases = law::phases(law, distance, duration);
+            gentle.law = Some(name);
+            gentle.moving = duration;
+        }
+        best = found(&gentle)?;
+        figures = asked.figures(&best)?;
+    }
     let duration = best.duration();
     let bound = bound(&gentle, &figures, duration, request.goal);
     Ok(Retimed {
         own: asked.figures(motion)?,
+        standing: standing::changed(file, motion, &best)?,
         laws,
         best: figures,
         bound,
@@ -322,14 +350,30 @@ impl Asked<'_> {
         let rms = cycle.rms_torque(coefficients);
         let [drawn, _] = cycle.energies(coefficients, *ratio);
         let copper = (self.request.copper).map(|copper| copper * rms * rms * cycle.duration());
+        let speed = cycle.peak_speed() * ratio;
+        let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
         Ok(Figures {
+            rms_used: rms / continuous,
+            speed_used: speed / envelope.max_speed(),
             rms,
             peak: cycle.peak_torque(coefficients),
             drawn,
             copper,
-            speed: cycle.peak_speed() * ratio,
+            speed,
             used: cycle.peak(coefficients, *ratio, envelope).used,
         })
+    }
+
+    /// The law of the list with the lowest peak, if that is below this one and the law has the form of the ends that is asked for.
+    fn better_law(&self, laws: &[Row], peak: f64) -> Option<(&'static str, Law)> {
+        let rows = laws.iter().filter(|row| row.figures.peak < peak);
+        let named = rows.filter_map(|row| {
+            let (name, law) = LAWS.into_iter().find(|(name, _)| *name == row.name)?;
+            let starts_level = law.at(0.0)[2] == 0.0;
+            (self.request.ramp == 0.0 || starts_level).then_some((row.figures.peak, name, law))
+        });
+        let best = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((best.1, best.2))
     }
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.

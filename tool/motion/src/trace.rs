@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use jred::machine::motion::State;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::motion::step_at;
 
@@ -20,7 +21,7 @@ fn at_rest(node: &Node) -> State<f64> {
 /// that has positions as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// Whether the drive link turns or slides.
+    /// Whether positions are angles or lengths.
     pub coordinate: Coordinate,
     nodes: Vec<Node>,
 }
@@ -43,6 +44,31 @@ impl Trace {
     /// Through nodes in the order of their times, the first at t = 0.
     pub const fn new(coordinate: Coordinate, nodes: Vec<Node>) -> Self {
         Self { coordinate, nodes }
+    }
+
+    /// The same motion in the words of an axis.
+    #[must_use]
+    pub fn of_axis(&self, axis: &Axis) -> Self {
+        let node = |node: &Node| {
+            let state = |alpha: f64| {
+                axis.state(&State {
+                    phi: node.phi,
+                    omega: node.omega,
+                    alpha,
+                })
+            };
+            let [before, after] = node.alpha.map(state);
+            Node {
+                phi: before.phi,
+                omega: before.omega,
+                alpha: [before.alpha, after.alpha],
+                ..*node
+            }
+        };
+        Self {
+            coordinate: axis.coordinate,
+            nodes: self.nodes.iter().map(node).collect(),
+        }
     }
 
     /// The nodes.

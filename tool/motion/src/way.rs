@@ -17,6 +17,7 @@ use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::schedule::Now;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -122,12 +123,36 @@ impl<'a> Way<'a> {
         self.file.machine.mechanism().coordinate()
     }
 
-    /// The machine at a position.
+    /// The machine at a position, with the loads of this direction.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn place(&self, phi: f64) -> Result<Place, Error> {
-        let point: Reduction = self.file.machine.bare_reduction(phi)?;
+        self.place_now(&self.now(), phi)
+    }
+
+    /// In motion along this way.
+    pub fn now(&self) -> Now {
+        Now {
+            omega: Some(self.direction),
+            ..Now::default()
+        }
+    }
+
+    /// The machine at a position at rest: loads of one direction do not act.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn place_at_rest(&self, phi: f64) -> Result<Place, Error> {
+        let now = Now {
+            omega: Some(0.0),
+            ..Now::default()
+        };
+        self.place_now(&now, phi)
+    }
+
+    fn place_now(&self, now: &Now, phi: f64) -> Result<Place, Error> {
+        let point: Reduction = self.file.machine_at(now).bare_reduction(phi)?;
         Ok(Place {
             phi,
             inertia: point.inertia,
@@ -289,10 +314,10 @@ impl<'a> BothWays<'a> {
         let State { phi, omega, alpha } = *state;
         let back = if omega == 0.0 { heading } else { omega } < 0.0;
         let way = &self.0[usize::from(back)];
-        let place = way.place(phi)?;
         if omega == 0.0 && alpha == 0.0 {
-            return Ok(way.holding(&place));
+            return Ok(way.holding(&way.place_at_rest(phi)?));
         }
+        let place = way.place(phi)?;
         let demand = way.demand(&place, omega.abs(), alpha * way.direction);
         Ok(demand.torque * way.direction)
     }

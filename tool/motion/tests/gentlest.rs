@@ -410,3 +410,70 @@ fn bad_input_is_named() {
         Obstacle::NoCopper
     );
 }
+
+/// The least peak of a table from rest to rest is that of constant acceleration, 4·J·D/T²; and no law of the list has a lower one, of any
+/// machine, as far as it has the ends that are asked for.
+#[test]
+fn no_law_has_a_lower_peak() {
+    let text = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\n\
+                inertia = \"2 kg m^2\"\n[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"90 deg\"\nduration = \"0.5 s\"\n\
+                [[motion.segment]]\ndwell = \"0.2 s\"\n";
+    let found = retimed(&machine(text), Goal::Peak, 0.0);
+    assert_eq!(found.moves[0].law, Some("parabola"));
+    near(
+        "peak",
+        found.best.peak,
+        4.0 * 2.0 * (TAU / 4.0) / 0.25,
+        1e-9,
+    );
+    let nodes = found.trace.nodes();
+    near("way", nodes[nodes.len() - 1].phi, TAU / 4.0, 1e-12);
+    let machines = [
+        machine(text),
+        example("press", &[]),
+        example("four-bar", &[]),
+        example("vertical-axis", &[]),
+        example("rack", &[]),
+    ];
+    for file in &machines {
+        // With ramps the search for the peak finds no motion of some machines, and says so.
+        for ramp in [0.0, 0.1] {
+            let motion = file.motion.as_ref().unwrap();
+            let found = match retime(file, motion, &request(Goal::Peak, ramp)) {
+                Ok(found) => found,
+                Err(Obstacle::Move(_, _, Fault::NotFound)) if ramp > 0.0 => continue,
+                Err(why) => panic!("{why:?}"),
+            };
+            for law in &found.laws {
+                let jumps = ["parabola", "trapezoid", "simple-sine"].contains(&law.name);
+                if ramp > 0.0 && jumps {
+                    continue;
+                }
+                let [best, other] = [found.best.peak, law.figures.peak];
+                assert!(
+                    best <= other * (1.0 + 1e-9),
+                    "{} {}: {best} {other}",
+                    file.title,
+                    law.name
+                );
+            }
+        }
+    }
+}
+
+/// The table of an indexing cam rests while the cam turns through its dwell: the gentlest motion hurries through it, and says so.
+#[test]
+fn a_dwell_of_a_cam_that_is_lost_is_named() {
+    let found = retimed(&example("indexing-cam", &[]), Goal::Rms, 0.0);
+    let (name, [own, best]) = &found.standing[0];
+    assert!(name.contains("table") || name.contains("turret"), "{name}");
+    assert!(
+        *own > 0.0 && (own - best).abs() > 0.01 * own,
+        "{own} {best}"
+    );
+    assert!(
+        retimed(&example("press", &[]), Goal::Rms, 0.0)
+            .standing
+            .is_empty()
+    );
+}

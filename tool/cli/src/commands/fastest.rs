@@ -9,6 +9,7 @@ use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
 use jred::Reducible as _;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
@@ -44,7 +45,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
-    file.refuse_scheduled("fastest")?;
+    file.refuse_timed("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
     let reserve = match options.reserve {
@@ -60,12 +61,13 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         None => of_motion(&file, &chosen.actuator, limits)?,
     };
+    let trace = cycle.trace.of_axis(&file.axis());
     if let Some(path) = &options.profile {
-        let text = cycle.trace.profile();
+        let text = trace.profile();
         output::write(path, text.as_bytes())?;
     }
     if let Some(path) = &options.cam {
-        let text = cycle.trace.cam(options.rows as usize);
+        let text = trace.cam(options.rows as usize);
         output::write(path, text.as_bytes())?;
     }
     let answer = list::fastest::Answer {
@@ -99,12 +101,13 @@ fn of_motion(file: &MachineFile, actuator: &Actuator, limits: Limits) -> Result<
         ),
         NoMoves::NotAtRest { speed, at_end } => {
             let end = if at_end { "ends" } else { "begins" };
-            let unit = file.machine.mechanism().coordinate().speed_unit();
+            let axis = file.axis();
+            let unit = axis.coordinate.speed_unit();
             miette!(
                 help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
                 "the motion of {} {end} with {} {unit}, so its moves are not known",
                 file.name,
-                jred_machine::number::rounding::short(speed)
+                jred_machine::number::rounding::short(axis.rate(speed.abs()))
             )
         }
     })?;
@@ -126,18 +129,14 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         return Ok(None);
     };
     let domain = file.machine.domain();
-    let coordinate = file.machine.mechanism().coordinate();
+    let axis = file.axis();
     let position = |name: &str, text: &str| {
         let refused =
             |why: String| miette!("--{name} {} cannot be used: {why}", plain::quoted(text));
-        let found = read::drive_positions(text, domain, coordinate).map_err(refused)?;
-        match found.as_slice() {
-            [one] => Ok(*one),
-            _ => Err(refused("it must be one position".to_owned())),
-        }
+        read::axis_position(text, domain, &axis).map_err(refused)
     };
     let speed = |name: &str, text: &Option<String>| {
-        let speed = quantity(name, text.as_deref(), read::drive_speed, coordinate)?.unwrap_or(0.0);
+        let speed = rate(name, text.as_deref(), read::drive_speed, &axis)?.unwrap_or(0.0);
         if speed < 0.0 {
             return Err(miette!(
                 help = "speeds count in the direction of the move",
@@ -170,11 +169,17 @@ fn quantity(
     value.transpose()
 }
 
+/// A speed or an acceleration of the drive link, given as one of the axis.
+fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
+    let given = quantity(name, text, read, axis.coordinate)?;
+    Ok(given.map(|rate| axis.drive_rate(rate)))
+}
+
 /// The limits of the command line, and those of the gearbox.
 fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limits> {
-    let coordinate = file.machine.mechanism().coordinate();
+    let axis = file.axis();
     let read = |name: &str, text: &Option<String>, read: read::Reader| {
-        quantity(name, text.as_deref(), read, coordinate)
+        rate(name, text.as_deref(), read, &axis)
     };
     let acceleration = read(
         "max-acceleration",

@@ -32,7 +32,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
-    file.refuse_scheduled("retime")?;
+    file.refuse_timed("retime")?;
     let motion = file.required_motion()?;
     let catalogue = match &options.drive {
         Some(name) => {
@@ -66,10 +66,11 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let retimed = retime::retime(&file, motion, &request)
         .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
     let rows = options.rows as usize;
+    let trace = retimed.trace.of_axis(&file.axis());
     let mut written = String::new();
     for (path, what, text) in [
-        (&options.profile, "motion", retimed.trace.profile()),
-        (&options.cam, "cam table", retimed.trace.cam(rows)),
+        (&options.profile, "motion", trace.profile()),
+        (&options.cam, "cam table", trace.cam(rows)),
     ] {
         if let Some(path) = path {
             output::write(path, text.as_bytes())?;
@@ -103,14 +104,14 @@ pub(super) fn report(
             "nothing moves in the motion of {name}"
         ),
         Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
-            let coordinate = file.machine.mechanism().coordinate();
-            let unit = coordinate.speed_unit();
+            let axis = file.axis();
+            let unit = axis.coordinate.speed_unit();
             miette!(
                 help = "a motion that is to be made anew begins and ends at rest; or it is cyclic and turns on with the speed that it \
                         begins with",
                 "the motion of {name} {} at {} {unit}",
                 if *at_end { "ends" } else { "begins" },
-                short(*speed)
+                short(axis.rate(speed.abs()))
             )
         }
         Obstacle::NoCopper => match motor {
@@ -128,11 +129,11 @@ pub(super) fn report(
 }
 
 fn of_move(number: usize, step: &Move, fault: &Fault, file: &MachineFile) -> Report {
-    let coordinate = file.machine.mechanism().coordinate();
+    let axis = file.axis();
     let place = format!(
         "move {number} of the motion, from {} to {} in {} s",
-        coordinate.place(step.from),
-        coordinate.place(step.to),
+        axis.place(step.from),
+        axis.place(step.to),
         short(step.duration)
     );
     match fault {

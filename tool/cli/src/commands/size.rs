@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::suited::Judging;
+use crate::commands::retime::report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, print};
 use crate::options::{Moved, Size};
@@ -18,6 +18,8 @@ use jred_machine::model::variator;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
+use jred_motion::suited::Judging;
+use jred_report::list;
 use jred_report::list::listing;
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -48,14 +50,18 @@ pub fn size(options: &Size) -> Result<Done> {
     let motors = catalogue.prepare(&file.site);
     if options.motion == Moved::Best {
         file.refuse_scheduled("size --motion best")?;
-        let best = suited(&Judging {
-            options,
+        let narrow = |selection: &mut Selection| {
+            options.search.apply(&filter, selection);
+        };
+        let judging = Judging {
             file: &file,
             own: motion,
-            filter: &filter,
             catalogue: &catalogue,
             motors: &motors,
-        })?;
+            steps: options.supply.steps as usize,
+            narrow: &narrow,
+        };
+        let best = suited(&judging, options)?;
         file.motion = best.or(file.motion);
     }
     let motion = file.required_motion()?;
@@ -172,14 +178,18 @@ impl Answer<'_, '_> {
 }
 
 /// The motion that suits the best drive, said before the list; `None`: the file's stays.
-fn suited(judging: &Judging) -> Result<Option<Motion>> {
-    let (best, says) = judging.best()?;
-    if judging.options.format == Format::Table {
-        print(&format!("{says}\n\n"))?;
+fn suited(judging: &Judging, options: &Size) -> Result<Option<Motion>> {
+    let suited = judging
+        .best()
+        .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
+    let says = list::suited::words(&suited);
+    if options.format == Format::Table {
+        let table = list::suited::table(&suited);
+        print(&format!("{says}\n\n{table}\n"))?;
     } else {
         output::say(&says);
     }
-    Ok(best)
+    Ok(suited.motion().cloned())
 }
 
 /// The Pareto front of the drives that violate no rule.
@@ -197,11 +207,7 @@ fn pareto(
         "{}: Pareto front of the drives that violate no rule",
         file.title
     );
-    print(&jred_report::list::front::write(
-        &front,
-        options.format,
-        &title,
-    ))?;
+    print(&list::front::write(&front, options.format, &title))?;
     Ok(if front.points.is_empty() {
         Done::Violated
     } else {

@@ -33,7 +33,7 @@ fn asked(text: &str) -> Result<Asked, String> {
 pub struct Fastest {
     /// Machine file. The moves are those of its `[motion]`, whose pauses are kept, unless --from and --to are given.
     pub file: PathBuf,
-    /// Position at which one move begins, e.g. "180 deg" ("20 mm" for a sliding link).
+    /// Position at which one move begins, e.g. "180 deg" ("20 mm" for a sliding link, and for an axis whose `[motion]` is in mm).
     #[arg(long, allow_hyphen_values = true, requires = "to")]
     pub from: Option<String>,
     /// Position at which it ends.

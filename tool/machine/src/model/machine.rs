@@ -3,10 +3,11 @@
 use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Machine, Reduction};
 
+use crate::model::axis::Axis;
 use crate::model::drive_train::DriveTrain;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
-use crate::model::motion::Motion;
+use crate::model::motion::{Motion, ToolCoordinate};
 use crate::model::rules::RuleSet;
 use crate::model::schedule::{Now, Schedule, When};
 use crate::model::simulation::Simulation;
@@ -82,6 +83,13 @@ impl MachineFile {
         })
     }
 
+    /// The coordinate in which people speak of this axis: that of its motion, if it goes with the drive link evenly, else the drive link's.
+    pub fn axis(&self) -> Axis {
+        let tool = self.motion.as_ref().and_then(Motion::tool);
+        let axis = tool.and_then(ToolCoordinate::axis);
+        axis.unwrap_or_else(|| Axis::of_drive(self.machine.mechanism().coordinate()))
+    }
+
     /// The machine at an instant, with what acts and what is carried then, without the drive train.
     pub fn machine_at(&self, now: &Now) -> &Machine<AnyMechanism> {
         let number = self.schedule.number(now);
@@ -120,6 +128,24 @@ impl MachineFile {
             Some(what) => Err(miette::miette!(
                 help = "remove its segments, during, direction and at_rest, or the payload, for this command; `jred size` contains them",
                 "{what}: that goes by [motion], but `jred {command}` seeks another motion"
+            )),
+        }
+    }
+
+    /// The same for a command that seeks another motion one way at a time: what goes by the direction alone stays.
+    ///
+    /// # Errors
+    /// A load or payload goes by the time of the motion, or has a value of its own at rest.
+    pub fn refuse_timed(&self, command: &str) -> miette::Result<()> {
+        let loads = self.schedule.loads().iter();
+        let at_rest = loads.filter(|load| load.at_rest.is_some());
+        let mut at_rest = at_rest.map(|load| format!("load \"{}\" {}", load.name, load.words));
+        let timed = self.scheduled_where(|when| when.spans.is_some()).next();
+        match timed.or_else(|| at_rest.next()) {
+            None => Ok(()),
+            Some(what) => Err(miette::miette!(
+                help = "remove its segments, during and at_rest, or the payload, for this command; `jred size` contains them",
+                "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
             )),
         }
     }

@@ -1,5 +1,6 @@
 //! A machine as a machine file describes it, in SI units, with what the file asks of its drive.
 
+pub mod axis;
 pub mod characteristic;
 pub mod coordinate;
 pub mod drive_train;

@@ -3,6 +3,7 @@
 use jred::Domain;
 
 use crate::analysis::reduce::At;
+use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::units::kind::{
@@ -10,6 +11,9 @@ use crate::units::kind::{
     SHARE, TORQUE, VELOCITY,
 };
 use crate::units::quantity;
+
+/// Share of a stroke by which a position may lie beyond its ends: rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Reader of a quantity of a drive link that turns or slides.
 pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
@@ -134,6 +138,29 @@ fn drive_position(part: &str, domain: Domain, coordinate: Coordinate) -> Result<
         )),
         _ => Ok(position),
     }
+}
+
+/// The drive link's position (rad or m) that a position of the axis leads to, such as "250 mm" of a carriage; it must lie within the
+/// stroke of the drive link.
+///
+/// # Errors
+/// A message for the command line.
+pub fn axis_position(text: &str, domain: Domain, axis: &Axis) -> Result<f64, String> {
+    let phi = axis.drive_position(any(text.trim(), position_kind(axis.coordinate))?);
+    let Domain::Stroke { from, to } = domain else {
+        return Ok(phi);
+    };
+    let slack = ROUNDING * (to - from);
+    if (from - slack..=to + slack).contains(&phi) {
+        return Ok(phi.clamp(from, to));
+    }
+    let [from, to] = [from, to].map(|end| axis.shown(end));
+    Err(format!(
+        "it must lie within the stroke, {} to {} {}",
+        rounded(from.min(to)),
+        rounded(from.max(to)),
+        axis.coordinate.unit()
+    ))
 }
 
 const fn position_kind(coordinate: Coordinate) -> &'static Kind {

@@ -99,7 +99,21 @@ pub(super) fn read(
         value.check_positive()?;
     }
     let file = CsvFile::open(&item, "profile.csv", files)?;
-    let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
+    let columns = read_columns(&file.text, drive).map_err(|problem| {
+        let of_drive = || read_columns(&file.text, prescribed.drive).is_ok();
+        match (&prescribed.tool, section.get("of")) {
+            (Some(tool), Some(of)) if of_drive() => of
+                .problem(
+                    &format!(
+                        "is {}, but the file has positions of the drive link",
+                        tool.name()
+                    ),
+                    "not those of the file",
+                )
+                .help("remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link"),
+            _ => file.shows(problem),
+        }
+    })?;
     check_request(&request, &columns, prescribed)?;
     let repeats =
         |start: f64, way: f64| motion::closed::difference(section, prescribed, start, way);

@@ -87,7 +87,8 @@ fn edges(field: &Field, from: f64) -> Vec<f64> {
 
 /// In the way, or in the first turn of a longer one.
 fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
-    let machine = &field.way.file.machine;
+    let file = field.way.file;
+    let machine = &file.machine;
     let whole = machine.domain() == Domain::Turn && length > TAU;
     let length = if whole { TAU } else { length };
     let count = PLACES as usize;
@@ -95,7 +96,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let outside = usize::from(whole);
     let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
     let mut found = Vec::new();
-    for load in machine.loads() {
+    for load in file.machine_at(&field.way.now()).loads() {
         let friction = |x: f64| -> Result<f64, Error> {
             let phi = from + field.way.direction * x;
             let frames = machine.mechanism().frames(phi)?;

@@ -218,7 +218,7 @@ pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<Mo
     }
     let duration = trace.duration();
     let end = trace.nodes().last().map_or(0.0, |node| node.phi);
-    let holding = forwards.holding(&forwards.place(end)?).abs();
+    let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
     let mean_speed = forwards.motor_speed(turns) / duration;
     let continuous = actuator.envelope.continuous_torque(mean_speed);
     let excess = squares - continuous * continuous * duration;

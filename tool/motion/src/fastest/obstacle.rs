@@ -3,6 +3,7 @@
 use std::fmt;
 
 use jred::Error;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::number::rounding::short;
 
@@ -33,8 +34,8 @@ pub enum NoMotion {
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
         unit: &'static str,
-        /// What the drive link is.
-        coordinate: Coordinate,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// Even with the largest deceleration the machine is too fast.
     RunsAway {
@@ -48,22 +49,22 @@ pub enum NoMotion {
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
         unit: &'static str,
-        /// What the drive link is.
-        coordinate: Coordinate,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// The start is faster than the way allows: the speed, and the largest one (rad/s, or m/s).
     StartTooFast {
         /// Largest speed at the start.
         most: f64,
-        /// What the drive link is.
-        coordinate: Coordinate,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// The end is faster than can be reached.
     EndTooFast {
         /// Largest speed at the end.
         most: f64,
-        /// What the drive link is.
-        coordinate: Coordinate,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// The way has more turns than can be computed of a machine that changes within a turn.
     TooLong {
@@ -80,8 +81,8 @@ pub enum NoMotion {
         phi: f64,
         /// Share by which the time changed with the last number of cells.
         change: f64,
-        /// What the drive link is.
-        coordinate: Coordinate,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// No acceleration is left.
     Empty {
@@ -104,10 +105,10 @@ impl From<Error> for NoMotion {
 
 impl NoMotion {
     pub(super) fn at(field: &Field, track: &Track, obstacle: Obstacle) -> Self {
-        let coordinate = field.way.coordinate();
+        let axis = field.way.file.axis();
         let stages = field.way.file.drive_train.stages();
         let unit = if stages.is_empty() {
-            coordinate.effort_unit()
+            field.way.coordinate().effort_unit()
         } else {
             Coordinate::Angle.effort_unit()
         };
@@ -122,7 +123,7 @@ impl NoMotion {
                     limit,
                     torques: field.needed_and_given(&place, limit, false),
                     unit,
-                    coordinate,
+                    axis,
                 }
             }
             Obstacle::RunsAway(index, u) => {
@@ -134,16 +135,16 @@ impl NoMotion {
                     limit,
                     torques: field.needed_and_given(&place, limit, true),
                     unit,
-                    coordinate,
+                    axis,
                 }
             }
             Obstacle::StartTooFast(z) => Self::StartTooFast {
                 most: speed(z),
-                coordinate,
+                axis,
             },
             Obstacle::EndTooFast(z) => Self::EndTooFast {
                 most: speed(z),
-                coordinate,
+                axis,
             },
         }
     }
@@ -231,9 +232,9 @@ impl fmt::Display for NoMotion {
                 limit,
                 torques: [needed, given],
                 unit,
-                coordinate,
+                axis,
             } => {
-                let place = coordinate.place(*phi);
+                let place = axis.place(*phi);
                 let [needed, given] = [needed, given].map(|torque| short(*torque));
                 let what = if *at_start {
                     "the machine cannot start at"
@@ -260,9 +261,9 @@ impl fmt::Display for NoMotion {
                 limit,
                 torques: [needed, given],
                 unit,
-                coordinate,
+                axis,
             } => {
-                let place = coordinate.place(*phi);
+                let place = axis.place(*phi);
                 let [needed, given] = [needed, given].map(|torque| short(torque.abs()));
                 let what = if *at_end {
                     "the machine cannot be stopped at"
@@ -282,17 +283,17 @@ impl fmt::Display for NoMotion {
                     ),
                 }
             }
-            Self::StartTooFast { most, coordinate } => write!(
+            Self::StartTooFast { most, axis } => write!(
                 f,
                 "the start is too fast: the end and the limits on the way can be met from at most {} {}",
-                short(*most),
-                coordinate.speed_unit()
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
             ),
-            Self::EndTooFast { most, coordinate } => write!(
+            Self::EndTooFast { most, axis } => write!(
                 f,
                 "the speed of the end cannot be reached: at most {} {}",
-                short(*most),
-                coordinate.speed_unit()
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
             ),
             Self::TooLong { turns, most } => write!(
                 f,
@@ -304,9 +305,9 @@ impl fmt::Display for NoMotion {
                 excess,
                 phi,
                 change,
-                coordinate,
+                axis,
             } => {
-                let place = coordinate.place(*phi);
+                let place = axis.place(*phi);
                 write!(
                     f,
                     "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"

@@ -126,3 +126,20 @@ fn gravity() {
         close(found.time, top / faster + top / slower, EXACT);
     }
 }
+
+/// A moment that acts in one direction only: −3 N·m forwards, nothing backwards, where the table has 2 kg·m² and the motor 10 N·m.
+#[test]
+fn a_load_of_one_direction_acts_in_it() {
+    let file = table(
+        2.0,
+        "[[load]]\non = \"table\"\nmoment = \"-3 N m\"\ndirection = \"forward\"\n\
+         [motion]\ntype = \"constant-speed\"\nspeed = \"60 rpm\"\n",
+    );
+    let motor = motor([10.0; 2], 1e3);
+    // t = √(2·D·(1/a + 1/d))
+    let time = |up: f64, down: f64| (2.0 * 1.5 * (1.0 / up + 1.0 / down)).sqrt();
+    let forwards = fastest(&file, &motor, &task(0.2, 1.7));
+    close(forwards.time, time(3.5, 6.5), 1e-10);
+    let backwards = fastest(&file, &motor, &task(1.7, 0.2));
+    close(backwards.time, time(5.0, 5.0), 1e-10);
+}

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::table::output::{Format, json_parts, parts};
 use crate::table::sheet::Reading;
 use jred::Error;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::{Column, Columns, Quantity};
@@ -58,13 +59,10 @@ impl Answer<'_> {
         Ok(Box::new(text.into_iter()))
     }
 
-    fn coordinate(&self) -> Coordinate {
-        self.cycle.trace.coordinate
-    }
-
     /// The motion over the time, with the torque and speed of the motor.
     fn course(&self) -> Result<Columns, Error> {
-        let coordinate = self.coordinate();
+        let axis = self.file.axis();
+        let coordinate = axis.coordinate;
         let [speed, acceleration] = coordinate.rates();
         let [effort, motor_speed] = self.motor_units();
         let mut columns = Columns::new([
@@ -82,14 +80,10 @@ impl Answer<'_> {
             let t = trace.duration() * k as f64 / last as f64;
             let state = trace.at(t);
             let torque = ways.torque(&state, trace.heading(t))?;
-            columns.push([
-                t,
-                coordinate.shown(state.phi),
-                state.omega,
-                state.alpha,
-                torque,
-                ways.forwards().motor_speed(state.omega),
-            ]);
+            let motor_speed = ways.forwards().motor_speed(state.omega);
+            let state = axis.state(&state);
+            let position = coordinate.shown(state.phi);
+            columns.push([t, position, state.omega, state.alpha, torque, motor_speed]);
         }
         Ok(columns)
     }
@@ -97,7 +91,7 @@ impl Answer<'_> {
     /// Units of effort and speed of the motor.
     fn motor_units(&self) -> [&'static str; 2] {
         let direct = self.file.drive_train.stages().is_empty();
-        let linear = self.coordinate() == Coordinate::Length && direct;
+        let linear = self.cycle.trace.coordinate == Coordinate::Length && direct;
         if linear {
             ["N", "m/s"]
         } else {
@@ -218,9 +212,9 @@ impl Answer<'_> {
     }
 
     fn one_move(&self, number: usize, made: &Made) -> String {
-        let coordinate = self.coordinate();
-        let unit = coordinate.unit();
-        let position = |phi: f64| short(coordinate.shown(phi));
+        let axis = self.file.axis();
+        let unit = axis.coordinate.unit();
+        let position = |phi: f64| short(axis.shown(phi));
         let mut text = format!(
             "move {number}: {} {unit} to {} {unit} in {} s",
             position(made.task.from),
@@ -233,20 +227,20 @@ impl Answer<'_> {
         text.push('\n');
         let columns = [
             "at its limit".to_owned(),
-            format!("from {} [{unit}]", coordinate.symbol()),
+            format!("from {} [{unit}]", axis.symbol()),
             "to".to_owned(),
             "from t [s]".to_owned(),
             "to".to_owned(),
-            format!("speed from [{}]", coordinate.speed_unit()),
+            format!("speed from [{}]", axis.coordinate.speed_unit()),
             "to".to_owned(),
         ];
         let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
-        let fastest = speeds.fold(0.0, f64::max);
+        let fastest = axis.rate(speeds.fold(0.0, f64::max));
         let row = |phase: &Phase| -> Vec<Cell> {
             let mut cells = vec![Cell::from(phase.limit.name())];
-            let positions = phase.phi.map(|phi| short(coordinate.shown(phi)));
+            let positions = phase.phi.map(|phi| position(phi));
             let times = phase.t.map(|t| shown(t, made.fastest.time));
-            let speeds = phase.speed.map(|v| shown(v, fastest));
+            let speeds = phase.speed.map(|v| shown(axis.rate(v), fastest));
             let texts = positions.into_iter().chain(times).chain(speeds);
             cells.extend(texts.map(|text| Cell::from(text.as_str())));
             cells
@@ -299,7 +293,11 @@ impl Answer<'_> {
                 "pause_needed": load.pause,
             }),
         );
-        let moves: Vec<Value> = cycle.moves.iter().map(move_json).collect();
+        let axis = self.file.axis();
+        map.insert("unit".into(), axis.coordinate.per().into());
+        let moves: Vec<Value> = (cycle.moves.iter())
+            .map(|made| move_json(made, &axis))
+            .collect();
         map.insert("moves".into(), moves.into());
         map
     }
@@ -321,16 +319,16 @@ fn eased(cost: &Cost) -> String {
     }
 }
 
-fn move_json(made: &Made) -> Value {
+fn move_json(made: &Made, axis: &Axis) -> Value {
     let phases = made.fastest.phases.iter().map(|phase| {
         json!({
             "limit": phase.limit.name(),
-            "from": phase.phi[0],
-            "to": phase.phi[1],
+            "from": axis.position(phase.phi[0]),
+            "to": axis.position(phase.phi[1]),
             "from_time": phase.t[0],
             "to_time": phase.t[1],
-            "from_speed": phase.speed[0],
-            "to_speed": phase.speed[1],
+            "from_speed": axis.rate(phase.speed[0]),
+            "to_speed": axis.rate(phase.speed[1]),
         })
     });
     let costs = made
@@ -338,10 +336,10 @@ fn move_json(made: &Made) -> Value {
         .iter()
         .map(|cost| json!({ "limit": cost.limit.name(), "eased": eased(cost), "time": cost.time }));
     json!({
-        "from": made.task.from,
-        "to": made.task.to,
-        "from_speed": made.task.speeds[0],
-        "to_speed": made.task.speeds[1],
+        "from": axis.position(made.task.from),
+        "to": axis.position(made.task.to),
+        "from_speed": axis.rate(made.task.speeds[0]),
+        "to_speed": axis.rate(made.task.speeds[1]),
         "time": made.fastest.time,
         "time_before": made.before,
         "error": made.fastest.error,

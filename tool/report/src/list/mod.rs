@@ -14,4 +14,5 @@ pub mod rule_list;
 pub mod sensitivity;
 pub mod simulation;
 pub mod steady;
+pub mod suited;
 pub mod tolerance;

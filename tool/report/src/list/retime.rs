@@ -9,7 +9,7 @@ use crate::table::sheet::Reading;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
-use jred_motion::gentlest::{Gentle, Optimum, Reason};
+use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
 use jred_motion::retime::{Figures, Goal, Request, Retimed};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
@@ -38,7 +38,7 @@ pub struct Shown<'a> {
 /// The result in one of the formats; CSV is the motion alone.
 pub fn write(shown: &Shown, format: Format) -> String {
     match format {
-        Format::Csv => shown.retimed.trace.profile(),
+        Format::Csv => shown.retimed.trace.of_axis(&shown.file.axis()).profile(),
         Format::Table => text(shown),
         Format::Json => format!("{:#}\n", json(shown)),
     }
@@ -100,7 +100,11 @@ fn text(shown: &Shown) -> String {
         "work drawn [J]".to_owned(),
     ];
     heads.extend(copper.then(|| "copper loss [J]".to_owned()));
-    heads.extend(limits.then(|| "of the limits [%]".to_owned()));
+    if limits {
+        heads.push("RMS of S1 [%]".to_owned());
+        heads.push("peak of limit [%]".to_owned());
+        heads.push("speed of largest [%]".to_owned());
+    }
     let rows: Vec<Vec<Cell>> = rows(retimed)
         .into_iter()
         .map(|(name, figures)| {
@@ -115,7 +119,8 @@ fn text(shown: &Shown) -> String {
                 cells.push(figures.copper.into());
             }
             if limits {
-                cells.push((100.0 * figures.used).into());
+                let used = [figures.rms_used, figures.used, figures.speed_used];
+                cells.extend(used.map(|used| Cell::from(100.0 * used)));
             }
             cells
         })
@@ -164,6 +169,23 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
             &format!("move {}", k + 1),
             &one_move(shown, gentle, request.goal),
         );
+    }
+    for (name, [own, best]) in &retimed.standing {
+        let says = format!(
+            "{name} stands still for {} s while the drive turns, in the file for {} s: a motion of the drive changes that; where it must last, give the file a motion with the dwell in [motion]",
+            short(*best),
+            short(*own)
+        );
+        line(text, "warning", &says);
+    }
+    if shown.drive.is_some() && retimed.best.rms_used > 1.0 {
+        let says = format!(
+            "the RMS {} is {} of the S1 {} at the mean speed",
+            words.torque,
+            percent(retimed.best.rms_used),
+            words.torque
+        );
+        line(text, "warning", &says);
     }
     if shown.drive.is_some() && retimed.best.used > 1.0 {
         let says = if retimed.best.used.is_finite() {
@@ -246,14 +268,17 @@ const fn why(reason: Reason) -> &'static str {
 }
 
 fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
-    let coordinate = shown.file.machine.mechanism().coordinate();
+    let axis = shown.file.axis();
     let travel = &gentle.travel;
     let mut says = format!(
         "{} to {} in {} s",
-        coordinate.place(travel.start),
-        coordinate.place(travel.start + travel.distance),
+        axis.place(travel.start),
+        axis.place(travel.start + travel.distance),
         short(travel.duration)
     );
+    if let Some(law) = gentle.law {
+        let _ = write!(says, ": the law {law}");
+    }
     let waits = travel.duration - gentle.moving;
     if waits > 0.0 {
         let _ = write!(
@@ -289,13 +314,16 @@ fn percent_fine(share: f64) -> String {
 }
 
 fn figures(figures: &Figures) -> Value {
+    let known = |share: f64| Some(share).filter(|share| share.is_finite());
     json!({
         "rms_torque": figures.rms,
         "peak_torque": figures.peak,
         "peak_speed": figures.speed,
         "work_drawn": figures.drawn,
         "copper_loss": figures.copper,
-        "share_of_limits": if figures.used.is_finite() { json!(figures.used) } else { Value::Null },
+        "share_of_limits": known(figures.used),
+        "share_of_s1": known(figures.rms_used),
+        "share_of_largest_speed": known(figures.speed_used),
     })
 }
 
@@ -325,10 +353,17 @@ fn json(shown: &Shown) -> Value {
     };
     map.insert("global".into(), global.into());
     map.insert("local_because".into(), json!(reason));
+    let axis = shown.file.axis();
+    map.insert("unit".into(), axis.coordinate.per().into());
     let moves = retimed.moves.iter().map(|gentle| {
+        let Travel {
+            start, distance, ..
+        } = gentle.travel;
+        let [start, end] = [start, start + distance].map(|phi| axis.position(phi));
         json!({
-            "start": gentle.travel.start,
-            "distance": gentle.travel.distance,
+            "start": start,
+            "distance": end - start,
+            "law": gentle.law,
             "duration": gentle.travel.duration,
             "moving": gentle.moving,
             "waits_at_end": gentle.waits_at_end,
@@ -340,7 +375,8 @@ fn json(shown: &Shown) -> Value {
         })
     });
     map.insert("moves".into(), moves.collect());
-    let nodes = retimed.trace.nodes().iter();
+    let trace = retimed.trace.of_axis(&axis);
+    let nodes = trace.nodes().iter();
     let nodes =
         nodes.map(|node| json!([node.t, node.phi, node.omega, node.alpha[0], node.alpha[1]]));
     map.insert("nodes".into(), nodes.collect());

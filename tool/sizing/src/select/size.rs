@@ -17,8 +17,7 @@ mod survey;
 
 pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
-pub use order::Certainty;
-use order::Order;
+pub use order::{Certainty, Order};
 
 /// How drives are ranked unless something else was asked for.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {

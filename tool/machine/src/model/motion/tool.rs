@@ -8,6 +8,7 @@ use jred::machine::motion::State;
 use jred::machine::{Mechanism as _, PoseError};
 use jred::number::Transfer;
 
+use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 
@@ -23,6 +24,9 @@ const STANDS: f64 = 1e-9;
 
 /// A transfer function that is nowhere larger (m or rad, per rad or m) is a rounding: the tool does not move at all.
 const NOWHERE: f64 = 1e-12;
+
+/// Share by which the transfer function may vary of a coordinate that goes with the drive link evenly: rounding.
+const EVEN: f64 = 1e-9;
 
 /// The most steps of Newton's method; two are usual, and bisection needs fifty.
 const MOST_STEPS: u32 = 100;
@@ -187,6 +191,16 @@ impl ToolCoordinate {
         } else {
             [last, first]
         })
+    }
+
+    /// The coordinate as one that goes with the drive link evenly, where it does.
+    pub fn axis(&self) -> Option<Axis> {
+        let (first, last) = self.knots.first().zip(self.knots.last())?;
+        let scale = (last.value - first.value) / (last.phi - first.phi);
+        let even = |knot: &Knot| (knot.slope - scale).abs() <= EVEN * scale.abs();
+        let zero = first.value - scale * first.phi;
+        let axis = Axis::new(self.coordinate(), self.symbol(), [zero, scale]);
+        self.knots.iter().all(even).then_some(axis)
     }
 
     /// The coordinate with its transfer functions at the drive link's position `phi`, which lies on the branch.

@@ -38,7 +38,7 @@ impl Certainty {
 /// of zero that they exceed, then by the largest use. Equal ones stay in the order of the catalogue, so that the result does
 /// not depend on the division of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Order {
+pub struct Order {
     /// Of those refused none.
     certainty: Option<Certainty>,
     /// Of those that fit the bits of the power, then one for a warning; of those refused the number of limits.
@@ -49,7 +49,8 @@ pub(super) struct Order {
 }
 
 impl Order {
-    pub(super) fn of(candidate: &Candidate) -> Self {
+    /// That of a candidate.
+    pub fn of(candidate: &Candidate) -> Self {
         Self::from(&candidate.drive, &candidate.outcome, candidate.id)
     }
 

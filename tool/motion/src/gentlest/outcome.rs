@@ -1,0 +1,148 @@
+//! What a solved move comes to: its cost with the wait, what is known of the optimum, and the motion.
+
+use jred::machine::motion::{End, Polynomial};
+use jred_machine::model::motion::Phase;
+
+use super::cost::Cost;
+use super::mesh::{GAUSS, Mesh};
+use super::solve;
+use super::task::{Solved, Stage};
+use super::{Fault, GAP, Gentle, Objective, Optimum, PEAK_POWER, Reason, bound};
+
+/// Where the motion waits because that costs less than to move slowly.
+pub(super) struct Waits {
+    duration: f64,
+    at_end: bool,
+    /// Torque that holds the machine there (N·m).
+    torque: f64,
+}
+
+impl Waits {
+    pub(super) fn new(duration: f64, held: &[f64; 2]) -> Self {
+        let at_end = held[1].abs() <= held[0].abs();
+        Self {
+            duration,
+            at_end,
+            torque: held[usize::from(at_end)],
+        }
+    }
+}
+
+impl Solved<'_> {
+    /// The result, with the share by which the cost changed with the last mesh.
+    pub(super) fn finish(self, change: f64, waits: &Waits) -> Result<Gentle, Fault> {
+        let Self {
+            task,
+            moving,
+            scale,
+            stage,
+            mesh,
+            found,
+        } = self;
+        let way = task.way;
+        // What is meant, without rounding.
+        let exact = Stage {
+            range: 0.0,
+            cost: Cost {
+                rounding: 0.0,
+                ..stage.cost
+            },
+        };
+        let rounded = task.problem(&mesh, moving, &scale, &stage);
+        let problem = task.problem(&mesh, moving, &scale, &exact);
+        let cost = problem.value(&found.x).ok_or(Fault::NotFound)?;
+        // In N²·m²·s, J; of the peak in s.
+        let size = match task.objective {
+            Objective::Rms => scale.unit * scale.unit,
+            Objective::Energy { copper } => copper * scale.unit * scale.unit,
+            Objective::Peak => 1.0,
+        };
+        let [holding, ..] = exact.cost.torque(waits.torque / scale.unit);
+        let held = size * holding * waits.duration;
+        let viscous = mesh.stations.iter().any(|s| s.place.viscous > 0.0)
+            || way.actuator.coefficients.0[3] > 0.0;
+        // Of a wait that costs nothing the multiplier is zero.
+        let waiting = waits.duration > 0.0;
+        let multiplier = if waiting { -holding } else { found.multiplier };
+        let whole = task.travel.ends().ramp == 0.0;
+        let bound = if whole && task.objective != Objective::Peak {
+            let bound = bound::value([&problem, &rounded], &found, multiplier)?;
+            let bound = size * moving * bound + held;
+            // One that is negative says nothing.
+            (bound >= 0.0).then_some(bound)
+        } else {
+            None
+        };
+        let cost = size * moving * cost + held;
+        let convex = !viscous && !scale.bends && multiplier >= -1e-9 * found.cost;
+        let proved = convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
+        let optimum = if proved {
+            Optimum::Global
+        } else if viscous {
+            Optimum::Local(Reason::Viscous)
+        } else if scale.bends {
+            Optimum::Local(Reason::Losses)
+        } else if multiplier < 0.0 {
+            Optimum::Local(Reason::LongTime)
+        } else {
+            Optimum::Local(Reason::Bound)
+        };
+        let peak = found.cost.powf(1.0 / f64::from(PEAK_POWER)) * scale.unit;
+        // Of all motions, not of those with ramps of one form or with a wait.
+        let of_all = task.objective == Objective::Peak && whole && !waiting;
+        let least_peak = (of_all && proved).then_some(peak);
+        let mut phases = phases(task.travel.distance, moving, &mesh, &found.x);
+        if waiting {
+            let still = Phase {
+                duration: waits.duration,
+                polynomial: Polynomial::constant_jerk([0.0; 3]),
+            };
+            let place = if waits.at_end { phases.len() } else { 0 };
+            phases.insert(place, still);
+        }
+        Ok(Gentle {
+            travel: *task.travel,
+            moving,
+            waits_at_end: waits.at_end,
+            cost,
+            bound,
+            least_peak,
+            per_second: -multiplier * size,
+            optimum,
+            discretisation: change,
+            elements: mesh.elements.len(),
+            law: None,
+            phases,
+        })
+    }
+}
+
+/// The motion as polynomials of fifth degree, one for each cell.
+fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
+    let mut phases = Vec::with_capacity(mesh.cells.len());
+    for &(index, [from, to]) in &mesh.cells {
+        let h = to - from;
+        let time: f64 = GAUSS
+            .iter()
+            .map(|[z, weight]| {
+                let [w, ..] = solve::pace_at(mesh, x, index, from + z * h);
+                weight * h / w.sqrt()
+            })
+            .sum();
+        let state = |u: f64| {
+            let [g, slope, bend] = mesh.shape.at(u);
+            let [w, change, _] = solve::pace_at(mesh, x, index, u);
+            let speed = distance * slope * w.sqrt() / duration;
+            let acceleration = distance * (bend * w + 0.5 * slope * change) / (duration * duration);
+            (distance * g, End::new(speed, acceleration))
+        };
+        let (start, first) = state(from);
+        let (end, last) = state(to);
+        let span = time * duration;
+        phases.push(Phase {
+            duration: span,
+            polynomial: Polynomial::between(end - start, span, first, last),
+        });
+    }
+    phases
+}

@@ -1,0 +1,201 @@
+//! The motion that suits a drive best, and the drive: every drive near the border between fit and refused with its own gentlest motion.
+
+use std::collections::BTreeSet;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
+use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::select::size::{Order, Selection};
+
+use crate::gentlest::without_drive;
+use crate::retime::{Figures, Goal, Obstacle, Request, Retimed, retime};
+use crate::way::Actuator;
+
+/// Suitable and refused drives, of the file's motion and of the machine's own gentlest one, that get a motion of their own.
+const TRIED: usize = 8;
+
+/// What drives are judged with.
+pub struct Judging<'a> {
+    /// The machine.
+    pub file: &'a MachineFile,
+    /// Its motion.
+    pub own: &'a Motion,
+    /// The drives.
+    pub catalogue: &'a Catalogue,
+    /// Limits of their motors.
+    pub motors: &'a [Prepared],
+    /// Time steps of the duty.
+    pub steps: usize,
+    /// Leaves of a selection what is asked for.
+    pub narrow: &'a dyn Fn(&mut Selection),
+}
+
+/// A drive with the motion that is the gentlest for it.
+#[derive(Clone, Debug)]
+pub struct Tried<'c> {
+    /// The drive.
+    pub drive: Drive<'c>,
+    /// What the motion of the file asks of it.
+    pub own: Figures,
+    /// What its gentlest motion asks.
+    pub gentlest: Figures,
+    /// Its place among drives with their own motions; `None`: with its own motion it violates a rule.
+    pub order: Option<Order>,
+    motion: Motion,
+}
+
+/// The drive that comes first with its own motion, and what is said beside it.
+#[derive(Clone, Debug)]
+pub struct Suited<'c> {
+    /// The drives that were tried, in their order; those that violate a rule last.
+    pub tried: Vec<Tried<'c>>,
+    /// The first drive with the motion of the file.
+    pub before: Option<Drive<'c>>,
+    /// With the motion of the first drive tried, another one that comes before it: its own motion would be worse for it.
+    pub ahead: Option<Drive<'c>>,
+}
+
+impl<'c> Suited<'c> {
+    /// The drive that comes first; `None`: with its own motion none of them satisfies the rules.
+    pub fn best(&self) -> Option<&Tried<'c>> {
+        self.tried.first().filter(|tried| tried.order.is_some())
+    }
+
+    /// Its motion.
+    pub fn motion(&self) -> Option<&Motion> {
+        self.best().map(|tried| &tried.motion)
+    }
+}
+
+/// The first drives of a motion: those that fit, and those near the border.
+struct First<'a> {
+    fit: Vec<(DriveId, Drive<'a>, Order)>,
+    tried: Vec<(DriveId, Drive<'a>)>,
+}
+
+impl<'a> Judging<'a> {
+    /// Each of the first drives with the motion of least RMS torque for it.
+    ///
+    /// # Errors
+    /// Those of [`retime`].
+    pub fn best(&self) -> Result<Suited<'a>, Obstacle> {
+        let before = self.first(self.own)?;
+        let free = self.first(&self.gentlest(None)?.motion)?;
+        let mut names = BTreeSet::new();
+        let mut suited = Suited {
+            tried: Vec::new(),
+            before: before.fit.first().map(|(_, drive, _)| *drive),
+            ahead: None,
+        };
+        for (id, drive) in before.tried.iter().chain(&free.tried) {
+            if names.insert(drive.name()) {
+                suited.tried.push(self.with_own(*id, *drive)?);
+            }
+        }
+        suited.sort();
+        // With the motion of the best drive another one may come first, which was not tried.
+        for _ in 0..TRIED {
+            let Some(best) = suited.best() else { break };
+            let listed = self.first(&best.motion)?;
+            let ahead = listed.fit.first();
+            let Some((id, drive, _)) = ahead.filter(|(.., order)| Some(*order) < best.order) else {
+                break;
+            };
+            if !names.insert(drive.name()) {
+                suited.ahead = Some(*drive);
+                break;
+            }
+            suited.tried.push(self.with_own(*id, *drive)?);
+            suited.sort();
+        }
+        Ok(suited)
+    }
+
+    fn with_own(&self, id: DriveId, drive: Drive<'a>) -> Result<Tried<'a>, Obstacle> {
+        let retimed = self.gentlest(Some(&drive))?;
+        Ok(Tried {
+            drive,
+            order: self.order(id, drive, &retimed.motion)?,
+            own: retimed.own,
+            gentlest: retimed.best,
+            motion: retimed.motion,
+        })
+    }
+
+    /// The gentlest motion for a drive, or for the machine alone.
+    fn gentlest(&self, drive: Option<&Drive>) -> Result<Retimed, Obstacle> {
+        let actuator = drive.map_or_else(without_drive, |drive| {
+            let envelope = Envelope::at(drive.motor, drive.amplifier, &self.file.site);
+            Actuator::new(drive, envelope)
+        });
+        let request = Request {
+            actuator,
+            copper: None,
+            goal: Goal::Rms,
+            ramp: 0.0,
+            steps: self.steps,
+        };
+        retime(self.file, self.own, &request)
+    }
+
+    fn cycle(&self, motion: &Motion) -> Result<Cycle, Obstacle> {
+        Ok(Cycle::new(&Duty::new(self.file, motion, self.steps)?))
+    }
+
+    fn first(&self, motion: &Motion) -> Result<First<'a>, Obstacle> {
+        let Self { file, motors, .. } = self;
+        let cycle = self.cycle(motion)?;
+        let mut selection =
+            Selection::parallel(self.catalogue, motors, &cycle, &file.site, &file.rules);
+        (self.narrow)(&mut selection);
+        let fit = selection.first_fit(TRIED);
+        // The smaller motor that is refused by least is the one that another motion may make suitable.
+        let smaller = selection.next_smaller();
+        let refused = selection.first_refused(TRIED);
+        // Drives of the catalogue outlive the selection.
+        let named = |name: &str| {
+            let mut drives = self.catalogue.drives();
+            drives.find(|(_, drive)| drive.name() == name)
+        };
+        let with_order = fit.iter().filter_map(|candidate| {
+            let (id, drive) = named(&candidate.drive.name())?;
+            Some((id, drive, Order::of(candidate)))
+        });
+        let names: BTreeSet<String> = (fit.iter().chain(&refused).chain(&smaller))
+            .map(|candidate| candidate.drive.name())
+            .collect();
+        Ok(First {
+            fit: with_order.collect(),
+            tried: names.iter().filter_map(|name| named(name)).collect(),
+        })
+    }
+
+    /// The place of a drive with a motion; `None`: it violates a rule.
+    fn order(
+        &self,
+        id: DriveId,
+        drive: Drive<'a>,
+        motion: &Motion,
+    ) -> Result<Option<Order>, Obstacle> {
+        let Self {
+            file,
+            motors,
+            catalogue,
+            ..
+        } = self;
+        let cycle = self.cycle(motion)?;
+        let alone = std::iter::once((id, drive));
+        let selection = Selection::among(alone, catalogue, motors, &cycle, &file.site, &file.rules);
+        Ok(selection.fit.first().map(Order::of))
+    }
+}
+
+impl Suited<'_> {
+    fn sort(&mut self) {
+        let key = |tried: &Tried| (tried.order.is_none(), tried.order);
+        self.tried.sort_by_key(key);
+    }
+}

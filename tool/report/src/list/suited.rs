@@ -1,0 +1,85 @@
+//! Drives with the motions that suit them, for reading: what stands before the list of `jred size --motion best`.
+
+use jred_machine::number::rounding::{percent, short};
+use jred_machine::units::Vocabulary;
+use jred_motion::suited::{Suited, Tried};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::study::cell::Cell;
+
+use crate::table::sheet::Reading;
+
+/// Which motion the list below is made with, and what the best drive was before.
+pub fn words(suited: &Suited) -> String {
+    let Some(best) = suited.best() else {
+        return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
+    };
+    let torque = best.drive.motor.kind.vocabulary().torque;
+    let says = format!(
+        "Motion: the gentlest for {}, with {} less RMS {torque} than the file's; `jred retime` writes it",
+        named(&best.drive),
+        percent(saving(best))
+    );
+    let saved = match &suited.before {
+        None => "With the motion of the file no drive is suitable".to_owned(),
+        Some(before) if before.name() == best.drive.name() => {
+            "With the motion of the file the same drive is the best one".to_owned()
+        }
+        Some(before) => format!(
+            "With the motion of the file the best drive is {}",
+            named(before)
+        ),
+    };
+    let ahead = suited.ahead.as_ref().map_or_else(String::new, |ahead| {
+        format!(
+            "\nThe list ranks {} first: this motion suits it better than its own gentlest one, whose RMS {torque} is least but not its use of all limits",
+            named(ahead)
+        )
+    });
+    format!("{says}\n{saved}{ahead}")
+}
+
+/// The drives that were tried, each with its own motion, and what that saves.
+pub fn table(suited: &Suited) -> String {
+    let Some(first) = suited.tried.first() else {
+        return String::new();
+    };
+    let words: &Vocabulary = first.drive.motor.kind.vocabulary();
+    let heads = [
+        "drive, each with its own motion".to_owned(),
+        "rated power [W]".to_owned(),
+        format!("RMS {}, file's motion", words.torque.label()),
+        "its gentlest".to_owned(),
+        "saving [%]".to_owned(),
+        "rules".to_owned(),
+    ];
+    let row = |tried: &Tried| -> Vec<Cell> {
+        let rules = if tried.order.is_some() {
+            "satisfied"
+        } else {
+            "violated"
+        };
+        vec![
+            tried.drive.name().as_str().into(),
+            tried.drive.motor.rated_power().into(),
+            tried.own.rms.into(),
+            tried.gentlest.rms.into(),
+            (100.0 * saving(tried)).into(),
+            rules.into(),
+        ]
+    };
+    let rows: Vec<Vec<Cell>> = suited.tried.iter().map(row).collect();
+    Reading::table(&heads, &rows, 1)
+}
+
+fn saving(tried: &Tried) -> f64 {
+    (1.0 - tried.gentlest.rms / tried.own.rms).max(0.0)
+}
+
+fn named(drive: &Drive) -> String {
+    let power = drive.motor.rated_power();
+    let power = power.map_or_else(
+        || "of unknown power".to_owned(),
+        |power| format!("{} W", short(power)),
+    );
+    format!("{} ({power})", drive.name())
+}
