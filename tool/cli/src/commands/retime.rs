@@ -85,7 +85,8 @@ pub fn retime(options: &Retime) -> Result<Done> {
         written,
     };
     print_parts([list::retime::write(&shown, options.format)])?;
-    let exceeds = retimed.best.used > 1.0;
+    let best = &retimed.best;
+    let exceeds = best.used.max(best.rms_used) > 1.0;
     Ok(if exceeds { Done::Violated } else { Done::Holds })
 }
 
