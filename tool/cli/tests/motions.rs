@@ -100,13 +100,15 @@ fn an_axis_is_spoken_of_in_its_own_words() {
     ];
     let with = |more: &[&'static str]| [&plain[..], more].concat();
     let way = ["--from", "0 mm", "--to", "600 mm"];
-    let made = run(&with(&way)).ends(0);
-    made.says(&[
+    let made = run(&with(&way)).ends(0).out;
+    for words in [
         "0.7 s: 1 move",
         "0 mm to 600 mm",
         "from x [mm]",
         "speed from [m/s]",
-    ]);
+    ] {
+        assert!(made.contains(words), "{made}");
+    }
     let json = run(&[&with(&way)[..], &["--format", "json", "--profile", profile]].concat());
     let json = json.ends(0).json();
     let time = json["duration"].as_f64().unwrap();
@@ -120,17 +122,18 @@ fn an_axis_is_spoken_of_in_its_own_words() {
         "type = \"profile\"\nfile = \"p.csv\"\ncyclic = false",
     );
     let again = folder.file("again.toml", again);
-    let checked = run(&["check", again.to_str().unwrap()]).ends(0);
-    checked.says(&["motion of x of carriage: 0.7 s", "600 mm", "1 m/s"]);
+    let checked = run(&["check", again.to_str().unwrap()]).ends(0).out;
+    for words in ["motion of x of carriage: 0.7 s", "600 mm", "1 m/s"] {
+        assert!(checked.contains(words), "{checked}");
+    }
     let retimed = run(&["retime", axis, "--format", "csv"]).ends(0);
     assert!(
         retimed.out.starts_with("t [s],s [m],v [m/s],a [m/s^2]"),
         "{}",
         &retimed.out[..60]
     );
-    run(&["retime", axis])
-        .ends(0)
-        .says(&["x = 0 mm to x = 600 mm"]);
+    let listed = run(&["retime", axis]).ends(0).out;
+    assert!(listed.contains("x = 0 mm to x = 600 mm"), "{listed}");
 }
 
 /// A profile of the drive link under a [motion] of the tool: the cure is named.
@@ -164,11 +167,35 @@ fn the_motion_is_that_of_the_first_drive() {
     let folder = Folder::new();
     let press = folder.file("press.toml", rested());
     let press = press.to_str().unwrap();
-    let text = run(&["size", press, "--motion", "best"]).ends(0).out;
+    let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../sizing/catalogue");
+    let few = |table: &str, keys: &[&str]| {
+        let text = std::fs::read_to_string(home.join(table)).unwrap();
+        let kept = |line: &&str| {
+            let key = line.split(',').next().unwrap();
+            key == "key" || keys.contains(&key)
+        };
+        let lines: Vec<&str> = text.lines().filter(kept).collect();
+        folder.file(table, lines.join("\n") + "\n")
+    };
+    let motors = few("motors.csv", &["sgmsh-15a", "sgmsh-30a"]);
+    let gearboxes = few("gearboxes.csv", &["npt025mf-5", "npt035mf-10"]);
+    let size = [
+        "size",
+        press,
+        "--motion",
+        "best",
+        "--steps",
+        "200",
+        "--motors",
+        motors.to_str().unwrap(),
+        "--gearboxes",
+        gearboxes.to_str().unwrap(),
+    ];
+    let text = run(&size).ends(0).out;
     let (_, named) = text.split_once("Motion: the gentlest for ").unwrap();
     let (named, _) = named.split_once(" (").unwrap();
     assert!(text.contains("each with its own motion"), "{text}");
-    let json = run(&["size", press, "--motion", "best", "--format", "json"])
+    let json = run(&[&size[..], &["--format", "json"]].concat())
         .ends(0)
         .json();
     let first = &json["fit"][0];

@@ -1,6 +1,6 @@
 //! The motion that suits a drive best, and the drive: every drive near the border between fit and refused with its own gentlest motion.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -8,7 +8,7 @@ use jred_machine::model::motion::Motion;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::{Envelope, Prepared};
-use jred_sizing::select::size::{Order, Selection};
+use jred_sizing::select::size::{Candidate, Order, Selection};
 
 use crate::gentlest::without_drive;
 use crate::retime::{Figures, Goal, Obstacle, Request, Retimed, retime};
@@ -73,7 +73,7 @@ impl<'c> Suited<'c> {
 /// The first drives of a motion: those that fit, and those near the border.
 struct First<'a> {
     fit: Vec<(DriveId, Drive<'a>, Order)>,
-    tried: Vec<(DriveId, Drive<'a>)>,
+    tried: BTreeMap<DriveId, Drive<'a>>,
 }
 
 impl<'a> Judging<'a> {
@@ -84,14 +84,14 @@ impl<'a> Judging<'a> {
     pub fn best(&self) -> Result<Suited<'a>, Obstacle> {
         let before = self.first(self.own)?;
         let free = self.first(&self.gentlest(None)?.motion)?;
-        let mut names = BTreeSet::new();
+        let mut known = BTreeSet::new();
         let mut suited = Suited {
             tried: Vec::new(),
             before: before.fit.first().map(|(_, drive, _)| *drive),
             ahead: None,
         };
         for (id, drive) in before.tried.iter().chain(&free.tried) {
-            if names.insert(drive.name()) {
+            if known.insert(*id) {
                 suited.tried.push(self.with_own(*id, *drive)?);
             }
         }
@@ -104,7 +104,7 @@ impl<'a> Judging<'a> {
             let Some((id, drive, _)) = ahead.filter(|(.., order)| Some(*order) < best.order) else {
                 break;
             };
-            if !names.insert(drive.name()) {
+            if !known.insert(*id) {
                 suited.ahead = Some(*drive);
                 break;
             }
@@ -156,20 +156,18 @@ impl<'a> Judging<'a> {
         let smaller = selection.next_smaller();
         let refused = selection.first_refused(TRIED);
         // Drives of the catalogue outlive the selection.
-        let named = |name: &str| {
-            let mut drives = self.catalogue.drives();
-            drives.find(|(_, drive)| drive.name() == name)
-        };
+        let all = fit.iter().chain(&refused).chain(&smaller);
+        let wanted: BTreeSet<DriveId> = all.map(Candidate::id).collect();
+        let drives = self.catalogue.drives();
+        let tried: BTreeMap<DriveId, Drive<'a>> =
+            drives.filter(|(id, _)| wanted.contains(id)).collect();
         let with_order = fit.iter().filter_map(|candidate| {
-            let (id, drive) = named(&candidate.drive.name())?;
-            Some((id, drive, Order::of(candidate)))
+            let drive = tried.get(&candidate.id())?;
+            Some((candidate.id(), *drive, Order::of(candidate)))
         });
-        let names: BTreeSet<String> = (fit.iter().chain(&refused).chain(&smaller))
-            .map(|candidate| candidate.drive.name())
-            .collect();
         Ok(First {
             fit: with_order.collect(),
-            tried: names.iter().filter_map(|name| named(name)).collect(),
+            tried,
         })
     }
 

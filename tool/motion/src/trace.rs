@@ -10,13 +10,6 @@ use jred_machine::model::motion::step_at;
 
 pub use jred_machine::model::motion::Node;
 
-fn at_rest(node: &Node) -> State<f64> {
-    State {
-        phi: node.phi,
-        ..State::default()
-    }
-}
-
 /// A motion through nodes: between two of them the speed is the cubic through both speeds and accelerations, the position the quintic
 /// that has positions as well.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,10 +112,17 @@ impl Trace {
 
     /// The state at a time (s), clamped to the motion; where the acceleration jumps, the one after.
     pub fn at(&self, t: f64) -> State<f64> {
-        step_at(&self.nodes, t).map_or_else(
-            || self.nodes.first().map_or(State::default(), at_rest),
-            |([before, after], share)| after.after(before, share),
-        )
+        match (step_at(&self.nodes, t), self.nodes.last()) {
+            (Some(([before, after], share)), Some(last)) if t < last.t => {
+                after.after(before, share)
+            }
+            (_, Some(last)) => State {
+                phi: last.phi,
+                omega: last.omega,
+                alpha: last.alpha[1],
+            },
+            _ => State::default(),
+        }
     }
 
     /// The way (rad, or m) between the nodes around a time, at its end those before: its sign is the direction, 0 where the machine stands.

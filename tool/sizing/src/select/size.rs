@@ -53,6 +53,11 @@ impl Candidate<'_> {
         (!self.outcome.fails()).then(|| Certainty::of(&self.drive, &self.outcome))
     }
 
+    /// Which drive of the catalogue it is.
+    pub const fn id(&self) -> DriveId {
+        self.id
+    }
+
     /// Whether both are the same drive of the catalogue.
     pub fn is_same_drive(&self, other: &Candidate) -> bool {
         self.id == other.id
