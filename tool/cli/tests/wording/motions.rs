@@ -138,7 +138,6 @@ fn retime() {
                 &["--profile", "motion.csv", "--cam", "cam.csv"],
             ),
             &with("scotch-yoke.toml", &[]),
-            &with("press.toml", &["--format", "csv", "--rows", "16"]),
         ]),
     );
 }
