@@ -428,7 +428,7 @@ fn no_law_has_a_lower_peak() {
     );
     let nodes = found.trace.nodes();
     near("way", nodes[nodes.len() - 1].phi, TAU / 4.0, 1e-12);
-    let machines = [
+    let machines = vec![
         machine(text),
         example("press", &[]),
         example("four-bar", &[]),

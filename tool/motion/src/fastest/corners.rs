@@ -30,7 +30,9 @@ pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error>
     let mut found: Vec<f64> = edges(field, from);
     found.extend(reversals(field, from, length)?);
     if turns {
-        found.iter_mut().for_each(|x| *x = x.rem_euclid(TAU));
+        for x in &mut found {
+            *x = x.rem_euclid(TAU);
+        }
         let more = |x: &f64| {
             let x = *x;
             let repeats = (1..).map(move |k| x + TAU * f64::from(k));

@@ -197,6 +197,33 @@ impl NoMotion {
     }
 }
 
+impl NoMotion {
+    /// Why a motion that may exist is not computed.
+    fn not_computed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooLong { turns, most } => write!(
+                f,
+                "the way of {} turns is too long: of a machine that changes within a turn, the fastest motion is computed over at most {} turns",
+                short(*turns),
+                short(most.floor())
+            ),
+            Self::NotAccurate {
+                excess,
+                phi,
+                change,
+                axis,
+            } => {
+                let place = axis.place(*phi);
+                write!(
+                    f,
+                    "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
+                )
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Binding {
     /// Its name.
     pub const fn name(self) -> &'static str {
@@ -295,24 +322,7 @@ impl fmt::Display for NoMotion {
                 short(axis.rate(*most)),
                 axis.coordinate.speed_unit()
             ),
-            Self::TooLong { turns, most } => write!(
-                f,
-                "the way of {} turns is too long: of a machine that changes within a turn, the fastest motion is computed over at most {} turns",
-                short(*turns),
-                short(most.floor())
-            ),
-            Self::NotAccurate {
-                excess,
-                phi,
-                change,
-                axis,
-            } => {
-                let place = axis.place(*phi);
-                write!(
-                    f,
-                    "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
-                )
-            }
+            Self::TooLong { .. } | Self::NotAccurate { .. } => self.not_computed(f),
             Self::Empty {
                 phi,
                 speed,

@@ -28,7 +28,7 @@ pub(super) fn changed(
     let pairs = own_times.into_iter().zip(other_times);
     let all = names
         .zip(pairs)
-        .map(|(name, (own, other))| ((*name).to_string(), [own, other]));
+        .map(|(name, (own, other))| (name.clone(), [own, other]));
     let least = DIFFERS * own.duration();
     Ok(all
         .filter(|(_, [own, other])| (own - other).abs() > least)

@@ -238,7 +238,7 @@ impl Answer<'_> {
         let fastest = axis.rate(speeds.fold(0.0, f64::max));
         let row = |phase: &Phase| -> Vec<Cell> {
             let mut cells = vec![Cell::from(phase.limit.name())];
-            let positions = phase.phi.map(|phi| position(phi));
+            let positions = phase.phi.map(&position);
             let times = phase.t.map(|t| shown(t, made.fastest.time));
             let speeds = phase.speed.map(|v| shown(axis.rate(v), fastest));
             let texts = positions.into_iter().chain(times).chain(speeds);
