@@ -10,6 +10,7 @@
 //! `tests/no_panic_list.rs` sees to. `scripts/test` builds it with the feature `micromath`.
 //! What computes in double precision is called with `--cfg gate_double`, where no panic can be reached, either. Except:
 //!
+//! - `Table::cell_curves`: for proofs on a host, with a cell that may not exist
 //! - `Transfer`: derivatives of mechanisms, of which tables are made
 //! - `CubicSpline`, `control_points`: curves of which tables are made
 //! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: they make tables
