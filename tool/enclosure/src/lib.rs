@@ -1,6 +1,5 @@
-#![forbid(unsafe_code)]
-#![doc = "The largest error of a table, proven: a machine's curves enclosed in intervals between all positions, compared with the polynomials"]
-#![doc = "that the table's words mean."]
+//! The largest error of a table, proven: a machine's curves enclosed in intervals between all positions, compared with the polynomials
+//! that the table's words mean.
 //!
 //! ```text
 //! joints ──► places ──► curves ──► difference to each cell ──► bound
@@ -17,6 +16,7 @@
 //! ```
 //!
 //! for every position of the range. To the bound of the table as it is read without a rounding, it adds the roundings of the tick.
+#![forbid(unsafe_code)]
 
 mod closure;
 mod curves;
