@@ -137,6 +137,10 @@ fn curves_are_to_scale() {
             .iter()
             .map(|[speed, torque]| [*speed, torque * scale as f32]);
         assert_eq!(other.points, expected.collect::<Vec<_>>(), "{scale}");
-        assert!(other.shortfall == one.shortfall, "{scale}");
+        assert_eq!(
+            other.shortfall.to_bits(),
+            one.shortfall.to_bits(),
+            "{scale}"
+        );
     }
 }
