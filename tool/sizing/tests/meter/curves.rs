@@ -199,9 +199,9 @@ fn straight_lines_are_met_in_their_knees() {
 /// A motor rated near rest: between two speeds where points may lie its constant power falls to a tenth.
 #[test]
 fn constant_power_from_a_low_speed_on() {
-    for rated_speed in [0.5, 1.0, 4.0] {
+    for (torque, rated_speed) in [(20.0, 0.5), (20.0, 4.0), (0.02, 1.0)] {
         let motor = Motor {
-            rated_torque: Some(20.0),
+            rated_torque: Some(torque),
             rated_speed: Some(rated_speed),
             max_speed: Some(300.0),
             ..Motor::default()

@@ -106,8 +106,8 @@ fn what_is_open_is_named() {
         assert_eq!(places(&[open, RESTS, DRIVEN, open]), Err(0b1001));
     }
     // Backwards for a moment, under a torque that stays the same: the ends are driven, and nothing strays.
-    let moment = [[0.0, 20.0, 10.0], [0.0, 20.0, -10.0], [0.0, 20.0, 10.0]];
-    let c = [0.5, 0.25, 0.25, 0.0, 0.0];
+    let moment = [[20.0, 0.0, 10.0], [20.0, 0.0, -10.0], [20.0, 0.0, 10.0]];
+    let c = [0.5, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(front(&[moment]).0.against_speed(&c, 1e-9), Err(0b1));
 }
 
