@@ -370,7 +370,9 @@ fn small_motors_are_screened_as_in_full() {
             *figure *= 1e-3;
         }
         for curve in [&mut motor.peak_curve, &mut motor.continuous_curve] {
-            curve.iter_mut().for_each(|[_, torque]| *torque *= 1e-3);
+            for [_, torque] in curve.iter_mut() {
+                *torque *= 1e-3;
+            }
         }
         motor.rotor_inertia *= 1e-3;
         motor.friction = [0.0; 2];

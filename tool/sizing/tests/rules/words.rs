@@ -181,7 +181,7 @@ fn a_missing_figure_is_named() {
         (
             Rule::Speed,
             |s, _| {
-                (s.motor.max_speed, s.motor.rated_speed, s.motor.corner_speed) = (None, None, None)
+                (s.motor.max_speed, s.motor.rated_speed, s.motor.corner_speed) = (None, None, None);
             },
             "maximum speed",
         ),
@@ -255,7 +255,7 @@ fn a_missing_figure_is_named() {
                     s.file.site.supply.max_voltage,
                     a.max_voltage,
                     s.motor.max_bus_voltage,
-                ) = (None, None, None)
+                ) = (None, None, None);
             },
             "maximum voltage of the DC bus",
         ),
@@ -273,6 +273,7 @@ fn a_missing_figure_is_named() {
 /// A thermal figure that cannot be one, which a program may hand in, is none.
 #[test]
 fn a_thermal_figure_that_is_none_is_not_used() {
+    type Field = fn(&mut Motor) -> &mut Option<f64>;
     let with = |change: &dyn Fn(&mut Motor)| {
         let found = judged(|stand, _| change(&mut stand.motor));
         let winding = found
@@ -281,7 +282,6 @@ fn a_thermal_figure_that_is_none_is_not_used() {
         let (_, finding, check) = winding.unwrap().clone();
         (finding.value.to_bits(), check.unit, check.note)
     };
-    type Field = fn(&mut Motor) -> &mut Option<f64>;
     let fields: [Field; 4] = [
         |motor| &mut motor.thermal.winding_resistance,
         |motor| &mut motor.thermal.housing_resistance,

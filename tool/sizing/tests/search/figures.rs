@@ -79,6 +79,8 @@ fn no_refused_motor_lies_between_the_smallest_and_the_next() {
     let select = |case: &super::Case| {
         let (cycle, site, rules) = (&case.cycle, &case.file.site, &case.file.rules);
         let selection = Selection::new(&catalogue, &prepared, cycle, site, rules);
+        let ranking = selection.ranking(MotorKind::Rotary.vocabulary());
+        assert!(ranking.contains("the smallest motor first"), "{ranking}");
         let next = selection.next_smaller();
         let fit = selection.first_fit(usize::MAX);
         let refused = selection.first_refused(usize::MAX);
