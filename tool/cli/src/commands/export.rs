@@ -61,27 +61,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
             "f32 tables have no curve of 1/J: in floating point, the tick divides"
         ));
     }
-    let layouts = options.number.layouts();
-    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
-        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
-        return Err(miette!(
-            help = format!("remove --layout, or use one of: {}", names.join(", ")),
-            "{} tables have no layout {}",
-            options.number.name(),
-            options.layout.name()
-        ));
-    }
-    let whole = match options.layout {
-        LayoutChoice::Harmonic => Some("harmonics describe"),
-        LayoutChoice::SliderCrank => Some("a closed form describes"),
-        _ => None,
-    };
-    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
-        return Err(miette!(
-            help = "remove --pieces, or take another --layout",
-            "{whole} a whole turn, not a piece of one"
-        ));
-    }
+    check_layout(options)?;
     let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
@@ -154,6 +134,32 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     } else {
         done
     })
+}
+
+/// Whether the layout fits the number type, and a table in pieces.
+fn check_layout(options: &options::Export) -> Result<()> {
+    let layouts = options.number.layouts();
+    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
+        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
+        return Err(miette!(
+            help = format!("remove --layout, or use one of: {}", names.join(", ")),
+            "{} tables have no layout {}",
+            options.number.name(),
+            options.layout.name()
+        ));
+    }
+    let whole = match options.layout {
+        LayoutChoice::Harmonic => Some("harmonics describe"),
+        LayoutChoice::SliderCrank => Some("a closed form describes"),
+        _ => None,
+    };
+    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
+        return Err(miette!(
+            help = "remove --pieces, or take another --layout",
+            "{whole} a whole turn, not a piece of one"
+        ));
+    }
+    Ok(())
 }
 
 /// Whether the error of the table is proven, and is not above the one allowed; says what is not so.
