@@ -146,6 +146,7 @@ const TOOL: [(&str, &[&str]); 5] = [
             "place",
             "matrix",
             "fault",
+            "equation",
             "closure",
             "curves",
             "difference",

@@ -21,6 +21,7 @@
 mod closure;
 mod curves;
 mod difference;
+mod equation;
 mod fault;
 mod form;
 mod interval;

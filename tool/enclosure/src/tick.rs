@@ -90,8 +90,11 @@ impl Tick {
     pub(crate) fn error(&self, cell: &CellCurves) -> f64 {
         let [omega, alpha] = self.range;
         let reach = cell.centre.max(1.0 - cell.centre);
+        // A place that is rounded up may lie beyond the end of the cell by as much.
         let moved = |p: &[f64; 4]| {
-            self.place * (p[1].abs() + reach * (2.0 * p[2].abs() + reach * 3.0 * p[3].abs()))
+            1.000_1
+                * self.place
+                * (p[1].abs() + reach * (2.0 * p[2].abs() + reach * 3.0 * p[3].abs()))
         };
         let largest = |p: &[f64; 4]| {
             p[0].abs() + reach * (p[1].abs() + reach * (p[2].abs() + reach * p[3].abs()))

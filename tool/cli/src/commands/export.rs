@@ -61,7 +61,27 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
             "f32 tables have no curve of 1/J: in floating point, the tick divides"
         ));
     }
-    check_layout(options)?;
+    let layouts = options.number.layouts();
+    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
+        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
+        return Err(miette!(
+            help = format!("remove --layout, or use one of: {}", names.join(", ")),
+            "{} tables have no layout {}",
+            options.number.name(),
+            options.layout.name()
+        ));
+    }
+    let whole = match options.layout {
+        LayoutChoice::Harmonic => Some("harmonics describe"),
+        LayoutChoice::SliderCrank => Some("a closed form describes"),
+        _ => None,
+    };
+    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
+        return Err(miette!(
+            help = "remove --pieces, or take another --layout",
+            "{whole} a whole turn, not a piece of one"
+        ));
+    }
     let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
@@ -115,20 +135,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         output::write(out, &bytes)?;
     }
     warn(&file, [omega, 0.0])?;
-    let done = match (&options.out, options.format) {
-        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
-        (None, _) => print(&format!(
-            "{}\n{}nothing written: use --out to write a file\n",
-            export.summary(),
-            alternatives::alternatives(&export)
-        )),
-        (Some(out), _) => print(&format!(
-            "{}\n{}written to {}\n",
-            export.summary(),
-            alternatives::alternatives(&export),
-            plain::path(out)
-        )),
-    }?;
+    let done = show(options, &export)?;
     Ok(if options.prove && !proof_holds(&export) {
         Done::Violated
     } else {
@@ -136,30 +143,22 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     })
 }
 
-/// Whether the layout fits the number type, and a table in pieces.
-fn check_layout(options: &options::Export) -> Result<()> {
-    let layouts = options.number.layouts();
-    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
-        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
-        return Err(miette!(
-            help = format!("remove --layout, or use one of: {}", names.join(", ")),
-            "{} tables have no layout {}",
-            options.number.name(),
-            options.layout.name()
-        ));
+/// Prints the table, and where it was written.
+fn show(options: &options::Export, export: &Export) -> Result<Done> {
+    match (&options.out, options.format) {
+        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
+        (None, _) => print(&format!(
+            "{}\n{}nothing written: use --out to write a file\n",
+            export.summary(),
+            alternatives::alternatives(export)
+        )),
+        (Some(out), _) => print(&format!(
+            "{}\n{}written to {}\n",
+            export.summary(),
+            alternatives::alternatives(export),
+            plain::path(out)
+        )),
     }
-    let whole = match options.layout {
-        LayoutChoice::Harmonic => Some("harmonics describe"),
-        LayoutChoice::SliderCrank => Some("a closed form describes"),
-        _ => None,
-    };
-    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
-        return Err(miette!(
-            help = "remove --pieces, or take another --layout",
-            "{whole} a whole turn, not a piece of one"
-        ));
-    }
-    Ok(())
 }
 
 /// Whether the error of the table is proven, and is not above the one allowed; says what is not so.

@@ -12,7 +12,7 @@ fn a_proof_is_printed_and_stated_in_the_image() {
     let out = folder.path("press.jred");
     let more = ["--torque-error", "2 N m", "--prove"];
     let run = export_of(&press_file(), &more, Some(&out));
-    run.ends(0);
+    let run = run.ends(0);
     assert!(
         run.out
             .contains("proven over every position: torque error of the table within "),
@@ -26,7 +26,7 @@ fn a_proof_is_printed_and_stated_in_the_image() {
         &[&more[..], &["--format", "json"]].concat(),
         None,
     );
-    json.ends(0);
+    let json = json.ends(0);
     let json: Value = serde_json::from_str(&json.out).unwrap();
     assert_eq!(json["error_between_places"], "proven");
     let proof = |name: &str| json["proof"][name].as_f64().unwrap();
@@ -50,7 +50,7 @@ fn a_proof_is_printed_and_stated_in_the_image() {
 fn what_is_not_proven_is_named_and_ends_with_1() {
     let cam = press_file().with_file_name("cam-translating.toml");
     let run = export_of(&cam, &["--torque-error", "0.5 N m", "--prove"], None);
-    run.ends(1);
+    let run = run.ends(1);
     let why = "not proven: the motion that joint \"";
     assert!(
         run.out.contains(why) && run.err.contains(why),
@@ -69,14 +69,14 @@ fn a_proven_error_above_the_one_allowed_ends_with_1() {
         &[&table[..], &["--format", "json"]].concat(),
         None,
     );
-    best.ends(0);
+    let best = best.ends(0);
     let best: Value = serde_json::from_str(&best.out).unwrap();
     let reached = best["torque_error"].as_f64().unwrap();
     let allowed = format!("{} N m", reached * 1.000_01);
     let asked = [&table[..], &["--torque-error", &allowed]].concat();
     export_of(&press_file(), &asked, None).ends(0);
     let run = export_of(&press_file(), &[&asked[..], &["--prove"]].concat(), None);
-    run.ends(1);
+    let run = run.ends(1);
     assert!(run.err.contains("the proven torque error, "), "{}", run.err);
     assert!(run.err.contains(" deg, is above the "), "{}", run.err);
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::candidate::{Answer, Candidate, Made};
 use super::{Export, LayoutChoice, LayoutName, Number, Proven};
 use crate::model::coordinate::Coordinate;
-use crate::number::rounding::{bound, rounded, short};
+use crate::number::rounding::{rounded, short};
 
 /// Bit of the set, its word for a reader, its name in Rust.
 const CURVES: [(Set, &str, &str); 6] = [
@@ -121,7 +121,7 @@ fn quantities(table: &Candidate, coordinate: Coordinate) -> [(&'static str, f32)
 }
 
 impl Export {
-    fn effort(&self) -> &'static str {
+    pub(super) fn effort(&self) -> &'static str {
         match self.coordinate {
             Coordinate::Angle => "torque",
             Coordinate::Length => "force",
@@ -223,60 +223,6 @@ impl Export {
             let _ = writeln!(text, "unused bits: {}", unused.join(", "));
         }
         text
-    }
-
-    /// What is proven of the error, if that was asked for.
-    fn proof_text(&self) -> String {
-        let (coordinate, word) = (self.coordinate, self.effort());
-        let effort = coordinate.effort_unit();
-        match self.proof() {
-            None => String::new(),
-            Some(Proven::Open(why)) => format!("not proven: {why}\n"),
-            Some(Proven::Bounded(proof)) => {
-                let ticks = match proof.ticked {
-                    Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
-                    None => "the arithmetic of its ticks is not proven".to_owned(),
-                };
-                format!(
-                    "proven over every position: {word} error of the table within {} {effort}, largest near {} {}; {ticks}\n",
-                    bound(proof.bound),
-                    rounded(coordinate.shown(proof.worst)),
-                    coordinate.unit(),
-                )
-            }
-        }
-    }
-
-    /// That the proven error is above the one allowed, and where.
-    pub fn exceeded(&self) -> String {
-        let coordinate = self.coordinate;
-        let effort = coordinate.effort_unit();
-        match (self.proof(), self.task.torque_error) {
-            (Some(found @ Proven::Bounded(proof)), Some(allowed)) => format!(
-                "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
-                self.effort(),
-                bound(found.bound().unwrap_or(proof.bound)),
-                rounded(coordinate.shown(proof.worst)),
-                coordinate.unit(),
-                rounded(allowed)
-            ),
-            _ => String::new(),
-        }
-    }
-
-    /// The same for JSON: the bounds, or why there is none; null if it was not asked for.
-    fn proof_json(&self) -> Value {
-        match self.proof() {
-            None => Value::Null,
-            Some(Proven::Open(why)) => json!({ "not_proven": why.to_string() }),
-            Some(Proven::Bounded(proof)) => json!({
-                "table_torque_error": proof.bound,
-                "tick_torque_error": proof.ticked,
-                "worst": proof.worst,
-                "at_least": proof.least,
-                "stretches": proof.stretches,
-            }),
-        }
     }
 
     /// What a closed form costs, and how to have a table.

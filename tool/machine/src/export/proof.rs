@@ -7,12 +7,15 @@ use jred::{
 };
 use jred_enclosure::{Goal, Proof, Unproven, prove};
 
+use serde_json::{Value, json};
+
 use super::candidate::{Answer, Made};
 use super::choice::{LayoutName, Number};
 use super::size::rounded_up;
 use super::{Export, Failure, Task, ticks};
 use crate::enclose::Enclosed;
 use crate::model::machine::MachineFile;
+use crate::number::rounding::{bound, rounded};
 
 /// What of the torque error allowed is too small to look closer at.
 const NEGLIGIBLE: f64 = 1e-3;
@@ -149,6 +152,63 @@ impl Export {
                 (open @ Proven::Open(_), _) | (_, open) => open,
             })
         })?
+    }
+}
+
+/// Its words.
+impl Export {
+    /// What is proven of the error, if that was asked for.
+    pub(super) fn proof_text(&self) -> String {
+        let (coordinate, word) = (self.coordinate, self.effort());
+        let effort = coordinate.effort_unit();
+        match self.proof() {
+            None => String::new(),
+            Some(Proven::Open(why)) => format!("not proven: {why}\n"),
+            Some(Proven::Bounded(proof)) => {
+                let ticks = match proof.ticked {
+                    Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
+                    None => "the arithmetic of its ticks is not proven".to_owned(),
+                };
+                format!(
+                    "proven over every position: {word} error of the table within {} {effort}, largest near {} {}; {ticks}\n",
+                    bound(proof.bound),
+                    rounded(coordinate.shown(proof.worst)),
+                    coordinate.unit(),
+                )
+            }
+        }
+    }
+
+    /// That the proven error is above the one allowed, and where.
+    pub fn exceeded(&self) -> String {
+        let coordinate = self.coordinate;
+        let effort = coordinate.effort_unit();
+        match (self.proof(), self.task.torque_error) {
+            (Some(found @ Proven::Bounded(proof)), Some(allowed)) => format!(
+                "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
+                self.effort(),
+                bound(found.bound().unwrap_or(proof.bound)),
+                rounded(coordinate.shown(proof.worst)),
+                coordinate.unit(),
+                rounded(allowed)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// The same for JSON: the bounds, or why there is none; null if it was not asked for.
+    pub(super) fn proof_json(&self) -> Value {
+        match self.proof() {
+            None => Value::Null,
+            Some(Proven::Open(why)) => json!({ "not_proven": why.to_string() }),
+            Some(Proven::Bounded(proof)) => json!({
+                "table_torque_error": proof.bound,
+                "tick_torque_error": proof.ticked,
+                "worst": proof.worst,
+                "at_least": proof.least,
+                "stretches": proof.stretches,
+            }),
+        }
     }
 }
 
