@@ -7,7 +7,7 @@
 //! K = m − Y·f(m, φ) + (1 − Y·A)·([q] − m),    A = ∂f/∂q over [q],  Y ≈ A⁻¹ in the middle
 //! ```
 //!
-//! maps a box [q] around the pose in double precision into its inside: so there is one pose in it for each φ, and no other. Then
+//! maps a box `[q]` around the pose in double precision into its inside: so there is one pose in it for each φ, and no other. Then
 //! the Taylor coefficients follow order by order from the same equations, A·qₖ = −(what lower orders make of order k).
 
 use jred::machine::{Frames, Jointed};

@@ -19,11 +19,12 @@ const ALPHA: f64 = 40.0;
 const PLACES: u32 = 4000;
 
 /// The mechanisms that are not enclosed: cams and a roll that grows.
-const OPEN: [&str; 5] = [
+const OPEN: [&str; 6] = [
     "cam-oscillating",
     "cam-translating",
     "indexing-cam",
     "linkage-cam-lever",
+    "parallel-lift",
     "winder",
 ];
 
@@ -125,7 +126,12 @@ fn no_place_errs_more_than_is_proven() {
         let found = searched(&machine, &table.words);
         match export.proof().unwrap() {
             Proven::Open(why) => {
-                assert!(why.to_string().contains("is not enclosed"), "{name}: {why}");
+                // Where the parallelogram lies flat, the joints alone do not say where its links are.
+                let flat = name == "parallel-lift" && why.to_string().contains("dead point");
+                assert!(
+                    flat || why.to_string().contains("is not enclosed"),
+                    "{name}: {why}"
+                );
                 open.push(name);
             }
             Proven::Bounded(proof) => {

@@ -50,11 +50,13 @@ fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) 
     }
 }
 
-/// The result is at the bound: nothing is better by more than a thousandth per cent, or than the roundings of what was there.
+/// The result is at the bound: nothing is better by more than a thousandth per cent, or than the roundings of what was there; a peak lies between
+/// the instants, at so few steps a hundredth per cent above them.
 fn is_optimal(found: &Balanced, goal: Goal) {
     let [before, after] = [found.before, found.after].map(|f| f.of(goal));
+    let share = if goal == Goal::Peak { 1e-4 } else { 1e-5 };
     assert!(
-        found.bound <= after * (1.0 + 1e-9) && after - found.bound <= 1e-5 * after + 2e-6 * before,
+        found.bound <= after * (1.0 + 1e-9) && after - found.bound <= share * after + 2e-6 * before,
         "{after}, bound {}, before {before}",
         found.bound
     );

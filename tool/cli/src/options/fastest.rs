@@ -73,7 +73,7 @@ pub struct Fastest {
     #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
     /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": what the rules of `jred size` ask for
-    /// ([rules] of the file); nothing if not given.
+    /// (`[rules]` of the file); nothing if not given.
     #[arg(long, value_name = "SHARE|rules", value_parser = asked)]
     pub reserve: Option<Asked>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").

@@ -8,6 +8,10 @@ use jred_machine::model::machine::MachineFile;
 
 use super::{Fault, Goal, POSITIONS, Request};
 
+/// How much finer the steps of the motion are for the peak: with other bodies it lies elsewhere, between the instants too, and is then
+/// higher than at them by the square of a step.
+const FINER: usize = 10;
+
 /// What is to be made small, place by place, as a sum of what is there and of the unknowns.
 pub(super) struct Rows {
     /// Shares of the mean.
@@ -111,7 +115,8 @@ pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
     if matches!(request.goal, Goal::Rms | Goal::Peak) {
         let motion = file.motion.as_ref().ok_or(Fault::NoMotion)?;
-        let duty = Duty::new(file, motion, request.steps)?;
+        let finer = if request.goal == Goal::Peak { FINER } else { 1 };
+        let duty = Duty::new(file, motion, finer * request.steps)?;
         let train = file.train_inertia();
         let place = |i: &Instant| Place {
             weight: i.weight / duty.duration,

@@ -20,8 +20,8 @@ const NOTHING: f64 = 1e-4;
 /// Gap at which the search ends, as a share of the square, or of the peak, of what is without counterweights and springs.
 const GAP: f64 = 1e-13;
 
-/// Share by which a peak may be above its bound.
-const PEAK_GAP: f64 = 1e-9;
+/// By how much a peak may be above its bound, as a share of what is without counterweights and springs.
+const PEAK_GAP: f64 = 1e-7;
 
 /// Most rounds of a search for the least peak: each adds the places at which the last exceeds it.
 const MOST_ROUNDS: usize = 100;
@@ -154,7 +154,7 @@ impl<'a> Unknowns<'a> {
             if peak < best.0 {
                 best = (peak, x);
             }
-            if best.0 <= bound * (1.0 + PEAK_GAP) {
+            if best.0 <= bound + PEAK_GAP {
                 break;
             }
             for k in highest(&torques, bound) {
