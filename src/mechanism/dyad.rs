@@ -54,6 +54,7 @@ pub(super) fn pinned(
 }
 
 /// The two links of [`pinned`] where AC with its square f² > 0, and q, of either sign or zero, are known already.
+#[inline(always)]
 pub(super) fn placed(
     [a, c]: [[Transfer; 2]; 2],
     ([x, y], square): ([Transfer; 2], Transfer),

@@ -185,6 +185,7 @@ impl FourBar {
     }
 
     /// Coupler and rocker on the branch, each with an angle within half a turn of its own; `None` at a dead point.
+    #[inline(never)]
     pub(super) fn along(
         &self,
         kept: &Kept,

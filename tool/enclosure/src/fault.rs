@@ -25,14 +25,14 @@ pub enum Unproven {
     },
     /// No pose, or more than one, can be proven around a position.
     #[error(
-        "the pose of the links at {phi} (rad, or m) is not proven: it is close to a dead point"
+        "the pose of the links at {phi:.6} (rad, or m) is not proven: it is close to a dead point"
     )]
     Pose {
         /// The position (rad, or m).
         phi: f64,
     },
     /// A spring or damper whose ends may meet.
-    #[error("the ends of spring or damper number {} may meet at {phi} (rad, or m)", number + 1)]
+    #[error("the ends of spring or damper number {} may meet at {phi:.6} (rad, or m)", number + 1)]
     EndsMeet {
         /// Its index.
         number: usize,
@@ -49,7 +49,7 @@ pub enum Unproven {
     #[error("{0}")]
     Part(String),
     /// No finite bound was found around a position, however short the stretch.
-    #[error("no bound was found around {phi} (rad, or m)")]
+    #[error("no bound was found around {phi:.6} (rad, or m)")]
     Unbounded {
         /// The position (rad, or m).
         phi: f64,

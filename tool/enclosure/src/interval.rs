@@ -40,6 +40,10 @@ impl Interval {
     /// From one number to another, in any order.
     #[must_use]
     pub fn between(a: f64, b: f64) -> Self {
+        // min and max forget what is no number.
+        if a.is_nan() || b.is_nan() {
+            return Self::checked(f64::NAN, f64::NAN);
+        }
         Self::checked(a.min(b), a.max(b))
     }
 

@@ -126,12 +126,13 @@ impl Solver {
         let mut norm = 0.0_f64;
         for row in 0..self.rest.size {
             let sizes: Vec<f64> = self.rest.row(row).iter().map(|e| e.size()).collect();
-            norm = norm.max(in_units(&sizes, row));
-        }
-        // What is no number is not below.
-        let contracts = norm < 0.9;
-        if !contracts {
-            return None;
+            let here = in_units(&sizes, row);
+            // What is no number is not below.
+            let contracts = here < 0.9;
+            if !contracts {
+                return None;
+            }
+            norm = norm.max(here);
         }
         let sizes = start.iter().zip(units).map(|(x, unit)| x.size() / unit);
         let most = sizes.fold(0.0, f64::max) / (1.0 - norm) * (1.0 + 1e-12);

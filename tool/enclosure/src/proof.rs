@@ -216,7 +216,7 @@ impl Search<'_> {
             parts.push(part);
         }
         for part in parts {
-            if !part.most.is_finite() {
+            if !part.most.is_finite() || part.ticked.is_nan() {
                 return Err(Unproven::Unbounded { phi: part.worst });
             }
             if part.most > self.found.bound {
@@ -298,7 +298,10 @@ impl Search<'_> {
             if !within(bounds.most, found.most) {
                 (found.most, found.worst) = (bounds.most, middle + centre);
             }
-            found.ticked = found.ticked.max((bounds.most + added).next_up());
+            let ticked = (bounds.most + added).next_up();
+            if ticked.is_nan() || ticked > found.ticked {
+                found.ticked = ticked;
+            }
         }
         found
     }

@@ -118,6 +118,17 @@ fn a_ratio_by_a_formula_keeps_the_energy() {
     assert!(imbalance(&found) <= budget::BALANCE);
 }
 
+/// Formulas that keep within the range where the file is read, and leave it at angles that the simulation comes to.
+#[test]
+fn a_ratio_that_leaves_its_range_ends_the_simulation() {
+    for formula in ["0.5 + 2*sin(62.5*phi)", "0.8/(10 - phi)"] {
+        let Err(message) = run(&by_formula(formula)) else {
+            panic!("simulated {formula}");
+        };
+        says(&message, &["ratio of the variator", "0.001 to 1000"]);
+    }
+}
+
 /// A ratio that depends on the input shaft's angle alone is a relation between the angles: α₂ = ∫ i dα₁.
 #[test]
 fn a_ratio_over_the_angle_is_holonomic() {

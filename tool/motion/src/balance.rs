@@ -13,10 +13,12 @@
 
 use jred::machine::Element;
 use jred::{Error, Reducible as _};
+use jred_machine::analysis::contact::{OneWay, Parted};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::laden::Attached;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::schedule::Now;
 
 use self::rows::Rows;
 use self::unknowns::{Made, Unknowns};
@@ -70,7 +72,7 @@ pub struct Request {
 }
 
 /// Why there is no answer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Fault {
     /// The machine cannot be placed somewhere.
     Machine(Error),
@@ -80,6 +82,10 @@ pub enum Fault {
     Nothing,
     /// Nothing of what is sought changes it.
     NoEffect,
+    /// A spring is sought for the inertia, in which it has no part.
+    SpringForInertia,
+    /// With what is best, a follower leaves its cam, or a rope goes slack: which, at which state, with which force, and the cure.
+    Parts(Box<Parted>),
 }
 
 impl From<Error> for Fault {
@@ -136,6 +142,9 @@ pub struct Balanced {
 /// # Errors
 /// A machine that cannot be placed, no motion, nothing to balance, nothing that has an effect.
 pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault> {
+    if request.goal == Goal::Inertia && !request.springs.is_empty() {
+        return Err(Fault::SpringForInertia);
+    }
     let rows = Rows::new(file, request)?;
     let scale = rows.base.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
     if scale <= ROUNDING * rows.largest {
@@ -152,6 +161,7 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
     let mut after = file.clone();
     let replaced = request.springs.iter().copied().zip(springs.iter().copied());
     after.rebuild(masses.iter().flatten(), replaced)?;
+    hold_together(&after, request)?;
     Ok(Balanced {
         after: figures(&after, request)?,
         before,
@@ -159,6 +169,28 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
         springs,
         bound,
     })
+}
+
+/// Contacts press and ropes pull over the motion.
+fn hold_together(file: &MachineFile, request: &Request) -> Result<(), Fault> {
+    let Some(motion) = &file.motion else {
+        return Ok(());
+    };
+    let joints = OneWay::all(file.machine.mechanism());
+    if joints.is_empty() {
+        return Ok(());
+    }
+    for instant in &Duty::new(file, motion, request.steps)?.instants {
+        let machine = file.machine_at(&Now::of(instant.t, instant.omega));
+        for joint in &joints {
+            let force = joint.force(machine, [instant.phi, instant.omega, instant.alpha])?;
+            if !joint.holds(force) {
+                let parted = joint.parted(machine, [instant.phi, instant.omega], force)?;
+                return Err(Fault::Parts(Box::new(parted)));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// RMS and largest magnitude over the positions.

@@ -56,7 +56,7 @@ fn is_optimal(found: &Balanced, goal: Goal) {
     let [before, after] = [found.before, found.after].map(|f| f.of(goal));
     let share = if goal == Goal::Peak { 1e-4 } else { 1e-5 };
     assert!(
-        found.bound <= after * (1.0 + 1e-9) && after - found.bound <= share * after + 2e-6 * before,
+        found.bound <= after * (1.0 + 1e-9) && after - found.bound <= share * after + 5e-5 * before,
         "{after}, bound {}, before {before}",
         found.bound
     );
@@ -226,22 +226,52 @@ fn no_body_drawn_at_random_is_better() {
     assert!(better >= 4, "only {better} are worth anything");
 }
 
+/// Of a counterweight and a spring that can each do it, the search takes no body that the spring then carries; of what has no effect, nothing.
+#[test]
+fn what_is_not_needed_is_not_taken() {
+    let spring = "[[spring]]\nname = \"balancer\"\nbetween = [\"lever.tip\", { on = \"ground\", at = [\"0 mm\", \"500 mm\"] }]\n\
+                  stiffness = \"50 N/m\"\nfree_length = \"200 mm\"\n";
+    let file = lever("", spring);
+    let found = balance(&file, &request(Goal::Holding, &[(0, 20.0, 0.5)], &[0])).unwrap();
+    is_optimal(&found, Goal::Holding);
+    assert!(found.masses[0].is_none(), "{:?}", found.masses);
+    // The jaw slides: its mass alone counts, and at constant speed nothing moves it but the cam.
+    let four_bar = machine(&example("four-bar"));
+    let found = balance(
+        &four_bar,
+        &request(Goal::Inertia, &[(0, 5.0, 0.1), (1, 3.0, 0.2)], &[]),
+    )
+    .unwrap();
+    assert!(found.masses[0].is_none(), "{:?}", found.masses);
+}
+
 /// What cannot be answered.
 #[test]
 fn what_cannot_be_balanced() {
     let still = lever("", "");
     let fault = |file: &MachineFile, request: &Request| balance(file, request).unwrap_err();
-    assert_eq!(
+    assert!(matches!(
         fault(&still, &request(Goal::Rms, &[(0, 1.0, 1.0)], &[])),
         Fault::NoMotion
-    );
-    assert_eq!(
+    ));
+    assert!(matches!(
         fault(&still, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
         Fault::Nothing
-    );
+    ));
     let press = machine(&example("press"));
-    assert_eq!(
+    assert!(matches!(
         fault(&press, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
         Fault::NoEffect
-    );
+    ));
+    let spring = machine(&example("linkage-four-bar"));
+    assert!(matches!(
+        fault(&spring, &request(Goal::Inertia, &[], &[0])),
+        Fault::SpringForInertia
+    ));
+    // The spring that closes a cam would be best if it did not.
+    let cam = machine(&example("linkage-cam-lever"));
+    assert!(matches!(
+        fault(&cam, &request(Goal::Rms, &[], &[0])),
+        Fault::Parts(_)
+    ));
 }

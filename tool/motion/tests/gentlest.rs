@@ -8,7 +8,10 @@ use jred_machine::model::motion::Motion;
 use jred_machine::read;
 use jred_motion::gentlest::{Fault, Gentle, Objective, Optimum, Travel, gentlest, without_drive};
 use jred_motion::retime::{Goal, Obstacle, Request, Retimed, retime};
-use jred_motion::way::Way;
+use jred_motion::way::{Actuator, Way};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::study::common::named;
 
 use crate::support::near;
 
@@ -476,4 +479,24 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
             .standing
             .is_empty()
     );
+}
+
+/// A large gearbox with losses, at whose output the torque bends twice within the roundings of the far lines between which its bends are sought: the
+/// lower bound is found, and close.
+#[test]
+fn two_bends_close_to_each_other_have_a_bound() {
+    let file = example("press", &[]);
+    let catalogue = Catalogue::built_in().unwrap();
+    for name in [
+        "sgm7a-15a+npt015mf-4",
+        "sgm7a-40a+sp100mf-10",
+        "sgm7a-40a+npt045mf-64",
+    ] {
+        let (_, drive) = named(&catalogue, name).unwrap();
+        let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+        let way = Way::new(&file, Actuator::new(&drive, envelope), 1.0);
+        let found = gentlest(&way, &travel(0.5 * TAU, TAU, 0.4), Objective::Rms).unwrap();
+        let gap = found.gap();
+        assert!(gap.is_some_and(|gap| gap < 1e-4), "{name}: {gap:?}");
+    }
 }

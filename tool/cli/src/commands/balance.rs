@@ -68,10 +68,20 @@ fn report(options: &options::balance::Balance, fault: &Fault) -> Report {
             ),
             _ => miette!("the drive of {name} gives no torque: there is nothing to balance"),
         },
+        Fault::SpringForInertia => miette!(
+            help = "remove --spring, or choose another --least",
+            "a spring has no inertia: it has no part in --least inertia"
+        ),
+        Fault::Parts(parted) => miette!(
+            help = "keep the spring that closes the contact as it is, or choose another --least",
+            "with what would be best, {} ({}): {}",
+            parted.what,
+            parted.state,
+            parted.force
+        ),
         Fault::NoEffect => miette!(
             help = match options.least {
-                Goal::Inertia =>
-                    "choose a link whose speed changes over the turn; springs have no inertia",
+                Goal::Inertia => "choose a link whose speed changes over the turn",
                 Goal::Holding =>
                     "choose a link that rises and falls, or a spring whose length changes",
                 _ => "choose a link that moves, or a spring whose length changes",

@@ -14,7 +14,7 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::warnings::warnings;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Motion;
-use jred_machine::model::variator;
+use jred_machine::model::{drive_train, variator};
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
@@ -49,6 +49,7 @@ pub fn size(options: &Size) -> Result<Done> {
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
     if options.motion == Moved::Best {
+        drive_train::refuse(&file, "size --motion best")?;
         file.refuse_scheduled("size --motion best")?;
         let narrow = |selection: &mut Selection| {
             options.search.apply(&filter, selection);

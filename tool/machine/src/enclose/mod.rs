@@ -139,8 +139,11 @@ fn geared(mechanism: &dyn Inner, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, 
     let frames = mechanism
         .frames(middle)
         .map_err(|_| Unproven::Pose { phi: middle })?;
-    // A few roundings of double precision.
-    let number = |value: f64| Interval::around(value, 1e-15 * value.abs());
+    // A few roundings of double precision of the largest number that it may be the difference of.
+    let parts = |q: jred::number::Transfer| q.value.abs().max(q.d1.abs());
+    let sizes = frames.iter().flat_map(|f| [f.x, f.y, f.psi].map(parts));
+    let largest = sizes.fold(1.0, f64::max);
+    let number = |value: f64| Interval::around(value, 1e-15 * largest);
     let away = Form::variable(stretch) - Form::constant(middle);
     let planets = (mechanism as &dyn Any).is::<Planetary>();
     let place = |(k, frame): (usize, &Frame)| {

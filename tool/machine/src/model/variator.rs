@@ -112,6 +112,9 @@ struct Shift {
     course: Ramp,
 }
 
+/// Range of a ratio.
+pub const RATIOS: [f64; 2] = [1e-3, 1e3];
+
 impl Ratio {
     /// A ratio that stays `start`.
     pub const fn new(start: f64) -> Self {

@@ -3,7 +3,7 @@
 use jred::friction::{Contact, Course as _, CreepContact, CreepLimit, Flow, OperatingPoint};
 use jred::machine::motion::Law;
 
-use crate::model::variator::{Adhesion, Ratio, Slip, VARIABLES, Variator};
+use crate::model::variator::{Adhesion, RATIOS, Ratio, Slip, VARIABLES, Variator};
 use crate::number::formula::Formula;
 
 use super::drive_link::DriveLink;
@@ -12,9 +12,6 @@ use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, SHARE, TIME, TORQUE};
-
-/// Ratios outside this range are refused as mistakes.
-const RATIOS: [f64; 2] = [1e-3, 1e3];
 
 /// The most shifts.
 const MAX_SHIFTS: usize = 1000;

@@ -6,7 +6,7 @@ use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 
-use super::{Fault, Goal, POSITIONS, Request};
+use super::{Fault, Goal, POSITIONS, ROUNDING, Request};
 
 /// How much finer the steps of the motion are for the peak: with other bodies it lies elsewhere, between the instants too, and is then
 /// higher than at them by the square of a step.
@@ -85,7 +85,22 @@ impl Rows {
         if request.goal == Goal::Inertia {
             rows.deviate();
         }
+        rows.forget_roundings(request);
         Ok(rows)
+    }
+
+    /// What a counterweight at its most would change by roundings alone has no effect.
+    fn forget_roundings(&mut self, request: &Request) {
+        let units = request.counterweights.iter().flat_map(|c| {
+            let moment = c.most * c.reach;
+            [c.most, moment, moment, moment * c.reach]
+        });
+        for (column, unit) in self.columns.iter_mut().zip(units) {
+            let most = column.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            if most * unit <= ROUNDING * self.largest {
+                column.fill(0.0);
+            }
+        }
     }
 
     /// Deviations from the mean instead of the values.

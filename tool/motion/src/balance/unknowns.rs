@@ -14,8 +14,8 @@ const MOST_TORQUE: f64 = 1e3;
 /// Largest free length of a spring, in terms of its longest length.
 const MOST_FREE: f64 = 3.0;
 
-/// Share of the most of a counterweight, or of the largest torque, below which it is not worth having.
-const NOTHING: f64 = 1e-4;
+/// What changes less than this share of what is to be made small is not worth having.
+const NOTHING: f64 = 1e-5;
 
 /// Gap at which the search ends, as a share of the square, or of the peak, of what is without counterweights and springs.
 const GAP: f64 = 1e-13;
@@ -51,6 +51,9 @@ fn highest(values: &[f64], bound: f64) -> Vec<usize> {
     let tops = above.filter(|&k| size(k) >= size(k.wrapping_sub(1)) && size(k) > size(k + 1));
     tops.collect()
 }
+
+/// How much a body as large as it may be, or a spring as stiff, counts against what it relieves.
+const DISLIKE: f64 = 1e-10;
 
 /// Bodies and springs, in the order of the request; `None`: none.
 pub(super) struct Made {
@@ -119,6 +122,20 @@ impl<'a> Unknowns<'a> {
         }
     }
 
+    /// What the search adds to what is to be least for each unknown: of several that are as good it takes the lightest body and the softest
+    /// spring.
+    fn dislike(&self) -> impl Iterator<Item = f64> {
+        let bodies = self.request.counterweights.iter();
+        let bodies = bodies.flat_map(|_| [DISLIKE, 0.0, 0.0, DISLIKE]);
+        let springs = self.springs.iter();
+        bodies.chain(springs.flat_map(|_| [DISLIKE / MOST_TORQUE, 0.0]))
+    }
+
+    /// The most that this can be.
+    fn most_disliked(&self) -> f64 {
+        DISLIKE * (2 * self.request.counterweights.len() + self.springs.len()) as f64
+    }
+
     fn least_squares(&self, scaled: &Scaled, weights: &[f64]) -> (Vec<f64>, f64) {
         let (bounds, start) = self.bounds();
         let Scaled { base, columns } = scaled;
@@ -126,12 +143,17 @@ impl<'a> Unknowns<'a> {
         let row = |a: &Vec<f64>| columns.iter().map(|b| weighted(a, b)).collect();
         let problem = Problem {
             curvature: columns.iter().map(row).collect(),
-            slope: columns.iter().map(|c| weighted(c, base)).collect(),
+            slope: (columns
+                .iter()
+                .map(|c| weighted(c, base))
+                .zip(self.dislike()))
+            .map(|(slope, dislike)| slope + dislike)
+            .collect(),
             bounds,
         };
         let (x, gap) = problem.least(start, GAP);
         // f lacks the mean square without anything.
-        let least = product(weights, base, base) + problem.value(&x) - gap;
+        let least = product(weights, base, base) + problem.value(&x) - gap - self.most_disliked();
         (x, least.max(0.0))
     }
 
@@ -142,7 +164,7 @@ impl<'a> Unknowns<'a> {
         let (bounds, start) = self.bounds();
         let mut problem = Problem {
             curvature: vec![vec![0.0; n + 1]; n + 1],
-            slope: vec![0.0; n],
+            slope: self.dislike().collect(),
             bounds,
         };
         problem.slope.push(1.0);
@@ -173,7 +195,7 @@ impl<'a> Unknowns<'a> {
             let mut from = start.clone();
             from.push(1.0 + highest);
             let (found, gap) = problem.least(from, GAP);
-            bound = bound.max(problem.value(&found) - gap);
+            bound = bound.max(problem.value(&found) - gap - self.most_disliked());
             x = found;
             x.truncate(n);
         }
@@ -223,13 +245,25 @@ impl<'a> Unknowns<'a> {
             .counterweights
             .iter()
             .zip(rows.columns.chunks(4));
+        let acts = |columns: &[Vec<f64>], p: &[f64]| {
+            let largest = |k: usize| {
+                let all = columns.iter().zip(p);
+                all.map(|(column, p)| column.get(k).map_or(0.0, |v| v * p))
+                    .sum::<f64>()
+            };
+            let most = (0..rows.base.len()).fold(0.0, |most: f64, k| most.max(largest(k).abs()));
+            let scale = rows.base.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            most > NOTHING * scale
+        };
         let masses = counterweights
             .zip(bodies.chunks(4))
-            .map(|((bound, columns), p)| body(bound, columns, p));
+            .map(|((bound, columns), p)| {
+                acts(columns, p).then(|| body(bound, columns, p)).flatten()
+            });
         let masses = masses.collect();
-        let made = |(element, p): (&Element, &[f64])| {
+        let made = |((element, p), columns): ((&Element, &[f64]), &[Vec<f64>])| {
             let [k, preload] = p else { return Ok(None) };
-            if *k <= 0.0 {
+            if !acts(columns, p) {
                 return Ok(None);
             }
             let free = preload / k;
@@ -244,6 +278,7 @@ impl<'a> Unknowns<'a> {
                 .map_err(|error| Fault::Machine(error.into()))
         };
         let pairs = self.springs.iter().zip(springs.chunks(2));
+        let pairs = pairs.zip(rows.columns[bodies.len()..].chunks(2));
         Ok(Made {
             masses,
             springs: pairs.map(made).collect::<Result<_, _>>()?,
@@ -251,30 +286,44 @@ impl<'a> Unknowns<'a> {
     }
 }
 
-/// The lightest body with these moments and this inertia, where its mass alone does nothing, as on a link that turns about the origin of its
-/// frame; else that of its mass.
+/// The body with these moments and this inertia. Where mass, moments or inertia have no effect, as the mass on a link that turns about the origin of
+/// its frame, or all but the mass on one that slides, the lightest that has the others.
 fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attached> {
     let &[mass, along, across, inertia] = p else {
         return None;
     };
-    let moment = along.hypot(across);
-    let lone = columns
-        .first()
-        .is_some_and(|mass| mass.iter().any(|v| *v != 0.0));
-    let mass = if lone {
-        mass
+    let acts = |k: usize| columns.get(k).is_some_and(|c| c.iter().any(|v| *v != 0.0));
+    let (along, across) = if acts(1) || acts(2) {
+        (along, across)
     } else {
-        (moment * moment / inertia).max(inertia / (bound.reach * bound.reach))
+        (0.0, 0.0)
     };
-    let worth = mass > NOTHING * bound.most
-        && inertia > NOTHING * NOTHING * bound.most * bound.reach.powi(2);
-    if !worth {
+    let moment = along.hypot(across);
+    let (mass, inertia) = match (acts(0), acts(3)) {
+        (true, true) => (mass, inertia),
+        (true, false) => (mass, moment * moment / mass),
+        (false, true) => {
+            let reach = bound.reach * bound.reach;
+            ((moment * moment / inertia).max(inertia / reach), inertia)
+        }
+        (false, false) => (moment / bound.reach, moment * bound.reach),
+    };
+    if mass.is_nan() || mass <= 0.0 {
         return None;
     }
     let own = inertia - moment * moment / mass;
+    // Of a coordinate that is small against the reach, what the search left.
+    let coordinate = |moment: f64| {
+        let at = moment / mass;
+        if at.abs() < 1e-6 * bound.reach {
+            0.0
+        } else {
+            at
+        }
+    };
     Some(Attached {
         link: bound.link,
-        at: [along / mass, across / mass],
+        at: [coordinate(along), coordinate(across)],
         mass,
         // What is left of the cone's edge by the search.
         inertia: if own > 1e-4 * inertia { own } else { 0.0 },

@@ -30,6 +30,9 @@ const GOLDEN: u32 = 40;
 /// Most straight pieces of a torque.
 const PIECES: usize = 16;
 
+/// How often two lines are looked at in search of what lies between them.
+const MOST_LOOKS: usize = 8 * PIECES;
+
 /// The best of the bounds, in the units of the problem: of the problem that is meant, P from the one with rounded bends.
 /// `price` is λ: the multiplier found, or what waiting saves.
 pub(super) fn value(problems: [&Problem; 2], found: &Minimum, price: f64) -> Result<f64, Fault> {
@@ -292,12 +295,16 @@ impl Line {
         let pieces = pieces(problem, &station.place, speed);
         let mut least = f64::INFINITY;
         for piece in pieces.iter() {
+            if piece.rise.is_nan() {
+                return f64::NEG_INFINITY;
+            }
             let by_torque = price / piece.rise;
             // Stationary with and without drawn power, and where the two meet.
             let quiet = 0.5 * by_torque * root;
             let drawing = 0.5 * (by_torque - problem.cost.drawn * slope) * root;
             for tau in [quiet.min(0.0), drawing.max(0.0), 0.0, quiet] {
-                let tau = tau.clamp(piece.torques[0], piece.torques[1]);
+                // A piece as short as a rounding may end before it begins.
+                let tau = tau.max(piece.torques[0]).min(piece.torques[1]);
                 let a = piece.at + (tau - piece.start) / piece.rise;
                 least = least.min(cost(tau) - price * (a - free));
             }
@@ -350,8 +357,14 @@ fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     // Far enough on both sides that nothing bends beyond.
     let far = 1e6 * (1.0 + middle.start.abs() + (place.load / problem.unit).abs()) / middle.rise;
     let mut lines = vec![line(-far), line(far)];
-    let mut k = 0;
+    let (mut k, mut looked) = (0, 0);
     while k + 1 < lines.len() && lines.len() < PIECES {
+        looked += 1;
+        if looked > MOST_LOOKS {
+            // Not convex, or bent within the roundings: what is no number is no bound.
+            pieces.all[0].rise = f64::NAN;
+            return pieces;
+        }
         let [left, right] = [lines[k], lines[k + 1]];
         if right.rise - left.rise <= 1e-9 * right.rise {
             lines.remove(k + 1);
@@ -362,7 +375,10 @@ fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
         let there = line(meet);
         let expected = left.start + left.rise * (meet - left.at);
         let own = |side: Piece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
-        if own(left) || own(right) || (there.start - expected).abs() <= 1e-9 * expected.abs() {
+        if own(left)
+            || own(right)
+            || (there.start - expected).abs() <= 1e-9 * (1.0 + expected.abs())
+        {
             k += 1;
         } else {
             lines.insert(k + 1, there);

@@ -18,6 +18,10 @@ const HALVINGS: u32 = 40;
 /// Share of the cost that a step must still promise.
 const PROMISE: f64 = 1e-14;
 
+/// A step that lowers the cost by a smaller share than this gains nothing; after so many in a row the search ends.
+const IDLE: f64 = 1e-12;
+const MOST_IDLE: u32 = 3;
+
 /// What is minimised.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
@@ -67,6 +71,7 @@ impl Problem<'_> {
         let mut cost = self.value(&x)?;
         let mut multiplier = 0.0;
         let mut converged = false;
+        let mut idle = 0;
         for _ in 0..STEPS {
             let gradients = self.gradients(&x);
             multiplier = multiplier_of(&gradients, &x);
@@ -98,7 +103,17 @@ impl Problem<'_> {
                 converged = promise.abs() <= 1e-9 * cost.abs();
                 break;
             };
+            let gained = cost - value;
             (x, cost) = (moved, value);
+            idle = if gained <= IDLE * cost.abs() {
+                idle + 1
+            } else {
+                0
+            };
+            if idle == MOST_IDLE {
+                converged = promise.abs() <= 1e-9 * cost.abs();
+                break;
+            }
         }
         Some(Minimum {
             x,

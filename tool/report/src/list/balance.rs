@@ -169,7 +169,7 @@ fn table(text: &mut String, shown: &Shown, figures: [&Figures; 2]) {
         text,
         "reduced",
         &format!(
-            "{inertia} {before} -> {after} {}",
+            "{inertia} of the mechanism {before} -> {after} {}",
             coordinate.inertia_unit()
         ),
     );
@@ -193,6 +193,11 @@ fn mass(text: &mut String, on: &str, found: &Attached) {
     );
     if found.inertia > 0.0 {
         let _ = writeln!(text, "inertia = \"{} kg m^2\"", figure(found.inertia));
+    } else {
+        let _ = writeln!(
+            text,
+            "# a point mass: a real one has an inertia of its own, which comes on top"
+        );
     }
 }
 

@@ -179,12 +179,16 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
         line(text, "warning", &says);
     }
     if shown.drive.is_some() && retimed.best.rms_used > 1.0 {
-        let says = format!(
-            "the RMS {} is {} of the S1 {} at the mean speed",
-            words.torque,
-            percent(retimed.best.rms_used),
-            words.torque
-        );
+        let says = if retimed.best.rms_used.is_finite() {
+            format!(
+                "the RMS {} is {} of the S1 {} at the mean speed",
+                words.torque,
+                percent(retimed.best.rms_used),
+                words.torque
+            )
+        } else {
+            format!("the drive has no S1 {} at the mean speed", words.torque)
+        };
         line(text, "warning", &says);
     }
     if shown.drive.is_some() && retimed.best.used > 1.0 {

@@ -2,15 +2,16 @@
 //! speed, never taken from the motor's.
 
 use jred::Error;
-use jred::friction::{Contact, OperatingPoint, Stage};
+use jred::friction::{Contact, OperatingPoint, Ratios, Stage};
 use jred::mechanism::TrainOutput;
+use jred::number::RangeError;
 
 use super::SimulationError;
 use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{Shaft, Simulation};
-use crate::model::variator::{Slip, Variator};
+use crate::model::variator::{RATIOS, Slip, Variator};
 use crate::number::columns::{Column, Quantity};
 use crate::number::numerics::newton;
 
@@ -97,11 +98,24 @@ impl<'a> Plant<'a> {
 
     /// Speed of the output shaft per speed of the input shaft.
     fn speed_ratio(&self, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self
-            .stage
-            .at(OperatingPoint::at_time(t).with_angle(y[0]))?
-            .speed
-            .value)
+        Ok(self.ratios(t, y)?.speed.value)
+    }
+
+    /// Of a formula, nobody has looked at all times and angles before.
+    fn ratios(&self, t: f64, y: &State) -> Result<Ratios, Error> {
+        let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
+        let value = ratios.geometric.value;
+        let [min, max] = RATIOS;
+        if (min..=max).contains(&value) {
+            return Ok(ratios);
+        }
+        Err(RangeError::OutOfRange {
+            what: "ratio of the variator",
+            value,
+            min,
+            max,
+        }
+        .into())
     }
 
     fn creeps(&self) -> bool {
@@ -110,7 +124,7 @@ impl<'a> Plant<'a> {
 
     fn instant(&self, direction: f64, t: f64, y: &State) -> Result<Instant, Error> {
         let n = self.file.drive_train.ratio();
-        let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
+        let ratios = self.ratios(t, y)?;
         let (i, j) = (ratios.geometric.value, ratios.speed.value);
         let [by_time, by_angle, _] = ratios.speed.slope;
         let rate = by_time + by_angle * y[1];
