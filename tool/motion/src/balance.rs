@@ -58,6 +58,14 @@ pub struct Counterweight {
     pub reach: f64,
 }
 
+impl Counterweight {
+    /// Its m, S_u, S_v and Θ at their most.
+    fn most(&self) -> [f64; 4] {
+        let moment = self.most * self.reach;
+        [self.most, moment, moment, moment * self.reach]
+    }
+}
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -146,7 +154,7 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
         return Err(Fault::SpringForInertia);
     }
     let rows = Rows::new(file, request)?;
-    let scale = rows.base.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+    let scale = largest(&rows.base);
     if scale <= ROUNDING * rows.largest {
         return Err(Fault::Nothing);
     }
@@ -157,13 +165,16 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
         _ => least.sqrt() * scale,
     };
     let Made { masses, springs } = unknowns.made(&x, &rows)?;
-    let before = figures(file, request)?;
+    let before = figures(file, duty(file, request)?.as_ref())?;
     let mut after = file.clone();
     let replaced = request.springs.iter().copied().zip(springs.iter().copied());
     after.rebuild(masses.iter().flatten(), replaced)?;
-    hold_together(&after, request)?;
+    let duty = duty(&after, request)?;
+    if let Some(duty) = &duty {
+        hold_together(&after, duty)?;
+    }
     Ok(Balanced {
-        after: figures(&after, request)?,
+        after: figures(&after, duty.as_ref())?,
         before,
         masses,
         springs,
@@ -171,16 +182,20 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
     })
 }
 
+/// The motion of a machine, if it has one.
+fn duty(file: &MachineFile, request: &Request) -> Result<Option<Duty>, Fault> {
+    let motion = file.motion.as_ref();
+    let duty = motion.map(|motion| Duty::new(file, motion, request.steps));
+    Ok(duty.transpose()?)
+}
+
 /// Contacts press and ropes pull over the motion.
-fn hold_together(file: &MachineFile, request: &Request) -> Result<(), Fault> {
-    let Some(motion) = &file.motion else {
-        return Ok(());
-    };
+fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
     let joints = OneWay::all(file.machine.mechanism());
     if joints.is_empty() {
         return Ok(());
     }
-    for instant in &Duty::new(file, motion, request.steps)?.instants {
+    for instant in &duty.instants {
         let machine = file.machine_at(&Now::of(instant.t, instant.omega));
         for joint in &joints {
             let force = joint.force(machine, [instant.phi, instant.omega, instant.alpha])?;
@@ -196,11 +211,15 @@ fn hold_together(file: &MachineFile, request: &Request) -> Result<(), Fault> {
 /// RMS and largest magnitude over the positions.
 fn over_positions(values: &[f64]) -> [f64; 2] {
     let squares: f64 = values.iter().map(|v| v * v).sum();
-    let peak = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    [(squares / values.len() as f64).sqrt(), peak]
+    [(squares / values.len() as f64).sqrt(), largest(values)]
 }
 
-fn figures(file: &MachineFile, request: &Request) -> Result<Figures, Fault> {
+/// Largest magnitude.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
+fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<Figures, Fault> {
     let reductions = positions(file.machine.domain(), POSITIONS)
         .map(|phi| file.machine.bare_reduction(phi))
         .collect::<Result<Vec<_>, _>>()
@@ -219,8 +238,7 @@ fn figures(file: &MachineFile, request: &Request) -> Result<Figures, Fault> {
         deviation: over_positions(&off)[0],
         ..Figures::default()
     };
-    if let Some(motion) = &file.motion {
-        let duty = Duty::new(file, motion, request.steps)?;
+    if let Some(duty) = duty {
         let train = file.train_inertia();
         let link = duty.figures(|i| i.terms.total() + train * i.alpha);
         let input = duty.figures(|i| i.input_torque);

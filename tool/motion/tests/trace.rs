@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::cycle::cycle;
@@ -17,6 +18,18 @@ use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::thermal::classify::Features;
 
 use crate::support::{Folder, edited, press_text};
+
+/// The press with a profile as its motion; and what `[motion]` has besides.
+fn press_with(trace: &Trace, more: &str) -> MachineFile {
+    let folder = Folder::new();
+    folder.file("profile.csv", trace.profile());
+    let text = press_text();
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Start from rest").unwrap();
+    let motion = format!("[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n{more}");
+    let machine = folder.file("press.toml", edited(&text, &text[begin..end], &motion));
+    read::read(&machine).unwrap()
+}
 
 /// Where the speed is a cubic, the nodes give it back between them.
 #[test]
@@ -62,14 +75,7 @@ fn a_profile_is_read_as_the_same_motion() {
     trace.then(&nodes.collect::<Vec<_>>());
     trace.dwell(0.5);
     assert!((trace.duration() - 1.5).abs() < 1e-15);
-    let folder = Folder::new();
-    folder.file("profile.csv", trace.profile());
-    let text = press_text();
-    let begin = text.find("[motion]").unwrap();
-    let end = text.find("# Start from rest").unwrap();
-    let motion = "[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\ncyclic = false\n";
-    let machine = folder.file("press.toml", edited(&text, &text[begin..end], motion));
-    let file = read::read(&machine).unwrap();
+    let file = press_with(&trace, "cyclic = false\n");
     let motion = file.required_motion().unwrap();
     for k in 0..=60 {
         let t = f64::from(k) / 60.0;
@@ -113,14 +119,7 @@ fn a_profile_keeps_the_corners() {
     };
     let parts = [step(1.0, 2.0), dwell, step(2.0, 1.0)];
     let made = cycle(&file, &actuator, Limits::default(), &parts).unwrap();
-    let folder = Folder::new();
-    folder.file("profile.csv", made.trace.profile());
-    let text = press_text();
-    let begin = text.find("[motion]").unwrap();
-    let end = text.find("# Start from rest").unwrap();
-    let motion = "[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n";
-    let machine = folder.file("press.toml", edited(&text, &text[begin..end], motion));
-    let file = read::read(&machine).unwrap();
+    let file = press_with(&made.trace, "");
     let motion = file.required_motion().unwrap();
     for k in 0..=1000 {
         let t = made.trace.duration() * f64::from(k) / 1000.0;

@@ -6,7 +6,7 @@ use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 
-use super::{Fault, Goal, POSITIONS, ROUNDING, Request};
+use super::{Counterweight, Fault, Goal, POSITIONS, ROUNDING, Request, largest};
 
 /// How much finer the steps of the motion are for the peak: with other bodies it lies elsewhere, between the instants too, and is then
 /// higher than at them by the square of a step.
@@ -68,16 +68,10 @@ impl Rows {
             for (element, longest) in elements.iter().zip(&mut rows.longest) {
                 let length = element.length(&frames);
                 *longest = longest.max(length.value.abs());
-                // Springs store no kinetic energy.
-                let acts = if request.goal == Goal::Inertia {
-                    0.0
-                } else {
-                    length.d1
-                };
                 let [stiffness, free] = element.spring_rate().unwrap_or_default();
-                base -= stiffness * (length.value - free) * acts;
-                put(length.value * acts);
-                put(-acts);
+                base -= stiffness * (length.value - free) * length.d1;
+                put(length.value * length.d1);
+                put(-length.d1);
             }
             rows.base.push(base);
             rows.weights.push(place.weight);
@@ -91,13 +85,9 @@ impl Rows {
 
     /// What a counterweight at its most would change by roundings alone has no effect.
     fn forget_roundings(&mut self, request: &Request) {
-        let units = request.counterweights.iter().flat_map(|c| {
-            let moment = c.most * c.reach;
-            [c.most, moment, moment, moment * c.reach]
-        });
+        let units = request.counterweights.iter().flat_map(Counterweight::most);
         for (column, unit) in self.columns.iter_mut().zip(units) {
-            let most = column.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-            if most * unit <= ROUNDING * self.largest {
+            if largest(column) * unit <= ROUNDING * self.largest {
                 column.fill(0.0);
             }
         }

@@ -6,7 +6,7 @@ use jred_machine::model::machine::MachineFile;
 
 use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};
-use super::{Counterweight, Fault, Goal, Request};
+use super::{Counterweight, Fault, Goal, Request, largest};
 
 /// Largest torque of an unknown, in terms of the largest torque of the machine: a spring that does nothing has no bound of its own.
 const MOST_TORQUE: f64 = 1e3;
@@ -77,15 +77,9 @@ impl<'a> Unknowns<'a> {
         rows: &Rows,
         scale: f64,
     ) -> Result<Self, Fault> {
-        let largest = |column: &Vec<f64>| column.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let most: Vec<f64> = rows.columns.iter().map(largest).collect();
-        let weights = request.counterweights.iter();
-        let mut units: Vec<f64> = weights
-            .flat_map(|c| {
-                let moment = c.most * c.reach;
-                [c.most, moment, moment, moment * c.reach]
-            })
-            .collect();
+        let most: Vec<f64> = rows.columns.iter().map(|c| largest(c)).collect();
+        let bodies = request.counterweights.iter();
+        let mut units: Vec<f64> = bodies.flat_map(Counterweight::most).collect();
         for column in &most[units.len()..] {
             units.push(if *column > 0.0 { scale / column } else { 1.0 });
         }
@@ -172,7 +166,7 @@ impl<'a> Unknowns<'a> {
         let mut x = start.clone();
         for _ in 0..MOST_ROUNDS {
             let torques = scaled.values(&x);
-            let peak = torques.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+            let peak = largest(&torques);
             if peak < best.0 {
                 best = (peak, x);
             }
@@ -188,10 +182,7 @@ impl<'a> Unknowns<'a> {
                     .bounds
                     .push(Bound::Linear(-sign * scaled.base[k], a));
             }
-            let highest = scaled
-                .values(&start)
-                .iter()
-                .fold(0.0, |m: f64, t| m.max(t.abs()));
+            let highest = largest(&scaled.values(&start));
             let mut from = start.clone();
             from.push(1.0 + highest);
             let (found, gap) = problem.least(from, GAP);
@@ -246,14 +237,13 @@ impl<'a> Unknowns<'a> {
             .iter()
             .zip(rows.columns.chunks(4));
         let acts = |columns: &[Vec<f64>], p: &[f64]| {
-            let largest = |k: usize| {
+            let effect = |k: usize| {
                 let all = columns.iter().zip(p);
                 all.map(|(column, p)| column.get(k).map_or(0.0, |v| v * p))
                     .sum::<f64>()
             };
-            let most = (0..rows.base.len()).fold(0.0, |most: f64, k| most.max(largest(k).abs()));
-            let scale = rows.base.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-            most > NOTHING * scale
+            let most = (0..rows.base.len()).fold(0.0, |most: f64, k| most.max(effect(k).abs()));
+            most > NOTHING * largest(&rows.base)
         };
         let masses = counterweights
             .zip(bodies.chunks(4))
