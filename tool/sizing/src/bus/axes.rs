@@ -12,6 +12,12 @@ use super::period::Common;
 use super::phases::{Found, Phases, Watch};
 use super::store::{Bus, BusFigures};
 
+/// Up to how many points of all axes over the common period the search takes all of them.
+const EXACT: usize = 100_000;
+
+/// How far the curves may be off, of their own span, that a search takes beyond that. Its results are worked out with all points.
+const OFF: f64 = 1e-4;
+
 /// Axes on a bus.
 #[derive(Clone, Debug)]
 pub struct Axes {
@@ -81,13 +87,7 @@ impl Axes {
     /// Axes with these powers on a bus.
     pub fn new(bus: Bus, curves: Vec<PowerCurve>) -> Self {
         let common = Common::of(&curves);
-        let whole = match &common {
-            Common::Searched { cycles, .. } => {
-                let each = curves.iter().zip(cycles);
-                each.map(|(curve, count)| curve.repeated(*count)).collect()
-            }
-            Common::TooLong { .. } | Common::None => Vec::new(),
-        };
+        let whole = common.repeated(&curves);
         Self {
             bus,
             curves,
@@ -120,7 +120,7 @@ impl Axes {
         let all = phases.iter().copied().chain(std::iter::repeat(0.0));
         let phases: Vec<f64> = all.take(self.whole.len()).collect();
         let reach = [];
-        (!self.whole.is_empty()).then(|| self.phases(&reach).all(&phases))
+        (!self.whole.is_empty()).then(|| self.phases(&self.whole, &reach).all(&phases))
     }
 
     /// Result for the bus at these phases.
@@ -128,9 +128,9 @@ impl Axes {
         Some(self.bus.run(&self.power(phases)?))
     }
 
-    fn phases<'a>(&'a self, reach: &'a [f64]) -> Phases<'a> {
+    fn phases<'a>(&self, whole: &'a [PowerCurve], reach: &'a [f64]) -> Phases<'a> {
         Phases {
-            whole: &self.whole,
+            whole,
             reach,
             periods: self.curves.iter().map(PowerCurve::period).collect(),
         }
@@ -152,7 +152,15 @@ impl Axes {
             return None;
         }
         let reach = self.common.reach();
-        let phases = self.phases(&reach);
+        let points = self.whole.iter().map(|curve| curve.points().len());
+        let fewer = (points.sum::<usize>() > EXACT).then(|| {
+            let curves = self.curves.iter().map(|curve| {
+                let [least, most] = curve.extremes();
+                curve.simplified(OFF * (most - least))
+            });
+            self.common.repeated(&curves.collect::<Vec<_>>())
+        });
+        let phases = self.phases(fewer.as_deref().unwrap_or(&self.whole), &reach);
         let found = phases.search(
             self.depends_on_phases(),
             |power| of(&self.bus.run(power)),

@@ -130,6 +130,41 @@ impl PowerCurve {
         }
     }
 
+    /// A curve with fewer points that is nowhere off by more than `tolerance` (W); jumps stay.
+    #[must_use]
+    pub fn simplified(&self, tolerance: f64) -> Self {
+        let mut from = self.points.first().copied().unwrap_or_default();
+        let mut points = vec![from];
+        // Slopes of the lines from the last point kept that pass all points after it within the tolerance.
+        let mut slopes = [f64::NEG_INFINITY, f64::INFINITY];
+        for pair in self.points.windows(2) {
+            let [last, [t, power]] = [pair[0], pair[1]];
+            let slope = (power - from[1]) / (t - from[0]);
+            if t <= last[0] || !(slopes[0]..=slopes[1]).contains(&slope) {
+                if last != from {
+                    points.push(last);
+                }
+                from = last;
+                slopes = [f64::NEG_INFINITY, f64::INFINITY];
+            }
+            if t <= last[0] {
+                points.push([t, power]);
+                from = [t, power];
+                continue;
+            }
+            let bound = |limit: f64| (power + limit - from[1]) / (t - from[0]);
+            slopes = [
+                slopes[0].max(bound(-tolerance)),
+                slopes[1].min(bound(tolerance)),
+            ];
+        }
+        points.extend(self.points.last().filter(|last| **last != from));
+        Self {
+            points,
+            period: self.period,
+        }
+    }
+
     /// The sum with a curve of the same period.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {

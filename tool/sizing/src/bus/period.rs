@@ -52,6 +52,15 @@ impl Common {
         }
     }
 
+    /// The curves over the common period; none if that is not searched.
+    pub(super) fn repeated(&self, curves: &[PowerCurve]) -> Vec<PowerCurve> {
+        let Self::Searched { cycles, .. } = self else {
+            return Vec::new();
+        };
+        let each = curves.iter().zip(cycles);
+        each.map(|(curve, count)| curve.repeated(*count)).collect()
+    }
+
     /// Up to which phase (s) of each axis the bus has anything new to do.
     ///
     /// Only the phases between the axes matter, and time may start at any cycle of any axis: the phase of an axis counts but
