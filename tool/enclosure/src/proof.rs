@@ -40,7 +40,8 @@ pub struct Proof {
     pub worst: f64,
     /// The same of the tick, with all its roundings; `None` of a format whose arithmetic is not proven.
     pub ticked: Option<f64>,
-    /// An error (N·m, or N) that the table is proven to have somewhere.
+    /// Somewhere the bound cannot be less (N·m, or N): the errors of the curves there, each with its largest weight. They add up in a torque
+    /// only where their signs agree.
     pub least: f64,
     /// Number of stretches that the range was cut into.
     pub stretches: u64,
