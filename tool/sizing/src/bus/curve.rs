@@ -133,32 +133,31 @@ impl PowerCurve {
     /// A curve with fewer points that is nowhere off by more than `tolerance` (W); jumps stay.
     #[must_use]
     pub fn simplified(&self, tolerance: f64) -> Self {
-        let mut from = self.points.first().copied().unwrap_or_default();
-        let mut points = vec![from];
-        // Slopes of the lines from the last point kept that pass all points after it within the tolerance.
+        // The point kept last, and slopes of the lines from it that pass all points after it within the tolerance.
+        let mut kept = 0;
         let mut slopes = [f64::NEG_INFINITY, f64::INFINITY];
-        for pair in self.points.windows(2) {
-            let [last, [t, power]] = [pair[0], pair[1]];
-            let slope = (power - from[1]) / (t - from[0]);
-            if t <= last[0] || !(slopes[0]..=slopes[1]).contains(&slope) {
-                if last != from {
-                    points.push(last);
-                }
-                from = last;
+        let mut points = self.points.get(..1).unwrap_or_default().to_vec();
+        for (last, pair) in self.points.windows(2).enumerate() {
+            let [[before, _], [t, power]] = [pair[0], pair[1]];
+            let slope_to = |power: f64, kept: usize| {
+                let [from, start] = self.points[kept];
+                (power - start) / (t - from)
+            };
+            let jumps = t <= before;
+            if jumps || !(slopes[0]..=slopes[1]).contains(&slope_to(power, kept)) {
+                points.extend((last > kept).then_some(pair[0]));
+                kept = last;
                 slopes = [f64::NEG_INFINITY, f64::INFINITY];
             }
-            if t <= last[0] {
-                points.push([t, power]);
-                from = [t, power];
-                continue;
+            if jumps {
+                points.push(pair[1]);
+                kept = last + 1;
+            } else {
+                slopes[0] = slopes[0].max(slope_to(power - tolerance, kept));
+                slopes[1] = slopes[1].min(slope_to(power + tolerance, kept));
             }
-            let bound = |limit: f64| (power + limit - from[1]) / (t - from[0]);
-            slopes = [
-                slopes[0].max(bound(-tolerance)),
-                slopes[1].min(bound(tolerance)),
-            ];
         }
-        points.extend(self.points.last().filter(|last| **last != from));
+        points.extend(self.points.get(kept + 1..).and_then(<[_]>::last));
         Self {
             points,
             period: self.period,

@@ -157,7 +157,7 @@ fn a_curve_with_fewer_points() {
 #[test]
 fn a_long_common_period_is_searched_with_fewer_points() {
     let brakes = |phase: f64, period: f64| {
-        let points = (0..=2000).map(|k| f64::from(k) / 2000.0);
+        let points = (0..=600).map(|k| f64::from(k) / 600.0);
         let power = move |u: f64| 800.0 * (6.0 * (u + phase)).sin() - 300.0 * (17.0 * u).cos();
         PowerCurve::new(points.map(|u| [u * period, power(u)]), period)
     };
@@ -166,7 +166,7 @@ fn a_long_common_period_is_searched_with_fewer_points() {
     let Common::Searched { cycles, .. } = axes.common() else {
         panic!("not searched")
     };
-    assert!(cycles.iter().sum::<u32>() * 2000 > 100_000);
+    assert!(cycles.iter().sum::<u32>() * 600 > 100_000);
     let worst = axes.worst(&()).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(21);
     for _ in 0..40 {
