@@ -12,8 +12,9 @@ use super::period::Common;
 use super::phases::{Found, Phases, Watch};
 use super::store::{Bus, BusFigures};
 
-/// Up to how many points of all axes over the common period the search takes all of them.
-const EXACT: usize = 100_000;
+/// Up to how many points of all axes over the common period the search takes all of them: of two axes, and of more, whose phases
+/// are looked for on a grid that misses more than fewer points do.
+const EXACT: [usize; 2] = [100_000, 5_000];
 
 /// How far the curves may be off, of their own span, that a search takes beyond that. Its results are worked out with all points.
 const OFF: f64 = 1e-4;
@@ -153,7 +154,8 @@ impl Axes {
         }
         let reach = self.common.reach();
         let points = self.whole.iter().map(|curve| curve.points().len());
-        let fewer = (points.sum::<usize>() > EXACT).then(|| {
+        let exact = EXACT[usize::from(self.whole.len() > 2)];
+        let fewer = (points.sum::<usize>() > exact).then(|| {
             let curves = self.curves.iter().map(|curve| {
                 let [least, most] = curve.extremes();
                 curve.simplified(OFF * (most - least))
