@@ -58,8 +58,8 @@ pub const ALL: [Harness; 6] = [
     },
     Harness {
         name: "profile",
-        kept: false,
-        seeds: || files(&["machines"], "log.csv"),
+        kept: true,
+        seeds: profiles,
         run: |text| texts(text, profile),
     },
     Harness {
@@ -185,13 +185,28 @@ fn machine(text: &str) -> bool {
     computed(text, DATA.get_or_init(data))
 }
 
-/// A recorded motion: `time,position` behind a header, in the file of the conveyor.
+/// What profiles are made from: speeds that a drive recorded, positions, and states.
+fn profiles() -> Vec<Vec<u8>> {
+    let mut seeds = files(&["machines"], "log.csv");
+    seeds.extend(files(&["tests/fuzz/corpus/profile"], ""));
+    seeds
+}
+
+/// A recorded motion, of a machine that smooths it and of one that takes it as it is.
 fn profile(text: &str) -> bool {
-    let machine = std::fs::read_to_string(at("machines/conveyor.toml")).expect("an example");
-    computed(
-        &machine,
-        &BTreeMap::from([("drive-log.csv".to_owned(), text.to_owned())]),
-    )
+    static MACHINES: OnceLock<[String; 2]> = OnceLock::new();
+    let machines = MACHINES.get_or_init(|| {
+        let smooth = std::fs::read_to_string(at("machines/reduced-curves.toml"));
+        let smooth = smooth.expect("an example");
+        let lines = smooth.lines().filter(|line| !line.starts_with("smoothing"));
+        let plain: Vec<&str> = lines.collect();
+        [plain.join("\n"), smooth]
+    });
+    let mut data = data();
+    data.insert("drive-log.csv".to_owned(), text.to_owned());
+    // Not `any`: both are to be tried.
+    let understood = machines.each_ref().map(|machine| computed(machine, &data));
+    understood.contains(&true)
 }
 
 fn computed(text: &str, files: &BTreeMap<String, String>) -> bool {
