@@ -46,7 +46,7 @@ pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 
 pub(crate) use factor::Factor;
-pub(crate) use product::upper_of_sum;
+pub(crate) use product::{high, upper_of_sum};
 pub use quantity::Quantity;
 pub use role::Role;
 pub(crate) use scalar::Outcome;

@@ -6,7 +6,7 @@ mod model;
 mod pieces;
 mod units;
 
-pub(crate) use image::Progress;
+pub(crate) use image::{Beginning, Progress, covered, seal};
 pub use image::{
     Aligned, HEADER_WORDS, Image, ImageCheck, ImageError, VERSION, Validity, encode, identify,
     image_len,

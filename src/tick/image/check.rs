@@ -1,6 +1,6 @@
 //! The check of an image in slices, for a program that has something else to do meanwhile.
 
-use super::{Image, ImageError, covered};
+use super::{Image, ImageError, TABLE, covered};
 
 const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
@@ -22,7 +22,7 @@ impl Progress {
         image: &'a [u32],
         words: usize,
     ) -> Option<Result<Image<'a>, ImageError>> {
-        let covered = match covered(image) {
+        let covered = match covered(image, &TABLE) {
             Ok(covered) => covered,
             Err(error) => return Some(Err(error)),
         };
@@ -32,7 +32,7 @@ impl Progress {
     }
 
     /// The CRC-32 of all these words.
-    pub(super) fn all(mut self, covered: &[u32]) -> u32 {
+    pub(crate) fn all(mut self, covered: &[u32]) -> u32 {
         self.take(covered);
         self.crc
     }

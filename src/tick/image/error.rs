@@ -137,7 +137,7 @@ impl Curable for ImageError {
             ),
             Self::BigEndian => f.write_str("tick it on a little-endian processor"),
             Self::Length { .. } => {
-                f.write_str("give all words that jred export wrote, and none behind them")
+                f.write_str("give all words that jred wrote, and none behind them")
             }
             Self::NotAnImage(_) => {
                 f.write_str("give a file that jred export wrote, with --format image")

@@ -67,7 +67,7 @@ impl<'a> Image<'a> {
     /// # Errors
     /// What [`ImageError`] lists, except for the table's own errors.
     pub fn new(words: &'a [u32]) -> Result<Self, ImageError> {
-        Self::with_crc(words, Progress::START.all(covered(words)?))
+        Self::with_crc(words, Progress::START.all(covered(words, &TABLE)?))
     }
 
     /// An image whose words before the last have this CRC-32.
@@ -288,25 +288,46 @@ impl<'a> Image<'a> {
     }
 }
 
+/// How an image begins, whatever is in it: its first word, the version in its second, and the words of its header.
+pub(crate) struct Beginning {
+    pub(crate) magic: u32,
+    pub(crate) version: u16,
+    pub(crate) header: usize,
+}
+
+const TABLE: Beginning = Beginning {
+    magic: MAGIC,
+    version: VERSION,
+    header: HEADER_WORDS,
+};
+
 /// The words that the CRC covers, of an image whose magic, version and length are right.
-fn covered(words: &[u32]) -> Result<&[u32], ImageError> {
+pub(crate) fn covered<'a>(
+    words: &'a [u32],
+    beginning: &Beginning,
+) -> Result<&'a [u32], ImageError> {
     if cfg!(target_endian = "big") {
         return Err(ImageError::BigEndian);
     }
     let given = words.len() as u32;
     let short = ImageError::Length {
-        needed: HEADER_WORDS as u32 + 1,
+        needed: beginning.header as u32 + 1,
         given,
     };
     let (_, covered) = words.split_last().ok_or(short)?;
-    let [magic, version, length, ..] = covered.first_chunk::<HEADER_WORDS>().ok_or(short)?;
-    if *magic != MAGIC {
+    let [magic, version, length, ..] = covered else {
+        return Err(short);
+    };
+    if covered.len() < beginning.header {
+        return Err(short);
+    }
+    if *magic != beginning.magic {
         return Err(ImageError::NotAnImage(*magic));
     }
-    if *version as u16 != VERSION {
+    if *version as u16 != beginning.version {
         return Err(ImageError::Version {
             found: *version as u16,
-            supported: VERSION,
+            supported: beginning.version,
         });
     }
     if *length != given {
@@ -391,7 +412,7 @@ pub fn identify(image: &mut [u32], machine: u32) -> Result<(), ImageError> {
 }
 
 /// Makes the CRC of an image.
-fn seal(image: &mut [u32]) {
+pub(crate) fn seal(image: &mut [u32]) {
     if let Some((crc, covered)) = image.split_last_mut() {
         *crc = Progress::START.all(covered);
     }

@@ -1,0 +1,316 @@
+//! Writing a plan: on a host, or in firmware with double precision.
+
+use super::image::{HEADER_WORDS, MAGIC, MOST_ROWS, STROKE, TURN, VERSION, fits};
+use super::row::{ROW_WORDS, Row, TIME_BITS, Units, Window, Words};
+use super::{Errors, PlanError};
+use crate::Domain;
+use crate::math;
+use crate::tick::{ImageError, seal};
+
+/// The motion at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Knot {
+    /// Time (s).
+    pub t: f64,
+    /// Position (rad, or m), counted over turns.
+    pub position: f64,
+    /// Speed (rad/s, or m/s).
+    pub omega: f64,
+    /// Acceleration before and after the instant (rad/s², or m/s²).
+    pub alpha: [f64; 2],
+}
+
+/// Words of the image of a plan through so many knots.
+#[must_use]
+pub const fn image_len(knots: usize) -> usize {
+    HEADER_WORDS + knots * ROW_WORDS + 1
+}
+
+/// 2³²
+const RANGE: f64 = 4_294_967_296.0;
+
+/// Least exponent of a unit.
+const LEAST: i32 = -64;
+
+/// Shares of a row at which its speed is looked at.
+const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// The polynomial between two knots over the time u = t/H: its speed (2⁻³² of the range a second) and its coefficients of u² to u⁵ over H², in 2⁻³² of the
+/// range a second squared.
+#[derive(Clone, Copy, Default)]
+struct Segment {
+    speed: f64,
+    coefficients: [f64; 4],
+}
+
+/// A knot in counts: positions in units of 2⁻³² of the range, times in units of the plan.
+#[derive(Clone, Copy)]
+struct Count {
+    start: u32,
+    position: i64,
+    omega: f64,
+    alpha: [f64; 2],
+}
+
+/// Writes the plan through these knots, in the order of their times, the first at t = 0, and returns it. `machine` is the identifier of the machine, 0 if it has
+/// none; `errors` is what the plan will be off by, to be written into its header.
+///
+/// # Errors
+/// Knots that are not finite, out of order or out of the stroke; 65,535 at most; a buffer shorter than [`image_len`].
+pub fn encode<'b>(
+    knots: &[Knot],
+    domain: Domain,
+    machine: u32,
+    errors: Errors,
+    buffer: &'b mut [u32],
+) -> Result<&'b [u32], PlanError> {
+    let needed = image_len(knots.len());
+    let given = buffer.len();
+    let short = ImageError::BufferTooShort { needed, given };
+    let image = buffer.get_mut(..needed).ok_or(short)?;
+    let last = knots.last().map_or(0.0, |knot| knot.t);
+    if !(2..=MOST_ROWS).contains(&knots.len()) || !(last > 0.0 && last.is_finite()) {
+        return Err(PlanError::Order(0));
+    }
+    // So that the last time has 31 bits.
+    let time = (30 - exponent(last)).clamp(0, TIME_BITS.cast_signed());
+    let mut units = Units {
+        time: time.cast_unsigned(),
+        speed: LEAST,
+        acceleration: LEAST,
+    };
+    let mut most = [0.0_f64; 2];
+    for (k, pair) in pairs(knots, domain, units) {
+        let [from, to] = pair?;
+        let (length, window) = window(k, [from, to], units)?;
+        let segment = segment([from, to], length, window, from.omega, 0.5 * from.alpha[1]);
+        for share in LOOKS {
+            let u = share * length / window;
+            most[0] = most[0].max(math::abs(segment.speed_at(u, window)));
+        }
+        for knot in [from, to] {
+            most[0] = most[0].max(math::abs(knot.omega));
+        }
+        for alpha in [from.alpha[1], to.alpha[0]] {
+            most[1] = most[1].max(math::abs(alpha));
+        }
+        let [gained, raised] = segment.sums();
+        let faster = math::abs(from.omega) + window * gained;
+        let faster = exponent(faster.max(math::abs(to.omega)));
+        units.speed = units.speed.max(faster - 29);
+        units.acceleration = units.acceleration.max(exponent(raised) - 29);
+    }
+    let (header, rest) = image.split_at_mut(HEADER_WORDS.min(needed));
+    let rows: &mut [Words] = match rest.split_last_mut() {
+        Some((_, rows)) => bytemuck::cast_slice_mut(rows),
+        None => return Err(short.into()),
+    };
+    for ((k, pair), row) in pairs(knots, domain, units).zip(rows.iter_mut()) {
+        let [from, to] = pair?;
+        *row = quantised(k, [from, to], units)?.words();
+    }
+    if let (Some(row), Some(knot)) = (rows.last_mut(), knots.last()) {
+        let k = knots.len() as u32 - 1;
+        let end = count(k, knot, domain, units)?;
+        *row = Row {
+            start: end.start,
+            position: end.position,
+            speed: rounded(k, end.omega / power_of_two(units.speed))?,
+            finer: 0,
+            coefficients: [0; 4],
+        }
+        .words();
+    }
+    let (range, from, to) = match domain.to::<f32>() {
+        Domain::Turn => (TURN, 0.0, 0.0),
+        Domain::Stroke { from, to } => (STROKE, from, to),
+    };
+    let [speed, acceleration] = most.map(|most| (most * domain.span() / RANGE) as f32);
+    let words: [u32; HEADER_WORDS] = [
+        MAGIC,
+        u32::from(VERSION) | (HEADER_WORDS as u32) << 16,
+        needed as u32,
+        u32::from_le_bytes([
+            range,
+            units.time as u8,
+            (units.speed as i8).cast_unsigned(),
+            (units.acceleration as i8).cast_unsigned(),
+        ]),
+        knots.len() as u32,
+        f32::to_bits(from),
+        f32::to_bits(to),
+        machine,
+        speed.to_bits(),
+        acceleration.to_bits(),
+        errors.position.to_bits(),
+        errors.speed.to_bits(),
+        errors.acceleration.to_bits(),
+        0,
+        0,
+        0,
+    ];
+    for (slot, word) in header.iter_mut().zip(words) {
+        *slot = word;
+    }
+    seal(image);
+    Ok(image)
+}
+
+/// Two knots after each other, with the number of the first.
+fn pairs(
+    knots: &[Knot],
+    domain: Domain,
+    units: Units,
+) -> impl Iterator<Item = (u32, Result<[Count; 2], PlanError>)> + '_ {
+    let next = knots.iter().skip(1);
+    (0..).zip(knots).zip(next).map(move |((k, from), to)| {
+        let both = count(k, from, domain, units)
+            .and_then(|from| Ok([from, count(k + 1, to, domain, units)?]));
+        (k, both)
+    })
+}
+
+fn count(k: u32, knot: &Knot, domain: Domain, units: Units) -> Result<Count, PlanError> {
+    let per_range = RANGE / domain.span();
+    let from = match domain {
+        Domain::Turn => 0.0,
+        Domain::Stroke { from, .. } => from,
+    };
+    let position = math::rint((knot.position - from) * per_range);
+    let Knot {
+        t, omega, alpha, ..
+    } = *knot;
+    let [before, after] = alpha;
+    let finite = [t, position, omega, before, after]
+        .iter()
+        .all(|x| x.is_finite());
+    let limit = match domain {
+        Domain::Turn => (-8_388_608.0 * RANGE..8_388_608.0 * RANGE).contains(&position),
+        // A last digit beyond an end is none.
+        Domain::Stroke { .. } => (-1.0..=RANGE + 1.0).contains(&position),
+    };
+    let start = math::rint(t * power_of_two(units.time.cast_signed()));
+    if !finite || !limit || !(0.0..=RANGE).contains(&start) {
+        return Err(PlanError::Number(k));
+    }
+    if (k == 0) != (start == 0.0) {
+        return Err(PlanError::Order(k));
+    }
+    let position = match domain {
+        Domain::Turn => position,
+        Domain::Stroke { .. } => position.clamp(0.0, RANGE),
+    };
+    Ok(Count {
+        start: start as u32,
+        position: position as i64,
+        omega: omega * per_range,
+        alpha: alpha.map(|alpha| alpha * per_range),
+    })
+}
+
+/// Length of the row, and of its window (s).
+fn window(k: u32, [from, to]: [Count; 2], units: Units) -> Result<(f64, f64), PlanError> {
+    let length = to
+        .start
+        .checked_sub(from.start)
+        .filter(|length| *length > 0)
+        .ok_or(PlanError::Order(k + 1))?;
+    let window = Window::of(length, units);
+    let seconds = f64::from(length) * power_of_two(-units.time.cast_signed());
+    Ok((seconds, power_of_two(window.exponent)))
+}
+
+/// The polynomial from one knot to the next, that begins with this speed and half of an acceleration.
+fn segment([from, to]: [Count; 2], length: f64, window: f64, speed: f64, half: f64) -> Segment {
+    let way = (to.position - from.position) as f64 - length * (speed + length * half);
+    let gained = length * (to.omega - speed - 2.0 * length * half);
+    let raised = length * length * (to.alpha[0] - 2.0 * half);
+    let third = 10.0 * way - 4.0 * gained + 0.5 * raised;
+    let fourth = -15.0 * way + 7.0 * gained - raised;
+    let fifth = 6.0 * way - 3.0 * gained + 0.5 * raised;
+    let stretch = window / length;
+    let cube = stretch * stretch * stretch / (window * window);
+    Segment {
+        speed,
+        coefficients: [
+            half,
+            third * cube,
+            fourth * cube * stretch,
+            fifth * cube * stretch * stretch,
+        ],
+    }
+}
+
+impl Segment {
+    /// What the sums of the speed, over the window, and of the acceleration are at most, also within.
+    fn sums(&self) -> [f64; 2] {
+        let [a, b, c, d] = self.coefficients.map(math::abs);
+        [
+            2.0 * a + 3.0 * b + 4.0 * c + 5.0 * d,
+            2.0 * a + 6.0 * b + 12.0 * c + 20.0 * d,
+        ]
+    }
+
+    /// Speed at a share of the window (s).
+    fn speed_at(&self, u: f64, window: f64) -> f64 {
+        let [a, b, c, d] = self.coefficients;
+        self.speed + window * u * (2.0 * a + u * (3.0 * b + u * (4.0 * c + u * 5.0 * d)))
+    }
+}
+
+/// A row in whole numbers: what rounding the first of them leaves goes into those behind.
+fn quantised(k: u32, pair: [Count; 2], units: Units) -> Result<Row, PlanError> {
+    let [from, _] = pair;
+    let (length, window) = window(k, pair, units)?;
+    let of_speed = power_of_two(units.speed);
+    let speed = rounded(k, from.omega / of_speed)?;
+    let exact = segment(pair, length, window, f64::from(speed) * of_speed, 0.5 * from.alpha[1]);
+    // As fine as the greatest of its sums allows.
+    let [_, raised] = exact.sums();
+    let finer = (29 + units.acceleration - exponent(raised)).clamp(0, 31);
+    let unit = power_of_two(units.acceleration - finer);
+    let half = rounded(k, 0.5 * from.alpha[1] / unit)?;
+    let rest = segment(
+        pair,
+        length,
+        window,
+        f64::from(speed) * of_speed,
+        f64::from(half) * unit,
+    );
+    let mut coefficients = [half; 4];
+    for (slot, exact) in coefficients.iter_mut().zip(rest.coefficients).skip(1) {
+        *slot = rounded(k, exact / unit)?;
+    }
+    let row = Row {
+        start: from.start,
+        position: from.position,
+        speed,
+        finer: finer.cast_unsigned(),
+        coefficients,
+    };
+    let exponent = math::rint(math::log2(window)) as i32;
+    if fits(&row, Window { exponent }.shifts(&row, units)) {
+        Ok(row)
+    } else {
+        Err(PlanError::Number(k))
+    }
+}
+
+fn rounded(k: u32, x: f64) -> Result<i32, PlanError> {
+    let nearest = math::rint(x);
+    if math::abs(nearest) < 2_147_483_647.0 {
+        Ok(nearest as i32)
+    } else {
+        Err(PlanError::Number(k))
+    }
+}
+
+/// ⌊log₂ x⌋ of a normal number; less than any other of 0.
+fn exponent(x: f64) -> i32 {
+    ((x.to_bits() >> 52) as i32 & 0x7ff) - 1023
+}
+
+/// 2ⁿ, −1022 ≤ n ≤ 1023
+fn power_of_two(n: i32) -> f64 {
+    f64::from_bits(((n + 1023) as u64 & 0x7ff) << 52)
+}

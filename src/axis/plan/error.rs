@@ -1,0 +1,78 @@
+//! What can be wrong with a plan.
+
+use core::fmt;
+
+use super::super::AxisError;
+use crate::number::error::{Curable, error};
+use crate::tick::ImageError;
+
+/// Why a plan is refused, or not written. Rows are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum PlanError {
+    /// Length, version, CRC, a header field or the machine, as of a table image.
+    Image(ImageError),
+    /// The first word is not "JRPL".
+    NotAPlan(u32),
+    /// Made for another range of the drive link than the model's.
+    Range,
+    /// The row does not begin after the one before, or not at 0 if it is the first.
+    Order(u32),
+    /// A number of the row is not finite, or does not fit.
+    Number(u32),
+    /// The row does not end with the position and speed with which the next one begins.
+    Gap(u32),
+    /// The end is not where the start is, with its speed: it cannot be repeated.
+    Open,
+    /// A figure beside the plan.
+    Axis(AxisError),
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Image(error) => error.fmt(f),
+            Self::NotAPlan(word) => write!(
+                f,
+                "not a plan: it starts with {word:#010x} instead of \"JRPL\""
+            ),
+            Self::Range => {
+                f.write_str("the plan was made for another range of the drive link than the model")
+            }
+            Self::Order(row) => write!(
+                f,
+                "row {row} of the plan does not begin after the one before it"
+            ),
+            Self::Number(row) => {
+                write!(f, "row {row} of the plan has a number that does not fit")
+            }
+            Self::Gap(row) => write!(f, "row {row} of the plan does not end where the next begins"),
+            Self::Open => f.write_str("the plan does not end as it begins, so it cannot be repeated"),
+            Self::Axis(error) => error.fmt(f),
+        }
+    }
+}
+
+error!(PlanError, Image(ImageError), Axis(AxisError));
+
+impl Curable for PlanError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Image(error) => error.write_cure(f),
+            Self::NotAPlan(_) => {
+                f.write_str("give what jred fastest or jred retime wrote with --plan")
+            }
+            Self::Range => f.write_str("make table and plan of the same machine file"),
+            Self::Order(_) => f.write_str("give rows at least 2⁻⁴⁰ s and a 2³⁰th of the plan apart"),
+            Self::Number(_) => f.write_str(
+                "give finite numbers, rows of less than 8 million turns, and the position within the stroke",
+            ),
+            Self::Gap(_) => f.write_str("write the plan again"),
+            Self::Open => f.write_str(
+                "give a plan whose end is its start, whole turns on, with the same speed, or follow it once",
+            ),
+            Self::Axis(error) => error.write_cure(f),
+        }
+    }
+}

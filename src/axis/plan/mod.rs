@@ -1,0 +1,317 @@
+//! A motion that was planned on a host, as a table over the time that a tick follows.
+//!
+//! [`Plan`] reads an image that `jred fastest --plan` or `jred retime --plan` wrote; [`encode`] writes one. The layout is documented word by
+//! word in `docs/table-image.md`.
+
+mod encode;
+mod error;
+mod image;
+mod row;
+
+use core::marker::PhantomData;
+
+pub use encode::{Knot, encode, image_len};
+pub use error::PlanError;
+pub use image::{HEADER_WORDS, VERSION};
+
+use super::{AxisError, Motion};
+use crate::number::{Factor, Number, Quantity as _, Real as _};
+use crate::{Domain, MachineUnits, Outcome, Phase};
+use image::Header;
+use row::{Row, State, TIME_BITS, Words};
+
+/// Units that a rounded position or speed may be off by.
+const NEAR: u64 = 16;
+
+/// 2⁻³²
+const UNIT: f32 = 1.0 / 4_294_967_296.0;
+
+/// A planned motion, in place in its image: position, speed and acceleration at any time of it.
+///
+/// Between two rows the position is the polynomial of the fifth degree through positions, speeds and accelerations of both; speed and acceleration are its
+/// derivatives, and where the motion's acceleration jumps, a row begins with the acceleration behind the jump. So the three always belong together:
+///
+/// ```text
+/// φ(u) = φ₀ + ω₀·H·u + H²·u²·(c₂ + c₃·u + c₄·u² + c₅·u³),   u = (t − t₀)/H
+/// ```
+///
+/// A tick finds its row by bisection, and computes with integers alone, whatever the numbers of the model are: the same bits on every processor.
+/// The image is checked once; then no read can fail.
+///
+/// Accuracy: beside the motion that it was made of, what its header says ([`errors`](Self::errors)); of the arithmetic, 2⁻²⁷ of the greatest
+/// speed and acceleration of the plan, and of a position 2⁻²⁷ of the way in the row (test `a_plan_follows_its_polynomials`).
+///
+/// ```
+/// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
+/// use jred::number::Sliding;
+/// use jred::{Image, Model, Set, Spline, curves, include_image};
+///
+/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // Once.
+/// let image = Image::from_bytes(include_image!("../../../examples/data/press_f32.jred"))?;
+/// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
+/// let feed_forward = FeedForward::new(press, image.validity());
+/// let plan = Plan::from_bytes(include_image!("../../../examples/data/press_plan.jred"), &press)?;
+/// let mut follower = Follower::new(plan, 0.001, 0.1, &press)?; // a tick and a change of the rate from 0 to 100 % (s)
+/// follower.start();
+///
+/// // Every tick.
+/// let mut ticks = 0;
+/// loop {
+///     let planned = follower.next(Rate::FULL);
+///     let needed = feed_forward.at_reference(planned.motion, Sliding::Against(planned.motion.omega));
+///     assert!(needed.status.is_valid());
+///     if planned.stage == Stage::Done {
+///         break;
+///     }
+///     ticks += 1;
+/// }
+/// assert_eq!(ticks, (plan.duration() / 0.001).ceil() as u32);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan<'a, N> {
+    rows: &'a [Words],
+    header: Header,
+    /// Of speeds and accelerations to machine units.
+    speed: Factor,
+    acceleration: Factor,
+    number: PhantomData<N>,
+}
+
+/// What a plan is off by at most, beside the motion that it was made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Errors {
+    /// Position (rad, or m).
+    pub position: f32,
+    /// Speed (rad/s, or m/s).
+    pub speed: f32,
+    /// Acceleration (rad/s², or m/s²).
+    pub acceleration: f32,
+}
+
+/// Where a plan is, in machine units, and whole turns since φ = 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Place<N: Number> {
+    /// Position, speed and acceleration.
+    pub motion: Motion<N>,
+    /// Whole turns; 0 on a stroke.
+    pub turns: i32,
+}
+
+impl<'a, N: Number> Plan<'a, N> {
+    /// Checks a plan given as words, for a model with its range and machine units.
+    ///
+    /// # Errors
+    /// What [`PlanError`] lists; in fixed point a speed or an acceleration beyond its base, too.
+    pub fn new(
+        words: &'a [u32],
+        model: &impl MachineUnits<Number = N>,
+    ) -> Result<Self, PlanError> {
+        let (header, rows) = image::checked(words)?;
+        let (domain, scale) = (model.domain().to::<f32>(), model.scale());
+        if domain != header.domain {
+            return Err(PlanError::Range);
+        }
+        let span = domain.span().to_f32();
+        let factor = |what, most: f32, base: f32, exponent: i32| {
+            if N::FIXED && most > base {
+                return Err(AxisError::BeyondBase {
+                    what,
+                    value: most,
+                    base,
+                });
+            }
+            let factor = Factor::of_count(span * UNIT * power_of_two(exponent) / base);
+            factor.ok_or(AxisError::OutOfRange {
+                what,
+                value: most,
+                range: "such that single precision holds it in machine units",
+            })
+        };
+        let [speed, acceleration] = header.most;
+        Ok(Self {
+            rows,
+            speed: factor(
+                "the greatest speed of the plan",
+                speed,
+                scale.speed(),
+                header.units.speed,
+            )?,
+            acceleration: factor(
+                "the greatest acceleration of the plan",
+                acceleration,
+                scale.acceleration(),
+                header.units.acceleration,
+            )?,
+            header,
+            number: PhantomData,
+        })
+    }
+
+    /// Checks a plan given as bytes, such as `include_image!` or a flash region.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the bytes must lie on a 4-byte boundary ([`include_image!`](crate::include_image) sees to it).
+    pub fn from_bytes(
+        bytes: &'a [u8],
+        model: &impl MachineUnits<Number = N>,
+    ) -> Result<Self, PlanError> {
+        let words = bytemuck::try_cast_slice(bytes);
+        Self::new(
+            words.map_err(|_| crate::tick::ImageError::Misaligned)?,
+            model,
+        )
+    }
+
+    /// The same, if it is of the machine with this identifier, which table images have, too.
+    ///
+    /// # Errors
+    /// [`ImageError::Machine`](crate::ImageError::Machine).
+    pub const fn of_machine(self, machine: u32) -> Result<Self, PlanError> {
+        if self.header.machine == machine {
+            Ok(self)
+        } else {
+            Err(PlanError::Image(crate::tick::ImageError::Machine {
+                found: self.header.machine,
+                expected: machine,
+            }))
+        }
+    }
+
+    /// The identifier of the machine; 0 if it has none.
+    #[must_use]
+    pub const fn machine(&self) -> u32 {
+        self.header.machine
+    }
+
+    /// What it is off by, beside the motion that it was made of.
+    #[must_use]
+    pub const fn errors(&self) -> Errors {
+        self.header.errors
+    }
+
+    /// Its greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²), as magnitudes.
+    #[must_use]
+    pub const fn most(&self) -> [f32; 2] {
+        self.header.most
+    }
+
+    /// Rows, with that of its end.
+    #[must_use]
+    pub const fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// How long it takes (s).
+    #[must_use]
+    pub fn duration(&self) -> f32 {
+        self.end() as f32 * (UNIT / 256.0)
+    }
+
+    /// The same in units of 2⁻⁴⁰ s.
+    #[inline]
+    #[must_use]
+    pub const fn end(&self) -> u64 {
+        (self.header.last as u64) << ((TIME_BITS - self.header.units.time) & 63)
+    }
+
+    /// Whether the end is the start, or whole turns from it, with the same speed: it can be repeated.
+    pub(super) fn closes(&self) -> bool {
+        let [first, .., last] = self.rows else {
+            return false;
+        };
+        let [first, last] = [first, last].map(Row::read);
+        let apart = last.position.wrapping_sub(first.position);
+        let apart = match self.header.domain {
+            // Whole turns apart.
+            Domain::Turn => i64::from(apart as i32),
+            Domain::Stroke { .. } => apart,
+        };
+        let faster = last.speed.wrapping_sub(first.speed);
+        apart.unsigned_abs() <= NEAR && u64::from(faster.unsigned_abs()) <= NEAR
+    }
+
+    /// Position, speed and acceleration at a time after the start (units of 2⁻⁴⁰ s): behind the end those of the end, with its acceleration 0. Flagged, if in fixed point a
+    /// number was limited.
+    ///
+    /// For a time of one's own, such as that of a line shaft; [`Follower`](super::Follower) counts ticks.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, time: u64) -> Outcome<Place<N>> {
+        self.place(self.state(time))
+    }
+
+    /// The same in units of the plan.
+    #[inline]
+    pub(super) fn state(&self, time: u64) -> State {
+        let units = self.header.units;
+        let begun = |row: &Words| {
+            let [start, ..] = *row;
+            u64::from(start) << (TIME_BITS.saturating_sub(units.time) & 63) <= time
+        };
+        // Bisection: as many steps as the number of rows has bits.
+        let mut k = 0;
+        let mut step = self.header.half;
+        while step > 0 {
+            let next = self.rows.get(k + step);
+            k += if next.is_some_and(begun) { step } else { 0 };
+            step /= 2;
+        }
+        let Some(words) = self.rows.get(k) else {
+            return State::default();
+        };
+        let row = Row::read(words);
+        match self.rows.get(k + 1) {
+            Some([next, ..]) => row.at(time, next.wrapping_sub(row.start), units),
+            None => State {
+                position: row.position,
+                speed: row.speed,
+                acceleration: 0,
+            },
+        }
+    }
+
+    /// A speed in units of the plan, in machine units.
+    #[inline]
+    pub(super) fn gained(&self, speed: i32) -> N::Speed {
+        N::Speed::of(N::of_count(speed, &self.speed).value)
+    }
+
+    /// In machine units.
+    #[inline]
+    pub(super) fn place(&self, state: State) -> Outcome<Place<N>> {
+        let omega = N::of_count(state.speed, &self.speed);
+        let alpha = N::of_count(state.acceleration, &self.acceleration);
+        let (phase, turns) = match self.header.domain {
+            Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
+            // The position is that of the rows, and between them may be some units off: within the stroke.
+            Domain::Stroke { .. } if state.position < 0 => (0, 0),
+            Domain::Stroke { .. } => (
+                u32::try_from(state.position).unwrap_or(u32::MAX),
+                0,
+            ),
+        };
+        Outcome {
+            value: Place {
+                motion: Motion {
+                    phase: Phase::from_bits(phase),
+                    omega: N::Speed::of(omega.value),
+                    alpha: N::Acceleration::of(alpha.value),
+                },
+                turns,
+            },
+            saturated: omega.saturated || alpha.saturated,
+        }
+    }
+}
+
+/// 2ⁿ, −126 ≤ n ≤ 127
+fn power_of_two(n: i32) -> f32 {
+    f32::from_bits(((n + 127) as u32 & 0xff) << 23)
+}

@@ -1,0 +1,153 @@
+//! A plan and its follower, against the motion they were made of.
+
+use core::f64::consts::TAU;
+
+use jred::axis::plan::{Errors, HEADER_WORDS, Knot, Place, PlanError, VERSION, encode, image_len};
+use jred::axis::{Follower, Plan, Rate, Stage};
+use jred::number::{Number, Quantity as _};
+use jred::{Domain, ImageError, MachineUnits, Q15, Q31, Rows16, Scale, Spline};
+use proptest::prelude::*;
+
+use super::machine::in_units;
+use crate::support::images::sealed;
+use crate::support::{samples, scale_of};
+
+/// Seconds to units of 2⁻⁴⁰ s.
+fn units(t: f64) -> u64 {
+    (t * 2f64.powi(40)) as u64
+}
+
+fn image(knots: &[Knot], domain: Domain) -> Vec<u32> {
+    let mut words = vec![0; image_len(knots.len())];
+    let written = encode(knots, domain, 7, Errors::default(), &mut words).map(<[u32]>::len);
+    assert_eq!(written, Ok(words.len()));
+    words
+}
+
+fn refused(words: &[u32]) -> PlanError {
+    let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
+    Plan::new(words, &model).expect_err("refused")
+}
+
+/// Hermite's basis of the fifth degree: values at s of the functions that belong to position, speed and acceleration at both ends, or of a derivative.
+fn basis(s: f64, derivative: u32) -> [f64; 6] {
+    let polynomials: [[f64; 6]; 6] = [
+        [1.0, 0.0, 0.0, -10.0, 15.0, -6.0],
+        [0.0, 1.0, 0.0, -6.0, 8.0, -3.0],
+        [0.0, 0.0, 0.5, -1.5, 1.5, -0.5],
+        [0.0, 0.0, 0.0, 0.5, -1.0, 0.5],
+        [0.0, 0.0, 0.0, -4.0, 7.0, -3.0],
+        [0.0, 0.0, 0.0, 10.0, -15.0, 6.0],
+    ];
+    polynomials.map(|polynomial| {
+        let mut sum = 0.0;
+        for (power, c) in (0..).zip(polynomial) {
+            if power >= derivative {
+                let falling: f64 = (0..derivative).map(|j| f64::from(power - j)).product();
+                sum += c * falling * s.powi((power - derivative).cast_signed());
+            }
+        }
+        sum
+    })
+}
+
+/// Position, speed and acceleration between two knots.
+fn between(a: &Knot, b: &Knot, t: f64) -> [f64; 3] {
+    let h = b.t - a.t;
+    let s = (t - a.t) / h;
+    let of = [a.position, a.omega * h, a.alpha[1] * h * h, b.alpha[0] * h * h, b.omega * h, b.position];
+    [0, 1, 2].map(|derivative| {
+        let sum: f64 = basis(s, derivative).iter().zip(of).map(|(w, x)| w * x).sum();
+        sum / h.powi(derivative.cast_signed())
+    })
+}
+
+fn found<N: Number>(place: &Place<N>, model: &impl MachineUnits<Number = N>) -> [f64; 3] {
+    let scale = model.scale();
+    let turns = f64::from(place.turns) + f64::from(place.motion.phase.to_bits()) / 2f64.powi(32);
+    let (from, span) = match model.domain().to::<f64>() {
+        Domain::Turn => (0.0, TAU),
+        Domain::Stroke { from, to } => (from, to - from),
+    };
+    [
+        from + turns * span,
+        place.motion.omega.number().to_f64() * f64::from(scale.speed()),
+        place.motion.alpha.number().to_f64() * f64::from(scale.acceleration()),
+    ]
+}
+
+/// Times of knots are multiples of 2⁻²⁴ s, and so of the units of a plan of up to 64 s.
+const GRID: f64 = 16_777_216.0;
+
+/// Any knots: some 0.1 ms to a second apart, over many turns, with jumps of the acceleration at each.
+fn any_knots() -> impl Strategy<Value = Vec<Knot>> {
+    let step = (-4.0..0.0, -20.0..20.0, -30.0..30.0, -900.0..900.0, -900.0..900.0, -1.0..1.0);
+    proptest::collection::vec(step, 2..20).prop_map(|steps| {
+        let (mut t, mut position, mut last) = (0.0, 0.0, 0.0);
+        let knots = steps.into_iter().enumerate().map(|(k, step)| {
+            let (length, start, omega, before, after, missed) = step;
+            let length = if k == 0 { 0.0 } else { (10f64.powf(length) * GRID).ceil() / GRID };
+            t += length;
+            // Consistent with the speeds to some degree, as a motion is.
+            position += if k == 0 { start } else { length * (0.5 * (omega + last) + missed) };
+            last = omega;
+            Knot { t, position, omega, alpha: [before, after] }
+        });
+        knots.collect()
+    })
+}
+
+/// The sum of the terms of the acceleration of a row at the end of its window, the power of two of seconds that is longer than it; and as a speed and a way over
+/// the window.
+fn terms(a: &Knot, b: &Knot) -> [f64; 3] {
+    let h = b.t - a.t;
+    let window = 2f64.powf(h.log2().floor() + 1.0);
+    let of = [a.position, a.omega * h, a.alpha[1] * h * h, b.alpha[0] * h * h, b.omega * h, b.position];
+    // The derivatives at the start are the coefficients.
+    let coefficient = |power: u32| -> f64 {
+        let sum: f64 = basis(0.0, power).iter().zip(of).map(|(w, x)| w * x).sum();
+        sum.abs() / (2..=power).map(f64::from).product::<f64>() * (window / h).powi(power.cast_signed())
+    };
+    let sum = |factors: [f64; 4]| -> f64 { (2..=5).zip(factors).map(|(power, factor)| factor * coefficient(power)).sum() };
+    let way = sum([2.0, 6.0, 12.0, 20.0]);
+    [way / (window * window), way / window, way]
+}
+
+/// The polynomials of the rows are those through the knots, to 2⁻²⁶ of the sums of their terms, and what rounding of positions to 2⁻³² of the range is in them.
+#[test]
+fn a_plan_follows_its_polynomials() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let mut worst = [0.0_f64; 3];
+    for knots in samples(300, 0xff61, &any_knots()) {
+        let words = image(&knots, Domain::Turn);
+        let plan = Plan::new(&words, &model).unwrap();
+        // The units of speeds and accelerations are the same for all rows.
+        let most = |j: usize| knots.windows(2).map(|pair| terms(&pair[0], &pair[1])[j]).fold(0.0, f64::max);
+        let (raised, fastest) = (most(0), most(1).max(plan.most()[0].into()));
+        for pair in knots.windows(2) {
+            let h = pair[1].t - pair[0].t;
+            let [.., way] = terms(&pair[0], &pair[1]);
+            let unit = TAU / 2f64.powi(32);
+            let part = 2f64.powi(-26);
+            let allowed = [
+                part * (way + fastest * h) + 2.0 * unit,
+                part * fastest + 2.0 * unit / h,
+                part * (raised + 2.0 * fastest / h) + 6.0 * unit / (h * h),
+            ];
+            for share in [0.0, 1e-6, 0.1, 0.3, 0.5, 0.7, 0.9, 0.999] {
+                let t = units(pair[0].t + h * share);
+                let exact = between(&pair[0], &pair[1], t as f64 / 2f64.powi(40));
+                let here = found(&plan.at(t).value, &model);
+                for j in 0..3 {
+                    let error = (here[j] - exact[j]).abs();
+                    worst[j] = worst[j].max(error / allowed[j]);
+                    assert!(error <= allowed[j], "{j}: {error:e} {:e} {t}", allowed[j]);
+                }
+            }
+        }
+    }
+    // No slack: a fifth would be too little.
+    for (j, worst) in worst.into_iter().enumerate() {
+        assert!(worst > 0.2, "{j}: {worst}");
+    }
+}
