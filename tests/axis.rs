@@ -9,5 +9,6 @@ mod look_ahead;
 mod machine;
 mod messages;
 mod motion;
+mod plan;
 mod stop;
 mod tracker;

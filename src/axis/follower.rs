@@ -1,7 +1,7 @@
 //! A plan followed tick by tick, at its own pace or slower.
 
-use super::plan::{Plan, PlanError};
 use super::error::{positive, within};
+use super::plan::{Plan, PlanError};
 use super::{Motion, Period};
 use crate::MachineUnits;
 use crate::number::{Number, Quantity as _, Real as _};

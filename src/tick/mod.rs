@@ -6,11 +6,11 @@ mod model;
 mod pieces;
 mod units;
 
-pub(crate) use image::{Beginning, Progress, covered, seal};
 pub use image::{
     Aligned, HEADER_WORDS, Image, ImageCheck, ImageError, VERSION, Validity, encode, identify,
     image_len,
 };
+pub(crate) use image::{Beginning, Progress, covered, seal};
 pub use model::{AccelerationRange, AnyModel, Contributions, Model};
 pub use pieces::Pieces;
 pub use units::MachineUnits;

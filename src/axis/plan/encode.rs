@@ -264,7 +264,13 @@ fn quantised(k: u32, pair: [Count; 2], units: Units) -> Result<Row, PlanError> {
     let (length, window) = window(k, pair, units)?;
     let of_speed = power_of_two(units.speed);
     let speed = rounded(k, from.omega / of_speed)?;
-    let exact = segment(pair, length, window, f64::from(speed) * of_speed, 0.5 * from.alpha[1]);
+    let exact = segment(
+        pair,
+        length,
+        window,
+        f64::from(speed) * of_speed,
+        0.5 * from.alpha[1],
+    );
     // As fine as the greatest of its sums allows.
     let [_, raised] = exact.sums();
     let finer = (29 + units.acceleration - exponent(raised)).clamp(0, 31);

@@ -47,8 +47,13 @@ impl fmt::Display for PlanError {
             Self::Number(row) => {
                 write!(f, "row {row} of the plan has a number that does not fit")
             }
-            Self::Gap(row) => write!(f, "row {row} of the plan does not end where the next begins"),
-            Self::Open => f.write_str("the plan does not end as it begins, so it cannot be repeated"),
+            Self::Gap(row) => write!(
+                f,
+                "row {row} of the plan does not end where the next begins"
+            ),
+            Self::Open => {
+                f.write_str("the plan does not end as it begins, so it cannot be repeated")
+            }
             Self::Axis(error) => error.fmt(f),
         }
     }

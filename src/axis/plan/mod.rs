@@ -38,8 +38,9 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// A tick finds its row by bisection, and computes with integers alone, whatever the numbers of the model are: the same bits on every processor.
 /// The image is checked once; then no read can fail.
 ///
-/// Accuracy: beside the motion that it was made of, what its header says ([`errors`](Self::errors)); of the arithmetic, 2⁻²⁷ of the greatest
-/// speed and acceleration of the plan, and of a position 2⁻²⁷ of the way in the row (test `a_plan_follows_its_polynomials`).
+/// Accuracy: beside the motion that it was made of, what its header says ([`errors`](Self::errors)). The arithmetic is off by 2⁻²⁶ of the greatest sum of the
+/// polynomials' terms in the plan at most, of a position in its row, and positions of rows are rounded to 2⁻³² of the range (test `a_plan_follows_its_polynomials`);
+/// the factors to machine units have single precision.
 ///
 /// ```
 /// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
@@ -109,10 +110,7 @@ impl<'a, N: Number> Plan<'a, N> {
     ///
     /// # Errors
     /// What [`PlanError`] lists; in fixed point a speed or an acceleration beyond its base, too.
-    pub fn new(
-        words: &'a [u32],
-        model: &impl MachineUnits<Number = N>,
-    ) -> Result<Self, PlanError> {
+    pub fn new(words: &'a [u32], model: &impl MachineUnits<Number = N>) -> Result<Self, PlanError> {
         let (header, rows) = image::checked(words)?;
         let (domain, scale) = (model.domain().to::<f32>(), model.scale());
         if domain != header.domain {
@@ -292,10 +290,7 @@ impl<'a, N: Number> Plan<'a, N> {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
             // The position is that of the rows, and between them may be some units off: within the stroke.
             Domain::Stroke { .. } if state.position < 0 => (0, 0),
-            Domain::Stroke { .. } => (
-                u32::try_from(state.position).unwrap_or(u32::MAX),
-                0,
-            ),
+            Domain::Stroke { .. } => (u32::try_from(state.position).unwrap_or(u32::MAX), 0),
         };
         Outcome {
             value: Place {
