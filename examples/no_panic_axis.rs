@@ -4,10 +4,11 @@
 
 use core::hint::black_box;
 
+use jred::axis::plan::{Errors, Knot, encode, image_len};
 use jred::axis::{
-    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Gearbox, Governor, ImageSlot,
-    Limits, LookAhead, Motion, Mounting, Period, Ramp, Scaled, Status, StrokeEncoder, TorqueLimits,
-    Tracker, Transmission,
+    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Follower, Gearbox, Governor,
+    ImageSlot, Limits, LookAhead, Motion, Mounting, Period, Plan, Ramp, Rate, Scaled, Status,
+    StrokeEncoder, TorqueLimits, Tracker, Transmission,
 };
 use jred::image::ImageCheck;
 use jred::number::Sliding;
@@ -104,7 +105,35 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         }
     }
     every_limit(model, motion);
+    every_plan(model);
     Ok(())
+}
+
+/// A plan, and what follows it.
+fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
+    if let Ok(plan) = Plan::new(black_box(&[0; 41]), model) {
+        black_box(Plan::rows(&plan));
+    }
+    let Ok(plan) = Plan::from_bytes(black_box(include_image!("data/press_plan.jred")), model)
+    else {
+        return;
+    };
+    black_box((Plan::machine(&plan), Plan::errors(&plan), Plan::most(&plan)));
+    black_box((Plan::duration(&plan), Plan::end(&plan)));
+    black_box(Plan::at(&plan, black_box(1 << 38)));
+    let Ok(plan) = Plan::of_machine(plan, black_box(1)) else {
+        return;
+    };
+    let Ok(mut follower) = Follower::new(plan, black_box(1e-3), black_box(0.1), model) else {
+        return;
+    };
+    if let Ok(repeating) = Follower::repeating(follower) {
+        follower = repeating;
+    }
+    Follower::start(&mut follower);
+    black_box(Follower::next(&mut follower, Rate::percent(black_box(50))));
+    Follower::reset(&mut follower);
+    black_box(Follower::plan(&follower));
 }
 
 /// What a drive can do, and what it can do ahead.
@@ -212,6 +241,15 @@ fn every_double() {
     if let Ok(encoder) = StrokeEncoder::new(stroke, scaled) {
         black_box(StrokeEncoder::phase(&encoder, black_box(1)));
     }
+    let mut words = [0; image_len(3)];
+    let written = encode(
+        black_box(&[Knot::default(); 3]),
+        stroke,
+        black_box(7),
+        black_box(Errors::default()),
+        &mut words,
+    );
+    black_box(written.is_ok());
 }
 
 #[cfg(not(target_os = "none"))]

@@ -5,6 +5,7 @@ pub mod bus;
 mod core_error;
 mod export;
 pub mod fastest;
+mod plan;
 pub mod ratio;
 mod reduce;
 pub mod retime;

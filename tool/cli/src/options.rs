@@ -4,6 +4,7 @@ pub mod balance;
 pub mod bus;
 pub mod catalogue;
 pub mod fastest;
+pub mod plan;
 pub mod retime;
 pub mod search;
 mod word;

@@ -7,16 +7,18 @@
 //! 2. [`moves`]: what a prescribed motion is made of, moves and pauses;
 //! 3. [`fastest`]: minimum time;
 //! 4. [`trace`]: a motion that was made, and the files that it becomes;
-//! 5. [`gentlest`]: least RMS torque, energy or peak in a given time;
-//! 6. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
-//! 7. [`suited`]: drives, each with the motion that is the gentlest for it;
-//! 8. [`balance`]: counterweights and springs that relieve the drive.
+//! 5. [`plan`]: the same as the table that firmware follows;
+//! 6. [`gentlest`]: least RMS torque, energy or peak in a given time;
+//! 7. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
+//! 8. [`suited`]: drives, each with the motion that is the gentlest for it;
+//! 9. [`balance`]: counterweights and springs that relieve the drive.
 #![forbid(unsafe_code)]
 
 pub mod balance;
 pub mod fastest;
 pub mod gentlest;
 pub mod moves;
+pub mod plan;
 pub mod retime;
 mod skyline;
 pub mod suited;

@@ -3,6 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
+use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{Done, print, warn_of_supply};
 use crate::options::fastest::{Asked, Fastest as Options};
@@ -42,7 +43,11 @@ struct Chosen {
 /// Bad input, or no motion within the limits.
 pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
-    output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
+    output::check([
+        ("--profile", &options.profile),
+        ("--cam", &options.cam),
+        ("--plan", &options.plan.plan),
+    ])?;
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
     file.refuse_timed("fastest")?;
@@ -70,6 +75,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         let text = trace.cam(options.rows as usize);
         output::write(path, text.as_bytes())?;
     }
+    let planned = plan::write(&options.plan, &file, &cycle.trace)?;
     let answer = list::fastest::Answer {
         file: &file,
         drive: &chosen.name,
@@ -86,6 +92,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
                 print(&format!("{what} written to {}\n", plain::path(path)))?;
             }
         }
+        print(&planned)?;
     }
     Ok(Done::Holds)
 }

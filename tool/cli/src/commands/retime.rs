@@ -5,6 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
+use crate::commands::plan;
 use crate::commands::{Done, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, Retime};
 use crate::output;
@@ -29,7 +30,11 @@ use jred_sizing::study::common::named;
 /// Bad input, or no motion of moves and pauses.
 pub fn retime(options: &Retime) -> Result<Done> {
     let file = read::read(&options.file)?;
-    output::check([("--profile", &options.profile), ("--cam", &options.cam)])?;
+    output::check([
+        ("--profile", &options.profile),
+        ("--cam", &options.cam),
+        ("--plan", &options.plan.plan),
+    ])?;
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
     file.refuse_timed("retime")?;
@@ -77,6 +82,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
             written += &[what, " written to ", &plain::path(path), "\n"].concat();
         }
     }
+    written += &plan::write(&options.plan, &file, &retimed.trace)?;
     let shown = list::retime::Shown {
         file: &file,
         drive: drive.map(|drive| drive.name()),

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::plan::PlanFile;
 use super::search::SizingOptions;
 use super::word::word;
 use jred_machine::read;
@@ -94,6 +95,9 @@ pub struct Fastest {
     /// Number of rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
     pub rows: u32,
+    /// Plan for firmware.
+    #[command(flatten)]
+    pub plan: PlanFile,
     /// Number of instants in the list of CSV and JSON.
     #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub instants: u32,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::plan::PlanFile;
 use super::word::word;
 use super::{MOST_STEPS, output_file};
 use jred_motion::retime::Goal;
@@ -46,6 +47,9 @@ pub struct Retime {
     /// Rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub rows: u32,
+    /// Plan for firmware.
+    #[command(flatten)]
+    pub plan: PlanFile,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,

@@ -116,7 +116,7 @@ impl Export {
 
 // `include_image!` and these arrays are aligned as the words are; rows of a power of two then do not cross cache lines.
 
-fn rust_table(name: &str, words: &[u32]) -> String {
+pub(super) fn rust_table(name: &str, words: &[u32]) -> String {
     format!(
         "pub static {name}: [u32; {}] = [\n{}];\n",
         words.len(),

@@ -10,6 +10,7 @@ mod form;
 mod harmonic;
 mod pieces;
 mod place;
+mod plan;
 mod proof;
 mod reference;
 mod search;
@@ -20,6 +21,7 @@ mod ticks;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;
+pub use plan::plan_source;
 pub use proof::Proven;
 pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
@@ -212,7 +214,7 @@ impl Export {
             }
             .failure()?);
         };
-        let id = task.machine.unwrap_or_else(|| of_title(&file.title));
+        let id = task.machine.unwrap_or_else(|| identifier(&file.title));
         let tables = answers
             .iter_mut()
             .filter_map(|(_, _, answer)| match answer {
@@ -265,7 +267,7 @@ impl Export {
 }
 
 /// The identifier of a machine with this title: its CRC-32, that of the image. Machines without a title have none.
-fn of_title(title: &str) -> u32 {
+pub fn identifier(title: &str) -> u32 {
     Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(title.as_bytes())
 }
 

@@ -61,7 +61,7 @@ pub fn inertia_argument(text: &str) -> Result<f64, String> {
 /// # Errors
 /// A message for the command line.
 pub fn reserve_argument(text: &str) -> Result<f64, String> {
-    let share = any(text, &SHARE)?;
+    let share = share_argument(text)?;
     if (0.0..1.0).contains(&share) {
         Ok(share)
     } else {
@@ -70,6 +70,14 @@ pub fn reserve_argument(text: &str) -> Result<f64, String> {
                 .to_owned(),
         )
     }
+}
+
+/// A share, such as "10 %" or 0.1.
+///
+/// # Errors
+/// A message for the command line.
+pub fn share_argument(text: &str) -> Result<f64, String> {
+    any(text, &SHARE)
 }
 
 /// A torque of either sign, such as "20 N m" (N·m).

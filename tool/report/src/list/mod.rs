@@ -9,6 +9,7 @@ pub mod front;
 pub mod inspection;
 pub mod listing;
 pub mod ratio;
+pub mod plan;
 pub mod retime;
 pub mod rule_list;
 pub mod sensitivity;

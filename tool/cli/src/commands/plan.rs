@@ -1,0 +1,38 @@
+//! A motion written as the plan that firmware follows.
+
+use miette::{Result, miette};
+
+use crate::options::plan::PlanFile;
+use crate::output;
+use jred::Reducible as _;
+use jred_machine::export::plan_source;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::plain;
+use jred_motion::plan::Plan;
+use jred_motion::trace::Trace;
+use jred_report::list;
+
+/// Writes it, if it is asked for; a line that says so.
+///
+/// # Errors
+/// A motion that no plan holds, or a file that cannot be written.
+pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Result<String> {
+    let Some(path) = &options.plan else {
+        return Ok(String::new());
+    };
+    let machine = jred_machine::export::identifier(&file.title);
+    let plan = Plan::new(trace, file.machine.domain(), machine, options.plan_error)
+        .map_err(|error| miette!(help = format!("{}", error.cure()), "{error}"))?;
+    let says = list::plan::text(&plan, trace);
+    let source = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("rs"));
+    let bytes = if source {
+        let title = format!("{}: {says}", file.title);
+        plan_source(&title, machine, &plan.words).into_bytes()
+    } else {
+        plan.bytes()
+    };
+    output::write(path, &bytes)?;
+    Ok(format!("plan written to {}: {says}\n", plain::path(path)))
+}
