@@ -35,8 +35,12 @@ mod target {
     use cortex_m_semihosting::{debug, hprintln};
     use jred::duty::{Curve, Limits, Meter, Window};
     use jred::machine::Mechanism;
+    use jred::axis::plan::{Errors, Knot, encode, image_len};
+    use jred::axis::{Follower, Plan, Rate};
     use jred::tabulate::{fill, scratch_len};
-    use jred::{Error, Machine, Reducible, Scale, Spline, curves};
+    use jred::{
+        Domain, Error, Image, Machine, Model, Reducible, Scale, Set, Spline, curves, include_image,
+    };
     use panic_semihosting as _;
 
     use crate::ceilings::judge;
@@ -167,7 +171,45 @@ mod target {
             black_box(meter.figures());
             report(name, count / TICKS);
         }
-        Ok(failures)
+        plan(counter, &mut report).map_or(Ok(1), |()| Ok(failures))
+    }
+
+    /// A set-point of a plan of 256 rows, and one of its follower while the rate changes; the model has numbers of single precision.
+    fn plan(counter: &mut Counter, report: &mut dyn FnMut(&str, u32)) -> Option<()> {
+        const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+        const ROWS: usize = 256;
+        let image = Image::from_bytes(include_image!("../examples/data/press_f32.jred")).ok()?;
+        let model: Model<'_, Spline<f32>, PRESS> = image.model().ok()?;
+        let mut knots = [Knot::default(); ROWS];
+        for (k, knot) in (0..).map(f64::from).zip(&mut knots) {
+            // A parabola of the position.
+            let t = 0.01 * k;
+            *knot = Knot {
+                t,
+                position: 2.0 * t * t,
+                omega: 4.0 * t,
+                alpha: [4.0; 2],
+            };
+        }
+        let mut words = [0; image_len(ROWS)];
+        let none = Errors::default();
+        let words = encode(&knots, Domain::Turn, 0, none, &mut words).ok()?;
+        let plan = Plan::new(words, &model).ok()?;
+        let count = counter.count(|| {
+            for k in 0..u64::from(TICKS) {
+                black_box(plan.at(black_box((k << 40) / 450)));
+            }
+        });
+        report("plan-at", count / TICKS);
+        let mut follower = Follower::new(plan, 0.001, 2.0, &model).ok()?;
+        follower.start();
+        let count = counter.count(|| {
+            for k in 0..TICKS {
+                black_box(follower.next(black_box(Rate::percent(k & 128))));
+            }
+        });
+        report("plan-next", count / TICKS);
+        Some(())
     }
 
     #[entry]

@@ -249,9 +249,11 @@ impl<'a, N: Number> Plan<'a, N> {
     #[inline]
     pub(super) fn state(&self, time: u64) -> State {
         let units = self.header.units;
+        let whole = time >> (TIME_BITS.saturating_sub(units.time) & 63);
+        let whole = u32::try_from(whole).unwrap_or(u32::MAX);
         let begun = |row: &Words| {
             let [start, ..] = *row;
-            u64::from(start) << (TIME_BITS.saturating_sub(units.time) & 63) <= time
+            start <= whole
         };
         // Bisection: as many steps as the number of rows has bits.
         let mut k = 0;
