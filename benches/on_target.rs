@@ -33,10 +33,10 @@ mod target {
     use cortex_m::peripheral::{CPUID, SYST};
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
-    use jred::duty::{Curve, Limits, Meter, Window};
-    use jred::machine::Mechanism;
     use jred::axis::plan::{Errors, Knot, encode, image_len};
     use jred::axis::{Follower, Plan, Rate};
+    use jred::duty::{Curve, Limits, Meter, Window};
+    use jred::machine::Mechanism;
     use jred::tabulate::{fill, scratch_len};
     use jred::{
         Domain, Error, Image, Machine, Model, Reducible, Scale, Set, Spline, curves, include_image,

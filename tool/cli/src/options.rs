@@ -244,6 +244,9 @@ pub struct Steady {
     /// Number of positions in the list, which ends with the end of the turn.
     #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub positions: u32,
+    /// Write a report as one self-contained HTML page: speed, torque and energies over the turn, without and with the flywheel.
+    #[arg(long, value_name = "HTML", value_parser = output_file())]
+    pub report: Option<PathBuf>,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,

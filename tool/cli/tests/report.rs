@@ -2,6 +2,7 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+mod motions;
 mod words;
 
 use std::path::Path;

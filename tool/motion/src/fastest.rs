@@ -13,6 +13,7 @@ pub mod field;
 pub mod leg;
 mod obstacle;
 mod phases;
+pub mod plane;
 pub mod sweep;
 pub mod track;
 

@@ -62,7 +62,10 @@ impl Plan {
 
     /// Its image, byte by byte.
     pub fn bytes(&self) -> Vec<u8> {
-        self.words.iter().flat_map(|word| word.to_le_bytes()).collect()
+        self.words
+            .iter()
+            .flat_map(|word| word.to_le_bytes())
+            .collect()
     }
 }
 
@@ -124,7 +127,10 @@ fn apart(nodes: &[Node]) -> Vec<Node> {
     if let (Some(end), Some(last)) = (nodes.last(), kept.last_mut()) {
         let before = last.alpha[0];
         *last = Node {
-            alpha: [if last.t < end.t { before } else { end.alpha[0] }, end.alpha[1]],
+            alpha: [
+                if last.t < end.t { before } else { end.alpha[0] },
+                end.alpha[1],
+            ],
             ..*end
         };
     }
@@ -141,9 +147,11 @@ fn keeps(nodes: &[Node], [speed, acceleration]: [f64; 2]) -> bool {
         let [v, a] = through.rates(t - first.t);
         (v - omega).abs() <= speed && (a - alpha).abs() <= acceleration
     };
-    let at_nodes = inner
-        .iter()
-        .all(|node| node.alpha.iter().all(|alpha| near(node.t, node.omega, *alpha)));
+    let at_nodes = inner.iter().all(|node| {
+        node.alpha
+            .iter()
+            .all(|alpha| near(node.t, node.omega, *alpha))
+    });
     at_nodes
         && nodes.windows(2).all(|pair| {
             let [before, after] = [&pair[0], &pair[1]];

@@ -122,6 +122,8 @@ pub struct Row {
     pub name: &'static str,
     /// What it asks.
     pub figures: Figures,
+    /// The motion itself.
+    pub motion: Motion,
 }
 
 /// The result.
@@ -240,7 +242,11 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
                 Segment::law(step.to - step.from, step.duration, law)
             })?;
             let figures = asked.figures(&motion)?;
-            Ok(Row { name, figures })
+            Ok(Row {
+                name,
+                figures,
+                motion,
+            })
         });
         rows.collect::<Result<_, Error>>()?
     };
@@ -395,10 +401,12 @@ impl Asked<'_> {
             Row {
                 name: "constant speed",
                 figures: self.figures(&steady)?,
+                motion: steady,
             },
             Row {
                 name: "constant kinetic energy",
                 figures: self.figures(&even)?,
+                motion: even,
             },
         ])
     }

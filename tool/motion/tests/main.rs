@@ -5,6 +5,7 @@ mod balance;
 mod fastest;
 mod gentlest;
 mod moves;
+mod plan;
 #[path = "../../support/mod.rs"]
 mod support;
 mod trace;

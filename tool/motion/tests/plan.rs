@@ -1,24 +1,146 @@
 //! A motion as a plan that firmware follows.
 
-use jred::Reducible as _;
+use std::f64::consts::TAU;
+
+use jred::Domain;
 use jred::axis::plan::{HEADER_WORDS, PlanError};
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::read;
-use jred_motion::fastest::Limits;
-use jred_motion::fastest::cycle::cycle;
-use jred_motion::moves::parts;
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::{Node, Trace};
 
-use crate::fastest::torque_motor;
-use crate::support::press_text;
+/// A motion of nodes at equal times.
+fn motion(count: usize, length: f64, state: impl Fn(f64) -> [f64; 3]) -> Trace {
+    let step = length / count as f64;
+    let node = |k: usize| {
+        let t = k as f64 * step;
+        let [phi, omega, alpha] = state(t);
+        Node {
+            t,
+            step: if k == 0 { 0.0 } else { step },
+            phi,
+            omega,
+            alpha: [alpha; 2],
+        }
+    };
+    Trace::new(Coordinate::Angle, (0..=count).map(node).collect())
+}
 
-fn node(t: f64, step: f64, phi: f64, omega: f64, alpha: [f64; 2]) -> Node {
-    Node {
+/// A cycloidal move of half a turn in a second, in a thousand steps.
+fn cycloid() -> Trace {
+    let (way, angle) = (0.5 * TAU, TAU);
+    motion(1000, 1.0, |t| {
+        [
+            way * (t - (angle * t).sin() / angle),
+            way * (1.0 - (angle * t).cos()),
+            way * angle * (angle * t).sin(),
+        ]
+    })
+}
+
+/// As few rows as keep it: half of the error takes about the fifth root more rows, as the fourth power of their length is what the acceleration is off by.
+#[test]
+fn a_smooth_motion_takes_few_rows() {
+    let trace = cycloid();
+    let [most_speed, most] = [TAU, 0.5 * TAU * TAU];
+    let mut before = 0;
+    for share in [1e-1, 1e-2, SHARE, 1e-4, 1e-5] {
+        let plan = Plan::new(&trace, Domain::Turn, 0, share).unwrap();
+        assert_eq!(plan.words.len(), HEADER_WORDS + 8 * plan.rows + 1);
+        let error = f64::from(plan.errors.acceleration);
+        assert!(error <= 1.05 * share * most, "{share}: {error}");
+        // Not a row more than needed, give or take the last one.
+        assert!(error >= 0.3 * share * most, "{share}: {error}");
+        assert!(f64::from(plan.errors.speed) <= share * most_speed);
+        // Four times as many rows are off by a 4⁻⁴th.
+        let rows = plan.rows - 1;
+        let grown = if before == 0 {
+            1.8
+        } else {
+            rows as f64 / before as f64
+        };
+        assert!(
+            (1.2..2.4).contains(&grown),
+            "{share}: {rows} after {before}"
+        );
+        before = rows;
+        assert!((f64::from(plan.most[0]) - most_speed).abs() < 1e-5 * most_speed);
+    }
+}
+
+/// Where the acceleration jumps a row begins: three rows and an end for a trapezoid of the speed, nothing lost; and a rest takes one.
+#[test]
+fn corners_and_rests_take_a_row_each() {
+    let node = |t: f64, step: f64, phi: f64, omega: f64, alpha: [f64; 2]| Node {
         t,
         step,
         phi,
         omega,
         alpha,
-    }
+    };
+    let mut trace = Trace::new(
+        Coordinate::Angle,
+        vec![
+            node(0.0, 0.0, 1.0, 0.0, [0.0, 8.0]),
+            node(0.25, 0.25, 1.25, 2.0, [8.0, 8.0]),
+            node(0.5, 0.25, 2.0, 4.0, [8.0, 0.0]),
+            node(1.5, 1.0, 6.0, 4.0, [0.0, -4.0]),
+            node(2.5, 1.0, 8.0, 0.0, [-4.0, 0.0]),
+        ],
+    );
+    trace.dwell(0.5);
+    let plan = Plan::new(&trace, Domain::Turn, 3, SHARE).unwrap();
+    assert_eq!(plan.rows, 5);
+    let errors = plan.errors;
+    assert!(
+        errors.position < 5e-8 && errors.speed < 1e-7 && errors.acceleration < 1e-6,
+        "{errors:?}"
+    );
+    assert_eq!(plan.bytes().len(), 4 * plan.words.len());
+    assert_eq!(&plan.bytes()[..4], b"JRPL");
+    // The identifier of the machine.
+    assert_eq!(plan.words[7], 3);
+}
+
+/// A jump within a motion that a table of equal steps would smear is where it was, however near its node is to another.
+#[test]
+fn two_nodes_at_nearly_one_time_are_one() {
+    let node = |t: f64, step: f64, phi: f64, omega: f64, alpha: [f64; 2]| Node {
+        t,
+        step,
+        phi,
+        omega,
+        alpha,
+    };
+    let tiny = 1e-12;
+    let trace = Trace::new(
+        Coordinate::Angle,
+        vec![
+            node(0.0, 0.0, 0.0, 0.0, [0.0, 2.0]),
+            node(1.0, 1.0, 1.0, 2.0, [2.0, 1.0]),
+            node(1.0 + tiny, tiny, 1.0 + 2.0 * tiny, 2.0, [1.0, -2.0]),
+            node(2.0, 1.0 - tiny, 2.0, 0.0, [-2.0, 0.0]),
+        ],
+    );
+    let plan = Plan::new(&trace, Domain::Turn, 0, SHARE).unwrap();
+    assert_eq!(plan.rows, 3);
+    assert!(plan.errors.acceleration < 1e-6, "{:?}", plan.errors);
+}
+
+#[test]
+fn what_no_plan_holds_is_refused() {
+    let outside = Domain::stroke(0.0, 3.0).unwrap();
+    assert!(matches!(
+        Plan::new(&cycloid(), outside, 0, SHARE),
+        Err(PlanError::Number(_))
+    ));
+    let still = Trace::from_rest(Coordinate::Angle, 0.0);
+    assert_eq!(
+        Plan::new(&still, Domain::Turn, 0, SHARE),
+        Err(PlanError::Order(0))
+    );
+    let far = motion(10, 1e8, |t| [t, 1.0, 0.0]);
+    assert!(matches!(
+        Plan::new(&far, Domain::Turn, 0, SHARE),
+        Err(PlanError::Number(_))
+    ));
 }

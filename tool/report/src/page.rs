@@ -23,15 +23,19 @@ mod drive;
 mod extract;
 mod figures;
 mod mechanism;
+mod motion;
 mod notes;
 mod rows;
+mod section;
 mod thinned;
 
 use chart::Chart;
 use drive::{Subject, TOP};
 use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
+use section::{MotionPage, Section};
 
 pub use mechanism::mechanism_page;
+pub use motion::{fastest_page, retime_page, steady_page};
 
 /// Most ranked drives that the page lists.
 const LISTED: usize = 25;
@@ -376,18 +380,10 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     )]
 }
 
-#[derive(Template)]
-#[template(path = "simulation.html")]
-struct SimulationPage<'a> {
-    title: &'a str,
-    figures: Vec<(&'static str, String)>,
-}
-
 /// The page with the plots of a simulation.
 pub fn simulation_page(file: &MachineFile, simulation: &Simulation, run: &Columns) -> String {
-    let page = SimulationPage {
-        title: &file.title,
-        figures: figures::simulation(file, simulation, run),
-    };
-    page.render().unwrap_or_default()
+    let sections = figures::simulation(file, simulation, run).into_iter();
+    let sections = sections.map(|(heading, svg)| Section::of(heading, svg));
+    let about = "Motion under the motor of the machine file, (7.12) and (7.13)";
+    MotionPage::page(file, "simulation", about, "", sections.collect())
 }

@@ -22,6 +22,7 @@ use jred_motion::fastest::{Limits, NoMotion, Reserve, Task};
 use jred_motion::moves::{NoMoves, parts};
 use jred_motion::way::Actuator;
 use jred_report::list;
+use jred_report::page;
 use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
@@ -47,6 +48,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
+        ("--report", &options.report),
     ])?;
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
@@ -85,9 +87,17 @@ pub fn fastest(options: &Options) -> Result<Done> {
         of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
     };
+    if let Some(path) = &options.report {
+        let page = page::fastest_page(&answer).map_err(core_report)?;
+        output::write(path, page.as_bytes())?;
+    }
     print_parts(answer.write(options.format).map_err(core_report)?)?;
     if options.format == Format::Table {
-        for (what, path) in [("profile", &options.profile), ("cam table", &options.cam)] {
+        for (what, path) in [
+            ("profile", &options.profile),
+            ("cam table", &options.cam),
+            ("report", &options.report),
+        ] {
             if let Some(path) = path {
                 print(&format!("{what} written to {}\n", plain::path(path)))?;
             }

@@ -20,6 +20,7 @@ use jred_motion::moves::{Move, NoMoves};
 use jred_motion::retime::{self, Obstacle, Request};
 use jred_motion::way::Actuator;
 use jred_report::list;
+use jred_report::page;
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::study::common::named;
@@ -34,6 +35,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
+        ("--report", &options.report),
     ])?;
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
@@ -90,6 +92,10 @@ pub fn retime(options: &Retime) -> Result<Done> {
         retimed: &retimed,
         written,
     };
+    if let Some(path) = &options.report {
+        let page = page::retime_page(&shown, motion).map_err(core_report)?;
+        output::write(path, page.as_bytes())?;
+    }
     print_parts([list::retime::write(&shown, options.format)])?;
     let best = &retimed.best;
     let exceeds = best.used.max(best.rms_used) > 1.0;

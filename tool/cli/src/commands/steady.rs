@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::commands::Done;
 use crate::options;
-use crate::output::print_parts;
+use crate::output::{self, print_parts};
 use jred_machine::analysis::steady::{self, Request};
 use jred_machine::model::characteristic::Characteristic;
 use jred_machine::model::machine::MachineFile;
@@ -13,6 +13,10 @@ use jred_machine::model::variator;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_report::list;
+use jred_report::page;
+
+/// Positions over a turn that the report draws at least.
+const DRAWN: usize = 360;
 
 /// Runs the command.
 ///
@@ -20,6 +24,7 @@ use jred_report::list;
 /// Bad input, or no steady cycle.
 pub fn steady(options: &options::Steady) -> Result<Done> {
     let file = read::read(&options.file)?;
+    output::check([("--report", &options.report)])?;
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let request = Request {
@@ -27,6 +32,14 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
         positions: options.positions as usize,
     };
     let steady = steady::steady(&file, &simulation, &request)?;
+    if let Some(path) = &options.report {
+        let finer = Request {
+            positions: request.positions.max(DRAWN),
+            ..request
+        };
+        let page = page::steady_page(&file, &steady::steady(&file, &simulation, &finer)?);
+        output::write(path, page.as_bytes())?;
+    }
     print_parts(list::steady::write(&file, &steady, options.format))?;
     Ok(Done::Holds)
 }

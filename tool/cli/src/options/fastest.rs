@@ -95,6 +95,9 @@ pub struct Fastest {
     /// Number of rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
     pub rows: u32,
+    /// Write a report as one self-contained HTML page: phase plane with the limit that binds, motion and torque over the time.
+    #[arg(long, value_name = "HTML", value_parser = super::output_file())]
+    pub report: Option<PathBuf>,
     /// Plan for firmware.
     #[command(flatten)]
     pub plan: PlanFile,

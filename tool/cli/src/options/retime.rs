@@ -47,6 +47,9 @@ pub struct Retime {
     /// Rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub rows: u32,
+    /// Write a report as one self-contained HTML page: the motion and its torque beside that of the file and the best laws.
+    #[arg(long, value_name = "HTML", value_parser = output_file())]
+    pub report: Option<PathBuf>,
     /// Plan for firmware.
     #[command(flatten)]
     pub plan: PlanFile,

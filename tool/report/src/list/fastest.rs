@@ -99,7 +99,8 @@ impl Answer<'_> {
         }
     }
 
-    fn text(&self) -> String {
+    /// As the terminal shows it.
+    pub(crate) fn text(&self) -> String {
         let cycle = self.cycle;
         let mut text = format!(
             "{}: fastest motion with {}\n\n",

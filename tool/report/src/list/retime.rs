@@ -77,7 +77,8 @@ fn columns(shown: &Shown) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
-fn text(shown: &Shown) -> String {
+/// As the terminal shows it.
+pub(crate) fn text(shown: &Shown) -> String {
     let words = words(shown);
     let Shown {
         request, retimed, ..

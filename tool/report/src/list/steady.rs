@@ -42,7 +42,8 @@ pub fn write<'s>(
     }
 }
 
-fn text(file: &MachineFile, steady: &Steady) -> String {
+/// As the terminal shows it, without the course.
+pub(crate) fn text(file: &MachineFile, steady: &Steady) -> String {
     let mut text = format!("{}: steady cycle\n\n", file.title);
     match &steady.cycle {
         Ok(cycle) => {

@@ -5,6 +5,7 @@ use jred::Error;
 
 use super::extract::{Table, largest_forces, tables};
 use super::figures::{self, line};
+use super::section::{Figure, Section};
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::{Axes, Axis, Series, lines};
@@ -35,16 +36,6 @@ struct Page<'a> {
     largest: Vec<[String; 3]>,
     tables: Vec<Table>,
     notes: Vec<String>,
-}
-
-struct Section {
-    heading: &'static str,
-    figures: Vec<Figure>,
-}
-
-struct Figure {
-    svg: String,
-    caption: String,
 }
 
 /// What the curves of motions and forces run over, with the columns at their points.
@@ -161,9 +152,9 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         }
         (None, None) => 1.0,
     };
-    let mut sections = vec![Section {
-        heading: "The machine, reduced to its drive link",
-        figures: vec![
+    let mut sections = vec![Section::new(
+        "The machine, reduced to its drive link",
+        vec![
             figure(
                 figures::reduced_inertia(source.file)?.svg,
                 "Reduced inertia with flywheel and drive train, and its derivative with respect to the position of the drive link.",
@@ -177,7 +168,7 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
                 ),
             ),
         ],
-    }];
+    )];
     let points = source.columns(
         Sets {
             points: true,
@@ -227,10 +218,7 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         );
     }
     if !motions.is_empty() {
-        sections.push(Section {
-            heading: "Motion of points and links",
-            figures: motions,
-        });
+        sections.push(Section::new("Motion of points and links", motions));
     }
     if source.moves() {
         sections.push(forces(source)?);
@@ -271,10 +259,7 @@ fn forces(source: &Source) -> Result<Section, Error> {
             caption: caption.to_owned(),
         })
     });
-    Ok(Section {
-        heading: "Forces",
-        figures: figures.collect(),
-    })
+    Ok(Section::new("Forces", figures.collect()))
 }
 
 fn notes(source: &Source) -> Vec<String> {

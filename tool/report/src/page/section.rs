@@ -1,0 +1,111 @@
+//! Pages of sections with pictures, without a script.
+
+use askama::Template;
+
+use crate::plot::{Axes, Axis, Series, lines};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::columns::{Columns, Quantity};
+
+use super::figures::line;
+
+/// A heading and what stands below it.
+pub(super) struct Section {
+    pub(super) heading: String,
+    pub(super) figures: Vec<Figure>,
+}
+
+/// A picture.
+pub(super) struct Figure {
+    pub(super) svg: String,
+    pub(super) caption: String,
+}
+
+impl Section {
+    pub(super) fn new(heading: impl Into<String>, figures: Vec<Figure>) -> Self {
+        let heading = heading.into();
+        Self { heading, figures }
+    }
+
+    /// One picture of its own, without words below it.
+    pub(super) fn of(heading: &str, svg: String) -> Self {
+        let caption = String::new();
+        Self::new(heading, vec![Figure { svg, caption }])
+    }
+}
+
+impl Figure {
+    pub(super) fn new(svg: String, caption: impl Into<String>) -> Self {
+        let caption = caption.into();
+        Self { svg, caption }
+    }
+}
+
+/// A page about a motion.
+#[derive(Template)]
+#[template(path = "motion.html")]
+pub(super) struct MotionPage<'a> {
+    title: &'a str,
+    /// Of the window.
+    subject: &'static str,
+    about: &'static str,
+    version: &'static str,
+    file: &'a str,
+    /// What the terminal shows.
+    listing: String,
+    sections: Vec<Section>,
+}
+
+impl<'a> MotionPage<'a> {
+    /// `listing` is what the terminal shows; its first line, the title, stands above already.
+    pub(super) fn page(
+        file: &'a MachineFile,
+        subject: &'static str,
+        about: &'static str,
+        listing: &str,
+        sections: Vec<Section>,
+    ) -> String {
+        let listing = listing.split_once("\n\n").map_or("", |(_, rest)| rest);
+        let page = Self {
+            title: &file.title,
+            subject,
+            about,
+            version: env!("CARGO_PKG_VERSION"),
+            file: &file.name,
+            listing: listing.trim_end().to_owned(),
+            sections,
+        };
+        // Rendering into a string fails only if a template is wrong, which the tests would show.
+        page.render().unwrap_or_default()
+    }
+}
+
+/// The columns of a quantity over another, of several courses that each have a name.
+pub(super) fn plot(
+    runs: &[(&str, &Columns)],
+    (along, axis): (Quantity, Axis),
+    (y, quantity): (&str, Quantity),
+) -> String {
+    let mut all: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    for (name, run) in runs {
+        let Some((x, _)) = run.of(along).next() else {
+            continue;
+        };
+        for (k, head) in run.of(quantity) {
+            let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
+            let points = run.rows().iter();
+            let points = points.filter_map(|row| Some((value(row, x)?, value(row, k)?)));
+            let what = [head.title().as_str(), name].join(if name.is_empty() { "" } else { ", " });
+            all.push((what, points.collect()));
+        }
+    }
+    let series: Vec<Series> = all
+        .iter()
+        .map(|(name, points)| line(name, points.clone()))
+        .collect();
+    let axes = Axes {
+        title: "",
+        x: axis,
+        y,
+    };
+    lines(&axes, &series)
+}
