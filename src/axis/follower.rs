@@ -4,7 +4,7 @@ use super::error::{positive, within};
 use super::plan::{Plan, PlanError};
 use super::{Motion, Period};
 use crate::MachineUnits;
-use crate::number::{Number, Quantity as _, Real as _};
+use crate::number::{Number, Quantity as _};
 
 /// How fast a plan is followed, as a share of its own pace: the override of a machine tool.
 ///
@@ -50,7 +50,7 @@ pub enum Stage {
     Running,
     /// On its way, with the rate 0.
     Held,
-    /// At its end.
+    /// At its end, where it stays: if the plan ends with a speed, something else must go on.
     Done,
 }
 
@@ -112,7 +112,7 @@ impl<'a, N: Number> Follower<'a, N> {
         model: &impl MachineUnits<Number = N>,
     ) -> Result<Self, PlanError> {
         positive("the period", period)?;
-        let most = plan.duration().to_f32().min(0.25);
+        let most = plan.duration().min(0.25);
         let range = "shorter than the plan, and than a quarter of a second";
         within("the period", period, period < most, range)?;
         let holds = (0.0..=1000.0).contains(&ramp);

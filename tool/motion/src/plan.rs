@@ -12,6 +12,12 @@ use crate::trace::{Node, Trace};
 /// Share of the greatest acceleration and speed by which a plan may be off, if nothing else is asked.
 pub const SHARE: f64 = 1e-3;
 
+/// Share of that by which a position may be, of the way.
+const OF_WAY: f64 = 0.1;
+
+/// A plan that is off by so much more than it may be is one of a motion that contradicts itself between two nodes.
+const FAITHFUL: f64 = 1.5;
+
 /// Times of rows are closer than this share of the whole only where the motion ends: twice what a plan resolves.
 const CLOSE: f64 = 1.0 / 536_870_912.0;
 
@@ -38,6 +44,8 @@ pub struct Plan {
     pub errors: Errors,
     /// The greatest speed and acceleration.
     pub most: [f32; 2],
+    /// Whether it is off by no more than was asked. Otherwise position, speed and acceleration of the motion contradict each other between two nodes.
+    pub faithful: bool,
 }
 
 impl Plan {
@@ -52,7 +60,10 @@ impl Plan {
         encode(&knots, domain, machine, Errors::default(), &mut words)?;
         let (errors, most) = measure(&words, trace, domain)?;
         encode(&knots, domain, machine, errors, &mut words)?;
+        let [_, speed, acceleration] = bounds(trace.nodes(), share);
+        let within = |error: f32, bound: f64| f64::from(error) <= FAITHFUL * bound;
         Ok(Self {
+            faithful: within(errors.speed, speed) && within(errors.acceleration, acceleration),
             rows: knots.len(),
             words,
             errors,
@@ -81,11 +92,7 @@ fn knot(node: &Node) -> Knot {
 /// The knots of the plan: from each one as far as the polynomial through both keeps to the motion.
 fn knots(nodes: &[Node], share: f64) -> Vec<Knot> {
     let nodes = apart(nodes);
-    let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(0.0, f64::max);
-    let bounds = [
-        share * most(|node| node.omega.abs()),
-        share * most(|node| node.alpha[0].abs().max(node.alpha[1].abs())),
-    ];
+    let bounds = bounds(&nodes, share);
     let Some(last) = nodes.len().checked_sub(1) else {
         return Vec::new();
     };
@@ -113,6 +120,16 @@ fn knots(nodes: &[Node], share: f64) -> Vec<Knot> {
     kept
 }
 
+/// By how much position, speed and acceleration may be off.
+fn bounds(nodes: &[Node], share: f64) -> [f64; 3] {
+    let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    [
+        OF_WAY * share * (most(|node| node.phi) + most(|node| -node.phi)),
+        share * most(|node| node.omega.abs()),
+        share * most(|node| node.alpha[0].abs().max(node.alpha[1].abs())),
+    ]
+}
+
 /// Nodes that a plan tells apart: of two that are closer one, which goes on as the second does.
 fn apart(nodes: &[Node]) -> Vec<Node> {
     let close = CLOSE * nodes.last().map_or(0.0, |node| node.t);
@@ -138,30 +155,32 @@ fn apart(nodes: &[Node]) -> Vec<Node> {
 }
 
 /// Whether the polynomial from the first node to the last keeps to the nodes between, and to the middles of their steps.
-fn keeps(nodes: &[Node], [speed, acceleration]: [f64; 2]) -> bool {
+fn keeps(nodes: &[Node], [position, speed, acceleration]: [f64; 3]) -> bool {
     let [first, inner @ .., last] = nodes else {
         return true;
     };
     let through = Quintic::of(first, last);
-    let near = |t: f64, omega: f64, alpha: f64| {
-        let [v, a] = through.rates(t - first.t);
-        (v - omega).abs() <= speed && (a - alpha).abs() <= acceleration
+    let near = |t: f64, phi: f64, omega: f64, alpha: f64| {
+        let [x, v, a] = through.at(t - first.t);
+        (first.phi + x - phi).abs() <= position
+            && (v - omega).abs() <= speed
+            && (a - alpha).abs() <= acceleration
     };
     let at_nodes = inner.iter().all(|node| {
         node.alpha
             .iter()
-            .all(|alpha| near(node.t, node.omega, *alpha))
+            .all(|alpha| near(node.t, node.phi, node.omega, *alpha))
     });
     at_nodes
         && nodes.windows(2).all(|pair| {
             let [before, after] = [&pair[0], &pair[1]];
             let step = after.t - before.t;
             let state = after.after(before, 0.5);
-            near(before.t + 0.5 * step, state.omega, state.alpha)
+            near(before.t + 0.5 * step, state.phi, state.omega, state.alpha)
         })
 }
 
-/// Speed and acceleration of the polynomial of the fifth degree through two states.
+/// The polynomial of the fifth degree through two states.
 struct Quintic {
     length: f64,
     omega: f64,
@@ -188,10 +207,12 @@ impl Quintic {
         }
     }
 
-    fn rates(&self, t: f64) -> [f64; 2] {
+    /// The way, speed and acceleration.
+    fn at(&self, t: f64) -> [f64; 3] {
         let [a, b, c, d] = self.coefficients;
         let s = t / self.length;
         [
+            self.omega * t + s * s * (a + s * (b + s * (c + s * d))),
             self.omega + s * (2.0 * a + s * (3.0 * b + s * (4.0 * c + s * 5.0 * d))) / self.length,
             (2.0 * a + s * (6.0 * b + s * (12.0 * c + s * 20.0 * d))) / (self.length * self.length),
         ]

@@ -13,7 +13,7 @@ pub struct PlanFile {
     /// binary image.
     #[arg(long, value_name = "FILE", value_parser = output_file())]
     pub plan: Option<PathBuf>,
-    /// Share of the greatest speed and acceleration by which the plan may be off.
+    /// Share of the greatest speed and acceleration by which the plan may be off, of the way a tenth of it.
     #[arg(long, value_name = "SHARE", default_value = "0.1 %", requires = "plan", value_parser = share)]
     pub plan_error: f64,
 }

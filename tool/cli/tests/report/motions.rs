@@ -75,7 +75,8 @@ fn the_gentlest_motion_stands_beside_the_laws() {
 #[test]
 fn a_steady_cycle_is_drawn_with_its_flywheel() {
     let with = page(&["steady", "--delta", "0.05"]);
-    check_plots(&with, 3);
+    // Speed, torque, and the energies of each.
+    check_plots(&with, 4);
     assert!(plots(&with)[0].contains("with the flywheel"));
     let without = page(&["steady"]);
     check_plots(&without, 3);

@@ -239,7 +239,7 @@ pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
     }
     let course = Course::of_trace("motion", file, actuator, &cycle.trace)?;
     let ways = BothWays::new(file, actuator);
-    let limits = [("largest", 1), ("least", 0)].map(|(name, k)| {
+    let limits = [("upper limit", 1), ("lower limit", 0)].map(|(name, k)| {
         let limit = |row: &[f64; 5]| {
             let drive = row[2].signum() * axis.drive_rate(row[2].abs());
             let speed = ways.forwards().motor_speed(drive.abs());
@@ -321,11 +321,16 @@ pub fn steady_page(file: &MachineFile, steady: &Steady) -> String {
         Section::of(heading, plot(&runs, along, (y, quantity)))
     };
     let speed = format!("speed [{}]", coordinate.speed_unit());
-    let sections = vec![
+    let mut sections = vec![
         section("Speed over the cycle", &speed, Quantity::DriveSpeed),
         section("Motor torque", "torque [N·m]", Quantity::MotorEffort),
-        section("Energies", "energy [J]", Quantity::Energy),
     ];
+    let energies = runs.iter().map(|(name, course)| {
+        let heading = ["Energies", name].join(if name.is_empty() { "" } else { " " });
+        let energies = ("energy [J]", Quantity::Energy);
+        Section::of(&heading, plot(&[("", *course)], along, energies))
+    });
+    sections.extend(energies);
     MotionPage::page(
         file,
         "steady cycle",

@@ -90,11 +90,17 @@ pub(super) fn plot(
         let Some((x, _)) = run.of(along).next() else {
             continue;
         };
+        let alone = run.of(quantity).count() == 1 && !name.is_empty();
         for (k, head) in run.of(quantity) {
             let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
             let points = run.rows().iter();
             let points = points.filter_map(|row| Some((value(row, x)?, value(row, k)?)));
-            let what = [head.title().as_str(), name].join(if name.is_empty() { "" } else { ", " });
+            // Of one column the axis says what it is.
+            let what = if alone {
+                (*name).to_owned()
+            } else {
+                head.title()
+            };
             all.push((what, points.collect()));
         }
     }
