@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use jred::axis::plan::{Errors, HEADER_WORDS, Knot, Place, PlanError, VERSION, encode, image_len};
 use jred::axis::{Follower, Plan, Rate, Stage};
 use jred::number::{Number, Quantity as _};
-use jred::{Domain, ImageError, MachineUnits, Q15, Q31, Rows16, Scale, Spline};
+use jred::{Domain, ImageError, MachineUnits, Q31, Rows16, Scale, Spline};
 use proptest::prelude::*;
 
 use super::machine::in_units;

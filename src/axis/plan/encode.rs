@@ -32,8 +32,8 @@ const RANGE: f64 = 4_294_967_296.0;
 /// Least exponent of a unit.
 const LEAST: i32 = -64;
 
-/// Shares of a row at which its speed is looked at.
-const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
+/// Parts of a row, at whose ends its speed and acceleration are looked at.
+const LOOKS: u32 = 16;
 
 /// The polynomial between two knots over the time u = t/H: its speed (2⁻³² of the range a second) and its coefficients of u² to u⁵ over H², in 2⁻³² of the
 /// range a second squared.
@@ -84,15 +84,11 @@ pub fn encode<'b>(
         let [from, to] = pair?;
         let (length, window) = window(k, [from, to], units)?;
         let segment = segment([from, to], length, window, from.omega, 0.5 * from.alpha[1]);
-        for share in LOOKS {
-            let u = share * length / window;
-            most[0] = most[0].max(math::abs(segment.speed_at(u, window)));
-        }
-        for knot in [from, to] {
-            most[0] = most[0].max(math::abs(knot.omega));
-        }
-        for alpha in [from.alpha[1], to.alpha[0]] {
-            most[1] = most[1].max(math::abs(alpha));
+        for look in 0..=LOOKS {
+            let u = f64::from(look) / f64::from(LOOKS) * length / window;
+            for (most, rate) in most.iter_mut().zip(segment.rates_at(u, window)) {
+                *most = most.max(math::abs(rate));
+            }
         }
         let [gained, raised] = segment.sums();
         let faster = math::abs(from.omega) + window * gained;
@@ -251,10 +247,13 @@ impl Segment {
         ]
     }
 
-    /// Speed at a share of the window (s).
-    fn speed_at(&self, u: f64, window: f64) -> f64 {
+    /// Speed and acceleration at a share of the window (s).
+    fn rates_at(&self, u: f64, window: f64) -> [f64; 2] {
         let [a, b, c, d] = self.coefficients;
-        self.speed + window * u * (2.0 * a + u * (3.0 * b + u * (4.0 * c + u * 5.0 * d)))
+        [
+            self.speed + window * u * (2.0 * a + u * (3.0 * b + u * (4.0 * c + u * 5.0 * d))),
+            2.0 * a + u * (6.0 * b + u * (12.0 * c + u * 20.0 * d)),
+        ]
     }
 }
 

@@ -63,7 +63,9 @@ fn a_smooth_motion_takes_few_rows() {
             "{share}: {rows} after {before}"
         );
         before = rows;
-        assert!((f64::from(plan.most[0]) - most_speed).abs() < 1e-5 * most_speed);
+        // Looked at in parts of a row.
+        let missed = (f64::from(plan.most[0]) / most_speed - 1.0).abs();
+        assert!(missed < share.max(1e-4), "{share}: {missed}");
     }
 }
 
@@ -92,7 +94,7 @@ fn corners_and_rests_take_a_row_each() {
     assert_eq!(plan.rows, 5);
     let errors = plan.errors;
     assert!(
-        errors.position < 5e-8 && errors.speed < 1e-7 && errors.acceleration < 1e-6,
+        errors.position < 1.5e-7 && errors.speed < 3e-7 && errors.acceleration < 1e-6,
         "{errors:?}"
     );
     assert_eq!(plan.bytes().len(), 4 * plan.words.len());
