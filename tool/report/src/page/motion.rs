@@ -106,7 +106,8 @@ fn over_time(
 ) -> Section {
     let axis = file.axis();
     let torque = input_kind(file).vocabulary().torque;
-    let [speed, acceleration] = axis.coordinate.rates().map(|rate| rate.unit);
+    let rates = axis.coordinate.rates();
+    let [speed, acceleration] = rates.map(|rate| rate.unit.replace("^2", "²"));
     let labels = [
         format!("{} [{}]", axis.symbol(), axis.coordinate.unit()),
         format!("speed [{speed}]"),
