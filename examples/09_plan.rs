@@ -35,7 +35,6 @@ const TICKS: u16 = 2000;
 /// What the operator commands.
 fn commanded(tick: u16) -> Rate {
     Rate::percent(match tick {
-        ..330 => 100,
         330..600 => 40,
         600..800 => 0,
         _ => 100,

@@ -69,7 +69,8 @@ pub fn encode<'b>(
     let short = ImageError::BufferTooShort { needed, given };
     let image = buffer.get_mut(..needed).ok_or(short)?;
     let last = knots.last().map_or(0.0, |knot| knot.t);
-    if !(2..=MOST_ROWS).contains(&knots.len()) || !(last > 0.0 && last.is_finite()) {
+    let lasts = last > 0.0 && last.is_finite();
+    if !lasts || !(2..=MOST_ROWS).contains(&knots.len()) {
         return Err(PlanError::Order(0));
     }
     // So that the last time has 31 bits.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::axis::Plan as Read;
 use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len};
-use jred::table::Shape;
+use jred::table::{Constants, Shape};
 use jred::{Domain, Model, Scale, Spline, Table, curves};
 
 use crate::trace::{Node, Trace};
@@ -228,7 +228,7 @@ fn measure(words: &[u32], trace: &Trace, domain: Domain) -> Result<(Errors, [f32
         cells: 4,
         domain,
         scale: Scale::SI,
-        constants: Default::default(),
+        constants: Constants::default(),
     };
     let model = Table::new(&table, shape).and_then(Model::<_, { curves::INERTIA }>::new);
     let model = model.map_err(|error| PlanError::Image(error.into()))?;

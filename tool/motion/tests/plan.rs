@@ -65,7 +65,7 @@ fn a_smooth_motion_takes_few_rows() {
         before = rows;
         // Looked at in sixteen parts of a row, of which the longest takes a fifth of a second: the top is missed by (2π·0.2/32)²/4 at most.
         let missed = (f64::from(plan.most[0]) / most_speed - 1.0).abs();
-        assert!(missed < share.max(2e-4), "{share}: {missed}");
+        assert!(missed < share.max(4e-4), "{share}: {missed}");
     }
 }
 
