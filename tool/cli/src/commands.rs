@@ -31,8 +31,11 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_report::list;
 use jred_report::list::inspection;
-use jred_sizing::catalogue::Drive;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::catalogue::{Catalogue, Drive};
+use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::study::chosen::ChosenDrive;
+use jred_sizing::study::common::named;
 
 /// How a command ended without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,6 +139,22 @@ fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
         output::say(&words);
     }
     Ok(())
+}
+
+/// The drive of a name in a catalogue, of which only the motors that fit the input of the machine are kept.
+fn drive_named(mut catalogue: Catalogue, name: &str, file: &MachineFile) -> Result<ChosenDrive> {
+    fit_input(&mut catalogue, file)?;
+    Ok(ChosenDrive::of(&named(&catalogue, name)?.1))
+}
+
+/// What a drive can give at the supply of the machine; warns of what is assumed, and of a drive that is not made for the supply.
+fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
+    warn_of_supply(drive, file);
+    let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+    for assumption in envelope.assumptions() {
+        output::say(&format!("warning: {assumption}"));
+    }
+    envelope
 }
 
 /// Warns of a drive that is not made for the supply.

@@ -221,6 +221,19 @@ pub struct Rules {
 pub struct Simulate {
     /// Machine file, with a `[simulation]`.
     pub file: PathBuf,
+    /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
+    /// full torque.
+    #[arg(long, value_name = "MOTOR+GEARBOX")]
+    pub drive: Option<String>,
+    /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.
+    #[arg(long)]
+    pub points: bool,
+    /// Add columns of drive torque, joint forces, shaking force and moment by d'Alembert's principle.
+    #[arg(long)]
+    pub reactions: bool,
+    /// Catalogue.
+    #[command(flatten)]
+    pub catalogue: catalogue::CatalogueFiles,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,

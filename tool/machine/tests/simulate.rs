@@ -2,9 +2,12 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+mod axis;
 mod branches;
+mod columns;
 mod control;
 mod losses;
+mod missing;
 mod parting;
 mod pendulum;
 mod refusals;

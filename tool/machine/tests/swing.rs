@@ -7,6 +7,7 @@ use jred::machine::Mechanism;
 use jred::{Domain, Reducible};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::reduce::{At, Over, Request, Sets, reduce_at};
+use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -120,10 +121,11 @@ fn strokes_that_cannot_be_are_refused() {
 fn single_states_are_reduced() {
     let file = parse(&press_text()).unwrap();
     let domain = file.machine.domain();
+    let link = Axis::of_drive(Coordinate::Angle);
     let at = read::drive_states(
         "30 deg, 60 rpm, -5 rad/s^2, 200 deg, 390 deg, -2 rad/s",
         domain,
-        Coordinate::Angle,
+        [&link; 2],
     )
     .unwrap();
     let given = |phi: f64, state: Option<[f64; 2]>| At {
@@ -189,7 +191,7 @@ fn single_states_are_reduced() {
         ("30 deg, 1 rpm, 2 rpm", "does not follow a position"),
         ("30 deg, far", "\"far\""),
     ] {
-        let why = read::drive_states(text, domain, Coordinate::Angle).unwrap_err();
+        let why = read::drive_states(text, domain, [&link; 2]).unwrap_err();
         assert!(why.contains(words), "{text}: {why}");
     }
 }

@@ -11,10 +11,12 @@
 //! 6. [`gentlest`]: least RMS torque, energy or peak in a given time;
 //! 7. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
 //! 8. [`suited`]: drives, each with the motion that is the gentlest for it;
-//! 9. [`balance`]: counterweights and springs that relieve the drive.
+//! 9. [`balance`]: counterweights and springs that relieve the drive;
+//! 10. [`driven`]: the free motion under a drive.
 #![forbid(unsafe_code)]
 
 pub mod balance;
+pub mod driven;
 pub mod fastest;
 pub mod gentlest;
 pub mod moves;

@@ -175,25 +175,44 @@ impl Model {
             motor,
             prepared,
         } = *load;
-        let [coulomb, viscous] = motor.friction;
         let points = cycle.samples().iter().map(|sample| {
             let torque = coefficients.torque(&sample.loads());
-            let signed = sample.speed() * ratio;
-            let speed = signed.abs();
-            let other = match self {
-                Self::Bodies { .. } | Self::Steady { .. } => (coulomb + viscous * speed) * speed,
-                Self::Relative { standstill, .. } => {
-                    let s1 = prepared.envelope.continuous_torque(speed) / standstill;
-                    (1.0 - s1 * s1).max(0.0)
-                }
-            };
-            Point {
-                t: sample.t,
-                root: self.root(prepared, torque, signed),
-                other,
-            }
+            self.point(motor, prepared, sample.t, [torque, sample.speed() * ratio])
         });
         Course::new(points.collect(), cycle.duration())
+    }
+
+    /// The losses of a motor at a time (s), a torque (N·m) and a speed of its own (rad/s).
+    pub fn point(
+        &self,
+        motor: &Motor,
+        prepared: &Prepared,
+        t: f64,
+        [torque, signed]: [f64; 2],
+    ) -> Point {
+        let [coulomb, viscous] = motor.friction;
+        let speed = signed.abs();
+        let other = match self {
+            Self::Bodies { .. } | Self::Steady { .. } => (coulomb + viscous * speed) * speed,
+            Self::Relative { standstill, .. } => {
+                let s1 = prepared.envelope.continuous_torque(speed) / standstill;
+                (1.0 - s1 * s1).max(0.0)
+            }
+        };
+        Point {
+            t,
+            root: self.root(prepared, torque, signed),
+            other,
+        }
+    }
+
+    /// The bodies that heat up over the time; of the relative model one, whose rise is a share of the rated one. `None`: no time constants.
+    pub fn network(&self) -> Option<Network> {
+        match *self {
+            Self::Bodies { network, .. } => Some(network),
+            Self::Relative { time, .. } => time.map(|time| Network::one(1.0, time, 0.0)),
+            Self::Steady { .. } => None,
+        }
     }
 
     /// Root of the copper loss (√W), or of its share of the rated one, with the sign of the torque.
@@ -261,10 +280,10 @@ impl Model {
                 growth,
                 ..
             } => (steady(resistances, growth), false),
-            Self::Relative {
-                time: Some(time), ..
-            } => (hottest(&Network::one(1.0, time, 0.0)), true),
-            Self::Relative { time: None, .. } => (steady([0.0, 1.0], 0.0), false),
+            Self::Relative { .. } => match self.network() {
+                Some(network) => (hottest(&network), true),
+                None => (steady([0.0, 1.0], 0.0), false),
+            },
         };
         let relative = matches!(self, Self::Relative { .. });
         let housing = match self {

@@ -5,7 +5,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, print, warn_of_supply};
+use crate::commands::{Done, drive_named, envelope, print};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
@@ -27,9 +27,7 @@ use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::filter::Filter;
-use jred_sizing::select::fit::fit_input;
 use jred_sizing::study::chosen::ChosenDrive;
-use jred_sizing::study::common::named;
 
 /// What moves the machine, by name, and what its gearbox limits.
 struct Chosen {
@@ -223,20 +221,14 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
     }
     let filter = Filter::default();
     let drive = if let Some(name) = &options.drive {
-        let mut catalogue = catalogue(&options.supply, &filter)?;
-        fit_input(&mut catalogue, file)?;
-        ChosenDrive::of(&named(&catalogue, name)?.1)
+        drive_named(catalogue(&options.supply, &filter)?, name, file)?
     } else {
         file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
         let study = study(&options.file, &options.supply, &filter)?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };
     let drive = drive.drive();
-    warn_of_supply(&drive, file);
-    let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
-    for assumption in envelope.assumptions() {
-        output::say(&format!("warning: {assumption}"));
-    }
+    let envelope = envelope(&drive, file);
     Ok(Chosen {
         name: drive.name(),
         actuator: Actuator::new(&drive, envelope),

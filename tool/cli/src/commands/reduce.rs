@@ -10,6 +10,7 @@ use jred::Reducible as _;
 use jred_machine::analysis::inspect;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
+use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -211,7 +212,8 @@ fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<re
         return Ok(None);
     };
     let domain = file.machine.domain();
-    let states = read::drive_states(text, domain, file.machine.mechanism().coordinate());
+    let drive = Axis::of_drive(file.machine.mechanism().coordinate());
+    let states = read::drive_states(text, domain, [&drive, &file.axis()]);
     let states = states.map_err(|why| {
         miette!(
             help = "write positions with commas between them, such as \"30 deg, 60 deg\", each with its speed and acceleration, if you like: \"30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm\"",

@@ -59,7 +59,7 @@ fn simulation(options: &options::Steady, file: &MachineFile) -> Result<Simulatio
     let torque = Characteristic::constant(torque);
     Ok(match &file.simulation {
         Some(own) => Simulation {
-            torque,
+            torque: Some(torque),
             ..own.clone()
         },
         None => Simulation::of_motor(torque),

@@ -178,13 +178,36 @@ fn columns(
     rows: impl Iterator<Item = Row>,
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
+    let sets = sets(&source, request.sets, [moves, in_time])?;
+    let mut heads = match request.over {
+        Over::Angle => vec![],
+        Over::Time => vec![time_column()],
+    };
+    heads.push(source.coordinate.column());
+    heads.extend(sets.iter().flat_map(|set| set.heads(&source)));
+    let mut columns = Columns::new(heads);
+    for row in rows {
+        let mut cells: Vec<Option<f64>> = row.time.into_iter().map(Some).collect();
+        cells.push(Some(source.coordinate.shown(row.phi)));
+        cells.extend(values(&source, &sets, &row)?);
+        columns.push(cells);
+    }
+    Ok(columns)
+}
+
+/// The sets asked for: whether some rows have a motion, and velocities and accelerations in time.
+fn sets(
+    source: &Source,
+    sets: Sets,
+    [moves, in_time]: [bool; 2],
+) -> Result<Vec<Box<dyn Set>>, Error> {
     let Sets {
         curves,
         links,
         points,
         reactions,
         energy,
-    } = request.sets;
+    } = sets;
     let mut sets: Vec<Box<dyn Set>> = Vec::new();
     if curves {
         sets.push(Box::new(curves::Curves { links, moves }));
@@ -195,39 +218,54 @@ fn columns(
         sets.push(Box::new(points::Points { in_time }));
     }
     if reactions {
-        sets.push(Box::new(reactions::Reactions::new(&source)?));
+        sets.push(Box::new(reactions::Reactions::new(source)?));
     }
     if energy {
         sets.push(Box::new(energy::Energy));
     }
-    let mut heads = match request.over {
-        Over::Angle => vec![],
-        Over::Time => vec![time_column()],
+    Ok(sets)
+}
+
+/// The values of the sets in a row.
+fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Option<f64>>, Error> {
+    let place = Place {
+        now: row.now,
+        phi: row.phi,
+        frames: source.machine.mechanism().frames(row.phi)?,
+        state: row.state,
     };
-    heads.push(source.coordinate.column());
-    heads.extend(sets.iter().flat_map(|set| set.heads(&source)));
-    let mut columns = Columns::new(heads);
-    for Row {
-        time,
-        now,
-        phi,
-        state,
-    } in rows
-    {
-        let place = Place {
-            now,
-            phi,
-            frames: source.machine.mechanism().frames(phi)?,
-            state,
-        };
-        let mut row: Vec<Option<f64>> = time.into_iter().map(Some).collect();
-        row.push(Some(source.coordinate.shown(phi)));
-        for set in &sets {
-            row.extend(set.values(&source, &place)?);
-        }
-        columns.push(row);
+    let mut values = Vec::new();
+    for set in sets {
+        values.extend(set.values(source, &place)?);
     }
-    Ok(columns)
+    Ok(values)
+}
+
+/// Adds the columns of points, links and joint forces to rows of a motion, each with its φ, ω and α of the drive link.
+///
+/// # Errors
+/// Those of the machine.
+pub fn add_columns(
+    file: &MachineFile,
+    columns: Columns,
+    states: &[[f64; 3]],
+    [points, reactions]: [bool; 2],
+) -> Result<Columns, Error> {
+    let source = Source::new(file)?;
+    let asked = Sets {
+        points,
+        reactions,
+        ..Sets::default()
+    };
+    let sets = sets(&source, asked, [false, true])?;
+    let heads = sets.iter().flat_map(|set| set.heads(&source));
+    let mut wider = Columns::new(columns.heads().iter().cloned().chain(heads));
+    for (row, [phi, omega, alpha]) in columns.rows().iter().zip(states) {
+        let state = row_at(*phi, Some([*omega, *alpha]), None);
+        let more = values(&source, &sets, &state)?;
+        wider.push(row.iter().copied().chain(more));
+    }
+    Ok(wider)
 }
 
 /// Time (over time only), instant, position and state of a row.

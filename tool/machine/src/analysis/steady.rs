@@ -19,6 +19,7 @@ pub use start::Start;
 use jred::{Domain, Reducible as _};
 
 use crate::model::machine::MachineFile;
+use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
 use crate::number::rounding::{rounded, short};
 use crate::units::RPM;
@@ -71,8 +72,9 @@ pub fn steady(
     if let Some(what) = file.scheduled().next() {
         return Err(SteadyError::Scheduled { what });
     }
-    let direction = direction(file, simulation)?;
-    let turning = Turning::new(file, simulation, direction)?;
+    let motor = simulation.own_motor().ok_or(SteadyError::NoMotor)?;
+    let direction = direction(file, simulation, motor)?;
+    let turning = Turning::new(file, simulation, motor, direction)?;
     let cycle = Cycle::of(&turning, request.positions);
     let Some(delta) = request.delta else {
         return Ok(Steady {
@@ -94,9 +96,13 @@ pub fn steady(
 }
 
 /// The way the motor drives the drive link: +1 or −1.
-fn direction(file: &MachineFile, simulation: &Simulation) -> Result<f64, SteadyError> {
-    let ratio = Turning::new(file, simulation, 1.0)?.plant.ratio();
-    let motor = &simulation.torque;
+fn direction(
+    file: &MachineFile,
+    simulation: &Simulation,
+    own: OwnMotor,
+) -> Result<f64, SteadyError> {
+    let ratio = Turning::new(file, simulation, own, 1.0)?.plant.ratio();
+    let motor = own.characteristic;
     let at_rest = motor.torque(0.0) * ratio;
     let asked = simulation.start_speed;
     if at_rest == 0.0 {

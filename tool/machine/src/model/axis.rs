@@ -1,9 +1,12 @@
 //! The coordinate in which people speak of an axis: that of its `[motion]`, where it is the drive link's but for a factor: millimetres of
 //! the carriage instead of degrees of the pulley.
 
+use jred::Domain;
 use jred::machine::motion::State;
 
 use crate::model::coordinate::Coordinate;
+use crate::model::motion::{Motion, ToolCoordinate};
+use crate::number::columns::{Column, Quantity};
 
 /// A coordinate that goes with the drive link evenly: position = zero + scale·φ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +29,13 @@ impl Axis {
         }
     }
 
+    /// That of a motion, if it goes with the drive link evenly, else the drive link itself.
+    pub fn of(motion: Option<&Motion>, drive: Coordinate) -> Self {
+        let tool = motion.and_then(Motion::tool);
+        let axis = tool.and_then(ToolCoordinate::axis);
+        axis.unwrap_or_else(|| Self::of_drive(drive))
+    }
+
     /// A coordinate with this symbol, its value at φ = 0 and what it goes on by per rad or m of the drive link, not zero.
     pub const fn new(
         coordinate: Coordinate,
@@ -45,6 +55,15 @@ impl Axis {
         self.symbol
     }
 
+    /// The column of positions.
+    pub fn column(&self) -> Column {
+        let symbol = match self.symbol {
+            "φ" => "phi",
+            symbol => symbol,
+        };
+        Column::new(Quantity::Position, symbol, self.coordinate.unit())
+    }
+
     /// The position (rad or m) where the drive link is at φ.
     pub fn position(&self, phi: f64) -> f64 {
         self.zero + self.scale * phi
@@ -53,6 +72,20 @@ impl Axis {
     /// The drive link's position where this one is `position` (rad or m).
     pub fn drive_position(&self, position: f64) -> f64 {
         (position - self.zero) / self.scale
+    }
+
+    /// The drive link's speed where this one is `speed`, with its sign.
+    pub fn drive_speed(&self, speed: f64) -> f64 {
+        speed / self.scale
+    }
+
+    /// The ends of a stroke of the drive link, the lower first; of a turn that of the drive link.
+    pub fn range(&self, domain: Domain) -> Option<[f64; 2]> {
+        let Domain::Stroke { from, to } = domain else {
+            return None;
+        };
+        let [a, b] = [from, to].map(|phi| self.position(phi));
+        Some([a.min(b), a.max(b)])
     }
 
     /// The size of a speed or an acceleration, from that of the drive link.
@@ -79,7 +112,12 @@ impl Axis {
         self.coordinate.shown(self.position(phi))
     }
 
-    /// The same with symbol and unit, such as `x = 250 mm`.
+    /// The length of a way in degrees or millimetres, with its sign, from that of the drive link.
+    pub fn shown_way(&self, way: f64) -> f64 {
+        self.coordinate.shown(self.scale * way)
+    }
+
+    /// The position with symbol and unit, such as `x = 250 mm`.
     pub fn place(&self, phi: f64) -> String {
         let shown = (self.shown(phi) * 1e4).round() / 1e4 + 0.0;
         format!("{} = {shown} {}", self.symbol, self.coordinate.unit())

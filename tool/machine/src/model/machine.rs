@@ -7,7 +7,7 @@ use crate::model::axis::Axis;
 use crate::model::drive_train::DriveTrain;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
-use crate::model::motion::{Motion, ToolCoordinate};
+use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
 use crate::model::schedule::{Now, Schedule, When};
 use crate::model::simulation::Simulation;
@@ -85,9 +85,7 @@ impl MachineFile {
 
     /// The coordinate in which people speak of this axis: that of its motion, if it goes with the drive link evenly, else the drive link's.
     pub fn axis(&self) -> Axis {
-        let tool = self.motion.as_ref().and_then(Motion::tool);
-        let axis = tool.and_then(ToolCoordinate::axis);
-        axis.unwrap_or_else(|| Axis::of_drive(self.machine.mechanism().coordinate()))
+        Axis::of(self.motion.as_ref(), self.machine.mechanism().coordinate())
     }
 
     /// The machine at an instant, with what acts and what is carried then, without the drive train.

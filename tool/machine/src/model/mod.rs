@@ -8,6 +8,7 @@ pub mod laden;
 pub mod machine;
 pub mod mechanism;
 pub mod motion;
+pub mod motor;
 mod on_stroke;
 pub mod operation;
 pub mod rule;

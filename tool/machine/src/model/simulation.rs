@@ -5,6 +5,7 @@ use jred::{Domain, Reducible as _};
 use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::model::motor::OwnMotor;
 
 /// Where a torque acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +27,9 @@ pub struct Simulation {
     pub duration: f64,
     /// Distance of the output points (s).
     pub output_step: f64,
-    /// Torque of the motor over the speed, both at `at`. Under a controller, its limit: the same in both directions.
-    pub torque: Characteristic,
+    /// Torque of the motor over the speed, both at `at`. Under a controller, its limit: the same in both directions. Not given: the
+    /// motor is that of a drive.
+    pub torque: Option<Characteristic>,
     /// The controller that commands the torque, if there is one.
     pub control: Option<Control>,
     /// A stop in the middle of the motion.
@@ -50,7 +52,7 @@ impl Simulation {
             start_speed: 0.0,
             duration: 1.0,
             output_step: 0.01,
-            torque,
+            torque: Some(torque),
             control: None,
             halt: None,
             end_stops: None,
@@ -58,6 +60,15 @@ impl Simulation {
             rotor_inertia: 0.0,
             tolerance: 1e-12,
         }
+    }
+
+    /// The motor of the file, if it gives one.
+    pub fn own_motor(&self) -> Option<OwnMotor<'_>> {
+        let characteristic = self.torque.as_ref()?;
+        Some(OwnMotor {
+            characteristic,
+            rotor_inertia: self.rotor_inertia,
+        })
     }
 
     /// Where the drive link's way ends: its end stops, or the ends of the stroke.

@@ -109,13 +109,7 @@ pub fn length_argument(text: &str) -> Result<f64, String> {
 /// # Errors
 /// A message for the command line.
 pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    any(
-        text,
-        match coordinate {
-            Coordinate::Angle => &ANGULAR_SPEED,
-            Coordinate::Length => &VELOCITY,
-        },
-    )
+    any(text, speed_kind(coordinate))
 }
 
 /// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" of one that slides.
@@ -123,13 +117,7 @@ pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
 /// # Errors
 /// A message for the command line.
 pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    any(
-        text,
-        match coordinate {
-            Coordinate::Angle => &ANGULAR_ACCELERATION,
-            Coordinate::Length => &ACCELERATION,
-        },
-    )
+    any(text, acceleration_kind(coordinate))
 }
 
 /// A position of the drive link, which must lie within its stroke.
@@ -171,6 +159,20 @@ pub fn axis_position(text: &str, domain: Domain, axis: &Axis) -> Result<f64, Str
     ))
 }
 
+const fn speed_kind(coordinate: Coordinate) -> &'static Kind {
+    match coordinate {
+        Coordinate::Angle => &ANGULAR_SPEED,
+        Coordinate::Length => &VELOCITY,
+    }
+}
+
+const fn acceleration_kind(coordinate: Coordinate) -> &'static Kind {
+    match coordinate {
+        Coordinate::Angle => &ANGULAR_ACCELERATION,
+        Coordinate::Length => &ACCELERATION,
+    }
+}
+
 const fn position_kind(coordinate: Coordinate) -> &'static Kind {
     match coordinate {
         Coordinate::Angle => &ANGLE,
@@ -179,34 +181,46 @@ const fn position_kind(coordinate: Coordinate) -> &'static Kind {
 }
 
 /// Positions of the drive link, each with its speed and its acceleration after it, if they are given, separated by commas, such as
-/// "30 deg, 60 deg" or "30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm".
+/// "30 deg, 60 deg" or "30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm". Where the drive link turns and people speak of lengths, these are read as
+/// well: "250 mm, 0.5 m/s".
 ///
 /// # Errors
 /// A message for the command line.
-pub fn drive_states(text: &str, domain: Domain, coordinate: Coordinate) -> Result<Vec<At>, String> {
-    let [speed, acceleration] = match coordinate {
-        Coordinate::Angle => [&ANGULAR_SPEED, &ANGULAR_ACCELERATION],
-        Coordinate::Length => [&VELOCITY, &ACCELERATION],
+pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<At>, String> {
+    let [drive, spoken] = axis;
+    // Where the kinds are the same, all is the drive link's.
+    let other = (spoken.coordinate != drive.coordinate).then_some(spoken);
+    let axes = std::iter::once(drive).chain(other);
+    let read = |part: &str, kinds: fn(Coordinate) -> &'static Kind| {
+        let mut found = axes.clone().filter_map(|axis| {
+            let value = quantity::read(part.trim(), kinds(axis.coordinate)).ok()?;
+            Some((axis, value.si))
+        });
+        found.next()
     };
     let mut rows: Vec<At> = Vec::new();
     // How much is known of the last row: its position, its speed, its acceleration.
     let mut known = 0;
     for part in text.split(',') {
-        let read = |kind: &'static Kind| quantity::read(part.trim(), kind).ok();
-        let last = rows.last_mut();
-        if let (Some(value), 1, Some(row)) = (read(speed), known, last) {
-            row.state = Some([value.si, 0.0]);
+        let speed = read(part, speed_kind);
+        let acceleration = read(part, acceleration_kind);
+        if let (Some((axis, value)), 1, Some(row)) = (speed, known, rows.last_mut()) {
+            row.state = Some([axis.drive_speed(value), 0.0]);
             known = 2;
-        } else if let (Some(value), 2, Some(row)) = (read(acceleration), known, rows.last_mut()) {
-            row.state = row.state.map(|[omega, _]| [omega, value.si]);
+        } else if let (Some((axis, value)), 2, Some(row)) = (acceleration, known, rows.last_mut()) {
+            row.state = (row.state).map(|[omega, _]| [omega, axis.drive_speed(value)]);
             known = 3;
-        } else if read(speed).is_some() || read(acceleration).is_some() {
+        } else if speed.is_some() || acceleration.is_some() {
             return Err(format!(
                 "{:?} does not follow a position: write position, speed and acceleration in this order",
                 part.trim()
             ));
         } else {
-            let phi = drive_position(part, domain, coordinate)?;
+            let phi = match read(part, position_kind) {
+                Some((axis, _)) if Some(axis) == other => axis_position(part, domain, axis)
+                    .map_err(|why| format!("{:?}: {why}", part.trim()))?,
+                _ => drive_position(part, domain, drive.coordinate)?,
+            };
             rows.push(At { phi, state: None });
             known = 1;
         }

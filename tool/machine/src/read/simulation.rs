@@ -1,6 +1,7 @@
 //! `[simulation]`: a free motion under a motor torque.
 
 mod control;
+mod place;
 
 pub(super) use control::Around;
 
@@ -13,7 +14,8 @@ use crate::number::rounding::figure;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGULAR_SPEED, INERTIA, MASS, SHARE, TIME, TORQUE};
+use crate::units::kind::{ANGULAR_SPEED, INERTIA, LENGTH, MASS, SHARE, TIME, TORQUE};
+use place::Places;
 
 /// Of the integrator, unless given: golden motions come out to 3e-10 of their largest (`tests/simulate.rs`).
 const TOLERANCE: f64 = 1e-12;
@@ -102,7 +104,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         Some(item) => item.number([1e-13, 1e-3], "1e-12")?,
         None => TOLERANCE,
     };
-    let control = control::control(&section, around, (at, duration.si), &torque)?;
+    let control = control::control(&section, around, (at, duration.si), torque.as_ref())?;
     let halt = control::halt(&section, around, duration.si)?;
     let end_stops = control::end_stops(&section, around, start_angle)?;
     section.finish()?;
@@ -123,39 +125,59 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
 
 /// Where the drive link starts (rad, or m), and how fast. A controlled machine that is not told so starts as its motion does.
 fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
-    let drive = around.drive;
-    let key = if drive.slides() {
-        "start_position"
-    } else {
-        "start_angle"
+    let places = Places::of(around);
+    let speed = match section.get("start_speed") {
+        Some(item) => Some(places.speed(&item)?.drive),
+        None => None,
     };
-    let speed = section.optional("start_speed", drive.speed())?;
-    let reference = around.motion.filter(|_| section.peek("control").is_some());
-    if let (None, Some(motion)) = (section.get(key), reference) {
-        let state = motion.at(0.0);
-        return Ok([state.phi, speed.map_or(state.omega, |speed| speed.si)]);
-    }
-    let start = section.quantity(key, drive.position())?;
-    if !drive.reaches(start.si) {
-        let what = format!(
-            "is {}, outside the stroke, {}",
-            start.shown(),
-            drive.range()
-        );
-        return Err(start
-            .problem(&what, "out of reach")
-            .help("start at a position within the stroke"));
-    }
-    Ok([start.si, speed.map_or(0.0, |speed| speed.si)])
+    // The drive link's own angle, or the position of what is prescribed.
+    let (own, position) = if around.drive.slides() {
+        (None, section.get("start_position"))
+    } else if places.has_axis() {
+        (section.get("start_angle"), section.get("start_position"))
+    } else {
+        (section.get("start_angle"), None)
+    };
+    let given = match (own, position) {
+        (Some(own), Some(position)) => {
+            return Err(Problem::new(
+                "[simulation] has both `start_angle` and `start_position`".to_owned(),
+            )
+            .at(own.key_span(), "of the drive link")
+            .at(position.key_span(), "of the axis")
+            .help("keep one of them"));
+        }
+        (Some(own), None) => places.drive_position(&own)?,
+        (None, Some(position)) => places.position(&position)?,
+        (None, None) => {
+            let reference = around.motion.filter(|_| section.peek("control").is_some());
+            if let Some(motion) = reference {
+                let state = motion.at(0.0);
+                return Ok([state.phi, speed.unwrap_or(state.omega)]);
+            }
+            let (key, kind) = if places.has_axis() && places.is_length() || around.drive.slides() {
+                ("start_position", &LENGTH)
+            } else {
+                ("start_angle", around.drive.position())
+            };
+            return Err(section.missing(key, &format!("{key} = \"{}\"", kind.example)));
+        }
+    };
+    let start = places.reached(
+        &given,
+        "out of reach",
+        "start at a position within the stroke",
+    )?;
+    Ok([start, speed.unwrap_or(0.0)])
 }
 
-/// The torque or force over the speed.
+/// The torque or force over the speed; not given: that of a drive.
 fn effort(
     section: &Section,
     [key, curve_key]: [&'static str; 2],
     drive: DriveLink,
     [speed, most]: [&str; 2],
-) -> Result<Characteristic> {
+) -> Result<Option<Characteristic>> {
     let no_speed = format!("0 {}", drive.speed().unit);
     let no_effort = format!("0 {}", drive.effort().unit);
     let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
@@ -170,20 +192,14 @@ fn effort(
         .filter_map(|key| Some((key, section.get(key)?)))
         .collect();
     match given.as_slice() {
-        [] => Err(section.missing(
-            key,
-            &format!(
-                "{key} = \"{}\", or {curve_key} = {example}",
-                drive.effort().example
-            ),
-        )),
+        [] => Ok(None),
         [(found, item)] => match *found {
-            "dc_motor" => dc_motor(item),
-            "induction_motor" => induction_motor(item),
-            found if found == key => {
-                Ok(Characteristic::constant(item.quantity(drive.effort())?.si))
-            }
-            _ => Ok(Characteristic::Points(points(item, drive, &example)?)),
+            "dc_motor" => dc_motor(item).map(Some),
+            "induction_motor" => induction_motor(item).map(Some),
+            found if found == key => Ok(Some(Characteristic::constant(
+                item.quantity(drive.effort())?.si,
+            ))),
+            _ => Ok(Some(Characteristic::Points(points(item, drive, &example)?))),
         },
         [(first, one), (second, other), ..] => {
             let label = |found: &str| {

@@ -85,7 +85,7 @@ fn the_press_is_read_in_si_units() {
     close(simulation.start_angle, PI);
     close(simulation.duration, 1.5);
     close(simulation.output_step, 0.005);
-    let Characteristic::Points(points) = &simulation.torque else {
+    let Some(Characteristic::Points(points)) = &simulation.torque else {
         panic!("{:?}", simulation.torque);
     };
     assert_eq!(points.len(), 3);
@@ -111,7 +111,7 @@ fn a_gear_train_with_every_optional_key_is_read() {
     assert!(!motion.cyclic);
     close(motion.at(0.6).phi, PI);
     let simulation = file.simulation.unwrap();
-    assert_eq!(simulation.torque, Characteristic::constant(2.5));
+    assert_eq!(simulation.torque, Some(Characteristic::constant(2.5)));
     assert_eq!(simulation.at, Shaft::DriveLink);
     close(limit(&file.rules, Rule::RmsTorque), 0.7);
     close(limit(&file.rules, Rule::PeakTorque), 0.75);

@@ -102,6 +102,32 @@ fn a_limited_motor_accelerates_evenly_and_does_not_wind_up() {
     );
 }
 
+/// A proportional controller is at the limit until K·(ω* − ω) is the limit, and the position lags behind the reference all the way.
+#[test]
+fn the_limit_of_the_torque_is_timed_and_the_following_error_found() {
+    let (wanted, gain, most) = (10.0, 2.0, 4.0);
+    let text = controlled(STEADY, "speed_gain = \"2 N m s/rad\"", "");
+    let file = parse(&edited(&text, "1000 N m", "4 N m")).unwrap();
+    let simulation = file.simulation.as_ref().unwrap();
+    let found = analysis::simulate::simulate(&file, simulation).unwrap();
+    let limit = found.torque_limit.unwrap();
+    let speed = wanted - most / gain;
+    let free = speed * J / most;
+    assert_eq!((limit.count, limit.time, limit.position), (1, 0.0, 0.0));
+    within("duration", limit.duration, free, budget::CLOSED_MOTION);
+    // Then e′ = ω* − ω decays with K/J: the lag is that of the ramp and ∫e^(−K·t/J).
+    let lag = |t: f64| {
+        let decay = (-gain / J * (t - free)).exp();
+        wanted * free - 0.5 * speed * free + (wanted - speed) * J / gain * (1.0 - decay)
+    };
+    let following = found.following.unwrap();
+    near("error", following.error, lag(1.0), budget::CLOSED_MOTION);
+    near("time", following.time, 1.0, budget::CLOSED_MOTION);
+    let free = parse(&text).unwrap();
+    let found = analysis::simulate::simulate(&free, free.simulation.as_ref().unwrap()).unwrap();
+    assert!(found.torque_limit.is_none());
+}
+
 /// Friction holds the machine until the integral has grown to it: K·ω*·(1 + t/t_i) = M, on the side of the motor.
 #[test]
 fn friction_holds_until_the_integral_breaks_it_away() {

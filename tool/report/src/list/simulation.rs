@@ -1,105 +1,282 @@
 //! A simulated motion, for reading and as JSON.
 
-use serde_json::{Map, json};
+use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
 use jred_machine::analysis::simulate::Simulated;
-use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
 use jred_machine::number::rounding::short;
+use jred_machine::units::RPM;
+use jred_motion::driven::{Loads, Peak};
 
-/// The motion in one of the formats, part by part; CSV is the rows alone.
-pub fn write<'s>(
-    file: &MachineFile,
-    simulation: &Simulation,
-    found: &'s Simulated,
-    format: Format,
-) -> Box<dyn Iterator<Item = String> + 's> {
-    let kind = if simulation.control.is_some() {
-        "motion under its controller"
-    } else {
-        "free motion"
-    };
-    let title = format!(
-        "{}: {kind}, Dormand-Prince 8(5,3), tolerance {:e}",
-        file.title, simulation.tolerance
-    );
-    let coordinate = file.machine.mechanism().coordinate();
-    match format {
-        Format::Csv => parts(&found.columns, format, ""),
-        Format::Table => {
-            let lines = [
-                impacts(found, coordinate),
-                rest(simulation, found, coordinate),
-            ];
-            let title = lines
-                .into_iter()
-                .flatten()
-                .fold(title, |title, line| title + "\n" + &line);
-            parts(&found.columns, format, &title)
+/// A simulated motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'s> {
+    /// The machine.
+    pub file: &'s MachineFile,
+    /// What was asked for.
+    pub simulation: &'s Simulation,
+    /// The motion.
+    pub found: &'s Simulated,
+    /// The drive of the catalogue: its name, and what it bears.
+    pub drive: Option<(&'s str, &'s Loads)>,
+}
+
+impl<'s> Shown<'s> {
+    /// The motion in one of the formats, part by part; CSV is the rows alone.
+    pub fn write(&self, format: Format) -> Box<dyn Iterator<Item = String> + 's> {
+        let columns = &self.found.columns;
+        match format {
+            Format::Csv => parts(columns, format, ""),
+            Format::Table => {
+                let title = std::iter::once(self.title()).chain(self.sentences());
+                parts(columns, format, &title.collect::<Vec<_>>().join("\n"))
+            }
+            Format::Json => {
+                let mut before = Map::new();
+                before.insert("title".into(), self.title().into());
+                Box::new(json_parts(columns, before, self.figures()))
+            }
         }
-        Format::Json => {
-            let mut before = Map::new();
-            before.insert("title".into(), title.into());
-            let rest = found.rest.map(|rest| {
-                let way = format!("way [{}]", coordinate.unit());
-                json!({ "time [s]": rest.time, way: coordinate.shown(rest.way) })
+    }
+
+    fn title(&self) -> String {
+        let Self {
+            file, simulation, ..
+        } = self;
+        let kind = if simulation.control.is_some() {
+            "motion under its controller"
+        } else {
+            "free motion"
+        };
+        let drive = self
+            .drive
+            .map_or_else(String::new, |(name, _)| format!(" with the drive {name}"));
+        format!(
+            "{}: {kind}{drive}, Dormand-Prince 8(5,3), tolerance {:e}",
+            file.title, simulation.tolerance
+        )
+    }
+
+    /// What happened on the way, sentence by sentence.
+    fn sentences(&self) -> Vec<String> {
+        let axis = self.file.axis();
+        let effort = self.effort_unit();
+        let mut lines = Vec::new();
+        if let Some(stuck) = self.found.missing {
+            let missing = (stuck.missing.needed - stuck.missing.given).abs();
+            lines.push(format!(
+                "the motor does not drive the machine beyond {}, at {} s: at rest it gives {} {effort} there, {} {effort} are needed, {} {effort} are missing",
+                axis.place(stuck.missing.phi),
+                short(stuck.time),
+                short(stuck.missing.given.abs()),
+                short(stuck.missing.needed.abs()),
+                short(missing)
+            ));
+        }
+        lines.extend(self.torque_limit(&axis));
+        if let Some(following) = self.found.following {
+            lines.push(format!(
+                "largest following error: {} {} at {} s, {}",
+                short(axis.shown_way(following.error).abs()),
+                axis.coordinate.unit(),
+                short(following.time),
+                axis.place(following.position)
+            ));
+        }
+        if let Some((_, loads)) = self.drive {
+            lines.extend(drive_sentences(loads, &axis, self.file));
+        }
+        lines.extend(self.impacts(&axis));
+        lines.extend(self.rest(&axis));
+        lines
+    }
+
+    fn effort_unit(&self) -> &'static str {
+        if self.slides() { "N" } else { "N m" }
+    }
+
+    fn slides(&self) -> bool {
+        self.simulation.drives_a_slide(self.file)
+    }
+
+    fn torque_limit(&self, axis: &Axis) -> Option<String> {
+        let limit = self.found.torque_limit?;
+        let times = match limit.count {
+            1 => "once".to_owned(),
+            count => format!("{count} times"),
+        };
+        Some(format!(
+            "warning: the motor is at the limit of its torque {times}, for {} s in all; first at {} s, {}",
+            short(limit.duration),
+            short(limit.time),
+            axis.place(limit.position)
+        ))
+    }
+
+    /// The same for JSON.
+    fn figures(&self) -> Map<String, Value> {
+        let axis = self.file.axis();
+        let unit = axis.coordinate.unit();
+        let (position, speed, way) = (
+            format!("position [{unit}]"),
+            format!("speed [{}]", axis.coordinate.speed_unit()),
+            format!("way [{unit}]"),
+        );
+        let mut after = Map::new();
+        let mut add = |key: &str, value: Value| after.insert(key.to_owned(), value);
+        if let Some(impacts) = self.found.impacts {
+            let first = json!({
+                "time [s]": impacts.time,
+                &position: axis.shown(impacts.position),
+                speed: axis.rate(impacts.speed),
             });
-            let mut after = Map::new();
-            if let Some(impacts) = found.impacts {
-                let (position, speed) = (
-                    format!("position [{}]", coordinate.unit()),
-                    format!("speed [{}]", coordinate.speed_unit()),
-                );
-                let first = json!({
-                    "time [s]": impacts.time,
-                    position: coordinate.shown(impacts.position),
-                    speed: impacts.speed,
-                });
-                after.insert(
-                    "impacts".into(),
-                    json!({ "count": impacts.count, "first": first }),
-                );
-            }
-            if simulation.halt.is_some() {
-                after.insert("rest".into(), json!(rest));
-            }
-            if let Some(error) = &found.ended {
-                after.insert("ended".into(), error.to_string().into());
-            }
-            Box::new(json_parts(&found.columns, before, after))
+            add("impacts", json!({ "count": impacts.count, "first": first }));
         }
+        if self.simulation.halt.is_some() {
+            let rest = self
+                .found
+                .rest
+                .map(|rest| json!({ "time [s]": rest.time, way: axis.shown_way(rest.way) }));
+            add("rest", json!(rest));
+        }
+        if let Some(stuck) = self.found.missing {
+            let effort = self.effort_unit();
+            add(
+                "stops",
+                json!({
+                    "time [s]": stuck.time,
+                    &position: axis.shown(stuck.missing.phi),
+                    format!("given [{effort}]"): stuck.missing.given,
+                    format!("needed [{effort}]"): stuck.missing.needed,
+                }),
+            );
+        }
+        if let Some(limit) = self.found.torque_limit {
+            let first = json!({ "time [s]": limit.time, &position: axis.shown(limit.position) });
+            add(
+                "torque_limit",
+                json!({ "count": limit.count, "duration [s]": limit.duration, "first": first }),
+            );
+        }
+        if let Some(following) = self.found.following {
+            add(
+                "following_error",
+                json!({
+                    "time [s]": following.time,
+                    &position: axis.shown(following.position),
+                    format!("error [{unit}]"): axis.shown_way(following.error),
+                }),
+            );
+        }
+        if let Some((name, loads)) = self.drive {
+            let peak = |peak: &Peak, scale: f64, unit: &str| {
+                json!({
+                    "time [s]": peak.time,
+                    &position: axis.shown(peak.phi),
+                    format!("largest [{unit}]"): peak.value * scale,
+                    format!("allowed [{unit}]"): peak.allowed.map(|allowed| allowed * scale),
+                })
+            };
+            let (scale, unit) = if self.slides() {
+                (1.0, "m/s")
+            } else {
+                (1.0 / RPM, "rpm")
+            };
+            let mut drive = Map::new();
+            drive.insert("name".into(), name.into());
+            drive.insert("motor_speed".into(), peak(&loads.motor_speed, scale, unit));
+            if let Some(torque) = &loads.gearbox_torque {
+                drive.insert("gearbox_torque".into(), peak(torque, 1.0, "N m"));
+            }
+            if let Some(heat) = &loads.heat {
+                let (scale, unit) = if heat.relative {
+                    (100.0, "% of the rated rise")
+                } else {
+                    (1.0, "K")
+                };
+                drive.insert("rise".into(), peak(&heat.hottest, scale, unit));
+            }
+            add("drive", drive.into());
+        }
+        if let Some(error) = &self.found.ended {
+            add("ended", error.to_string().into());
+        }
+        after
+    }
+
+    /// The sentence about end stops.
+    fn impacts(&self, axis: &Axis) -> Option<String> {
+        let impacts = self.found.impacts?;
+        let all = match impacts.count {
+            1 => String::new(),
+            count => format!("; {count} impacts in all"),
+        };
+        Some(format!(
+            "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
+            axis.place(impacts.position),
+            short(impacts.time),
+            short(axis.rate(impacts.speed)),
+            axis.coordinate.speed_unit()
+        ))
+    }
+
+    /// The sentence about the stop.
+    fn rest(&self, axis: &Axis) -> Option<String> {
+        let halt = self.simulation.halt?;
+        let off = format!("the motor is switched off at {} s", short(halt.time));
+        Some(match self.found.rest {
+            Some(rest) => format!(
+                "{off}; the machine comes to rest {} s and {} {} later",
+                short(rest.time),
+                short(axis.shown_way(rest.way)),
+                axis.coordinate.unit()
+            ),
+            None => format!("{off}; the machine has not come to rest by the end"),
+        })
     }
 }
 
-/// The sentence about end stops.
-fn impacts(found: &Simulated, coordinate: Coordinate) -> Option<String> {
-    let impacts = found.impacts?;
-    let all = match impacts.count {
-        1 => String::new(),
-        count => format!("; {count} impacts in all"),
-    };
-    Some(format!(
-        "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
-        coordinate.place(impacts.position),
-        short(impacts.time),
-        short(impacts.speed),
-        coordinate.speed_unit()
-    ))
-}
-
-/// The sentence about the stop.
-fn rest(simulation: &Simulation, found: &Simulated, coordinate: Coordinate) -> Option<String> {
-    let halt = simulation.halt?;
-    let off = format!("the motor is switched off at {} s", short(halt.time));
-    Some(match found.rest {
-        Some(rest) => format!(
-            "{off}; the machine comes to rest {} s and {} {} later",
-            short(rest.time),
-            short(coordinate.shown(rest.way)),
-            coordinate.unit()
-        ),
-        None => format!("{off}; the machine has not come to rest by the end"),
-    })
+/// What the drive bears more than it may, and how warm it gets.
+fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<String> {
+    let place = |peak: &Peak| format!("at {} s, {}", short(peak.time), axis.place(peak.phi));
+    let mut lines = Vec::new();
+    if let Some(peak) = loads.gearbox_torque.filter(Peak::exceeds) {
+        lines.push(format!(
+            "warning: the gearbox carries up to {} N m, {}; its acceleration torque is {} N m",
+            short(peak.value),
+            place(&peak),
+            short(peak.allowed.unwrap_or_default())
+        ));
+    }
+    if loads.motor_speed.exceeds() {
+        let peak = loads.motor_speed;
+        lines.push(format!(
+            "warning: the motor turns the gearbox with up to {} rpm, {}; its largest input speed is {} rpm",
+            short(peak.value / RPM),
+            place(&peak),
+            short(peak.allowed.unwrap_or_default() / RPM)
+        ));
+    }
+    if let Some(heat) = loads.heat {
+        let peak = heat.hottest;
+        let over = if peak.exceeds() { "warning: " } else { "" };
+        let ambient = file.site.surroundings.ambient;
+        let (value, allowed) = if heat.relative {
+            let percent = |share: f64| format!("{} % of its rated rise", short(100.0 * share));
+            (percent(peak.value), peak.allowed.map(percent))
+        } else {
+            let degrees = |rise: f64| format!("{} °C", short(ambient + rise));
+            (degrees(peak.value), peak.allowed.map(degrees))
+        };
+        let allowed =
+            allowed.map_or_else(String::new, |allowed| format!("; {allowed} are allowed"));
+        lines.push(format!(
+            "{over}the motor, cold at the start, reaches {value}, {}{allowed}",
+            place(&peak)
+        ));
+    }
+    lines
 }

@@ -4,22 +4,8 @@ use serde::Serialize;
 
 use crate::catalogue::Drive;
 use jred_machine::analysis::duty::Instant;
+pub use jred_machine::model::motor::{Coefficients, LOADS, loads_of};
 use jred_machine::number::figures::Figures;
-
-/// The motor torque as a linear form in the five loads of an instant: see [`loads`].
-///
-/// ```text
-/// T = (J_M + J_G)·i·α + τ₊/(i·η) + τ₋·η_back/i + b·i·n + c·sgn n
-/// ```
-///
-/// α, n and τ are acceleration, speed and torque at the gearbox output; τ₊ is the torque where power flows to the machine
-/// (and at rest), τ₋ where it flows back; J_M and J_G inertia of rotor and gearbox, i the ratio, η the efficiencies, b and c
-/// viscous and Coulomb friction of motor and gearbox at the motor shaft.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coefficients(pub [f64; LOADS]);
-
-/// Number of loads of an instant.
-pub const LOADS: usize = 5;
 
 /// The five loads of an instant: α, τ₊, τ₋, n, sgn n.
 pub fn loads(instant: &Instant) -> [f64; LOADS] {
@@ -28,28 +14,6 @@ pub fn loads(instant: &Instant) -> [f64; LOADS] {
         instant.input_torque,
         instant.input_speed,
     )
-}
-
-/// The five loads of acceleration (rad/s²), torque (N·m) and speed (rad/s) at the gearbox output.
-#[inline]
-pub fn loads_of(alpha: f64, torque: f64, speed: f64) -> [f64; LOADS] {
-    let [driving, back] = if torque * speed < 0.0 {
-        [0.0, torque]
-    } else {
-        [torque, 0.0]
-    };
-    let sign = if speed == 0.0 { 0.0 } else { speed.signum() };
-    [alpha, driving, back, speed, sign]
-}
-
-impl Coefficients {
-    /// The motor torque (N·m) under these loads.
-    #[inline]
-    pub fn torque(&self, loads: &[f64; LOADS]) -> f64 {
-        let [a, b, c, d, e] = self.0;
-        let [alpha, driving, back, speed, sign] = loads;
-        a * alpha + (b * driving + c * back) + (d * speed + e * sign)
-    }
 }
 
 /// Torque and speed of the motor at one instant.

@@ -5,10 +5,13 @@ use jred::{Error, Reducible as _};
 
 use super::SimulationError;
 use super::machine::{Instant, Plant};
+use super::observe::Working;
 use super::run::{self, Row};
-use crate::model::coordinate::{Coordinate, whole_range};
+use crate::model::axis::Axis;
+use crate::model::coordinate::whole_range;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
+use crate::model::motor::Motor;
 use crate::model::simulation::{Control, FeedForward, Simulation};
 use crate::number::columns::Column;
 
@@ -19,12 +22,12 @@ type State = [f64; 6];
 const POSITIONS: usize = 720;
 
 /// The machine, its motor, the controller and its reference.
-pub(super) struct Controlled<'a> {
-    plant: Plant<'a>,
+pub(super) struct Controlled<'a, M> {
+    plant: Plant<'a, M>,
     simulation: &'a Simulation,
     control: Control,
     motion: &'a Motion,
-    coordinate: Coordinate,
+    axis: Axis,
     /// By how much the position advances in a cycle of the reference.
     advance: f64,
     mean_inertia: f64,
@@ -34,18 +37,21 @@ pub(super) struct Controlled<'a> {
 struct Command {
     /// Torque of the motor.
     torque: f64,
+    /// What it would be without limits.
+    asked: f64,
     /// z′.
     integral_rate: f64,
 }
 
-impl<'a> Controlled<'a> {
+impl<'a, M: Motor> Controlled<'a, M> {
     pub(super) fn new(
         file: &'a MachineFile,
         simulation: &'a Simulation,
         control: Control,
         motion: &'a Motion,
+        motor: M,
     ) -> Result<Self, Error> {
-        let plant = Plant::new(file, simulation);
+        let plant = Plant::new(file, simulation, motor);
         let mean_inertia = match control.feed_forward {
             FeedForward::MeanInertia => {
                 let places: Vec<f64> = whole_range(file.machine.domain(), POSITIONS).collect();
@@ -62,7 +68,7 @@ impl<'a> Controlled<'a> {
             simulation,
             control,
             motion,
-            coordinate: file.machine.mechanism().coordinate(),
+            axis: file.axis(),
             advance: motion.at(motion.duration()).phi - motion.at(0.0).phi,
             mean_inertia,
         })
@@ -114,33 +120,33 @@ impl<'a> Controlled<'a> {
         let wanted = reference.omega + gain * (reference.phi - phi);
         let push = self.control.speed_gain * (wanted - omega) * ratio;
         let asked = self.feed_forward(&reference)? + push + integral;
-        let most = self
-            .simulation
-            .torque
-            .torque((omega * ratio).abs())
-            .max(0.0);
-        let torque = asked.clamp(-most, most);
+        let [least, most] = self.plant.motor.limits(omega * ratio);
+        let torque = asked.max(least).min(most);
         Ok(Command {
             torque,
+            asked,
             integral_rate: (push + torque - asked) / self.control.integral_time,
         })
     }
 
-    /// Torque at the motor shaft, of the motor or, once it is switched off, of the brake.
-    fn torque(&self, direction: f64, t: f64, y: &State) -> Result<[f64; 2], Error> {
+    /// Torque at the motor shaft, of the motor or, once it is switched off, of the brake; what is asked for; z′.
+    fn torque(&self, direction: f64, t: f64, y: &State) -> Result<[f64; 3], Error> {
         let command = self.command(t, y)?;
         let on = self.simulation.halt.is_none_or(|halt| t < halt.time);
-        let rate = if on { command.integral_rate } else { 0.0 };
-        Ok([self.plant.halted(t, direction, || command.torque), rate])
+        if on {
+            return Ok([command.torque, command.asked, command.integral_rate]);
+        }
+        let brake = self.plant.halted(t, direction, || 0.0);
+        Ok([brake, brake, 0.0])
     }
 
     fn now(&self, direction: f64, t: f64, y: &State) -> Result<(Instant, f64), Error> {
-        let [torque, rate] = self.torque(direction, t, y)?;
+        let [torque, _, rate] = self.torque(direction, t, y)?;
         Ok((self.plant.under(direction, [y[0], y[1]], torque)?, rate))
     }
 }
 
-impl run::Plant<6> for Controlled<'_> {
+impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
     fn start(&self) -> Result<State, Error> {
         let Simulation {
             start_angle,
@@ -153,7 +159,7 @@ impl run::Plant<6> for Controlled<'_> {
     fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
         if direction == 0.0 {
             // The integral rises until the motor breaks away.
-            let [_, rate] = self.torque(direction, t, y)?;
+            let [_, _, rate] = self.torque(direction, t, y)?;
             return Ok([0.0, 0.0, rate, 0.0, 0.0, 0.0]);
         }
         let (now, rate) = self.now(direction, t, y)?;
@@ -193,9 +199,19 @@ impl run::Plant<6> for Controlled<'_> {
 
     fn heads(&self) -> Vec<Column> {
         let own = self.plant.columns().into_iter();
-        let error = format!("{} error", self.coordinate.column().name);
-        own.chain([Column::other(error, self.coordinate.unit())])
-            .collect()
+        let position = self.axis.column();
+        let error = format!("{} error", position.name);
+        own.chain([Column::other(error, position.unit)]).collect()
+    }
+
+    fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
+        let [torque, asked, _] = self.torque(direction, t, y)?;
+        let link = [y[0], y[1]];
+        let working = self.plant.working(direction, link, [torque, asked])?;
+        Ok(Some(Working {
+            error: Some(self.reference(t).phi - y[0]),
+            ..working
+        }))
     }
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
@@ -204,10 +220,10 @@ impl run::Plant<6> for Controlled<'_> {
         } else {
             self.alpha(direction, t, y)?
         };
-        let [torque, _] = self.torque(direction, t, y)?;
+        let [torque, ..] = self.torque(direction, t, y)?;
         let mut row = self.plant.written([y[0], y[1], alpha], torque)?;
-        let error = self.reference(t).phi - y[0];
-        row.figures.push(self.coordinate.shown(error));
+        let reference = self.axis.shown(self.reference(t).phi);
+        row.figures.push(reference - self.axis.shown(y[0]));
         Ok(row)
     }
 }

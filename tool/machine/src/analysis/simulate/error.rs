@@ -10,6 +10,13 @@ pub enum SimulationError {
     /// The machine cannot be placed.
     #[error("{error}; {cure}", error = .0, cure = .0.cure())]
     Machine(Error),
+    /// No motor is given.
+    #[error("[simulation] gives no motor")]
+    #[diagnostic(help(
+        "give torque, torque_speed, dc_motor or induction_motor in [simulation] (force or force_speed of a link that slides), or a drive of \
+         the catalogue: --drive MOTOR+GEARBOX"
+    ))]
+    NoMotor,
     /// The machine goes by the motion of the file, which a free motion does not follow.
     #[error("{what}: that goes by [motion], which a free motion does not follow")]
     #[diagnostic(help(

@@ -1,12 +1,17 @@
 //! A machine whose motor drives it through a fixed ratio.
 
+use jred::machine::motion::State as Moving;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
 
 use super::SimulationError;
-use super::run::{self, Row};
+use super::observe::Working;
+use super::run::{self, HAIR, Row};
+use super::simulated::Missing;
+use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::model::motor::{Motor, loads_of};
 use crate::model::simulation::{Shaft, Simulation};
 use crate::number::columns::{Column, Quantity};
 use crate::number::numerics::newton;
@@ -15,10 +20,11 @@ use crate::number::numerics::newton;
 pub(in crate::analysis) type State = [f64; 5];
 
 /// The machine with its drive and motor torque.
-pub(in crate::analysis) struct Plant<'a> {
+pub(in crate::analysis) struct Plant<'a, M> {
     file: &'a MachineFile,
     simulation: &'a Simulation,
-    coordinate: Coordinate,
+    pub(in crate::analysis) motor: M,
+    axis: Axis,
     /// Where the drive link's way ends.
     ends: Option<[f64; 2]>,
 }
@@ -27,17 +33,34 @@ pub(in crate::analysis) struct Plant<'a> {
 pub(in crate::analysis) struct Instant {
     pub(in crate::analysis) alpha: f64,
     pub(in crate::analysis) motor_torque: f64,
+    /// Torque at the input of the drive train, behind the motor's gearbox.
+    pub(in crate::analysis) input_torque: f64,
     pub(in crate::analysis) motor_power: f64,
     pub(in crate::analysis) process_power: f64,
     pub(in crate::analysis) loss: f64,
 }
 
-impl<'a> Plant<'a> {
-    pub(in crate::analysis) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Self {
+/// What a motor gives so that the drive link delivers a torque in its motion.
+struct Through {
+    torque: f64,
+    /// Its derivative by α.
+    per_alpha: f64,
+    /// Torque at the input of the drive train.
+    input_torque: f64,
+    loss: f64,
+}
+
+impl<'a, M: Motor> Plant<'a, M> {
+    pub(in crate::analysis) fn new(
+        file: &'a MachineFile,
+        simulation: &'a Simulation,
+        motor: M,
+    ) -> Self {
         Self {
             file,
             simulation,
-            coordinate: file.machine.mechanism().coordinate(),
+            motor,
+            axis: file.axis(),
             ends: simulation.ends(file),
         }
     }
@@ -45,7 +68,7 @@ impl<'a> Plant<'a> {
     /// Speed of the shaft at which the motor torque acts, per speed of the drive link.
     pub(in crate::analysis) fn ratio(&self) -> f64 {
         match self.simulation.at {
-            Shaft::Motor => self.file.drive_train.ratio(),
+            Shaft::Motor => self.file.drive_train.ratio() * self.motor.ratio(),
             Shaft::DriveLink => 1.0,
         }
     }
@@ -53,12 +76,29 @@ impl<'a> Plant<'a> {
     /// Motor torque, and the speed of the shaft at which it acts.
     pub(in crate::analysis) fn motor(&self, omega: f64) -> [f64; 2] {
         let speed = omega * self.ratio();
-        [self.simulation.torque.torque(speed), speed]
+        [self.motor.torque(speed), speed]
     }
 
-    /// Speeds of that shaft at which the motor's characteristic changes.
-    pub(in crate::analysis) fn marks(&self) -> Vec<f64> {
-        self.simulation.torque.marks()
+    /// The motor in front of the drive train: what it gives for a motion of the drive link.
+    fn through(&self, output: &TrainOutput) -> Through {
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let input = train.input(output);
+        let form = self.motor.coefficients();
+        let [own, driving, back, viscous, coulomb] = form.0;
+        // At rest the direction is that of the motion to come.
+        let loads = loads_of(output.alpha * ratio, input.torque, output.direction * ratio);
+        let speed = output.omega * ratio;
+        let [alpha, torque_driving, torque_back, _, sign] = loads;
+        let share = if torque_back == 0.0 { driving } else { back };
+        let friction = viscous * speed + coulomb * sign;
+        let lost = (share * self.motor.ratio() - 1.0) * input.torque;
+        Through {
+            torque: form.torque(&[alpha, torque_driving, torque_back, speed, sign]),
+            per_alpha: own * ratio + share * input.torque_per_alpha,
+            input_torque: input.torque,
+            loss: input.loss + (lost + friction * self.motor.ratio()) * speed,
+        }
     }
 
     /// The motor torque that keeps the speed `omega` at the position `phi`.
@@ -90,7 +130,6 @@ impl<'a> Plant<'a> {
 
     /// The torque at the motor shaft that gives one at the drive link under a speed and an acceleration.
     pub(super) fn at_motor(&self, direction: f64, [omega, alpha]: [f64; 2], torque: f64) -> f64 {
-        let train = &self.file.drive_train;
         let output = TrainOutput {
             torque,
             omega,
@@ -98,7 +137,7 @@ impl<'a> Plant<'a> {
             direction,
             ..TrainOutput::default()
         };
-        train.input(&output).torque + self.simulation.rotor_inertia * train.ratio() * alpha
+        self.through(&output).torque
     }
 
     /// Torque of the motor and of the brake at the time `t`: the motor's is `driving` until it is switched off.
@@ -137,13 +176,14 @@ impl<'a> Plant<'a> {
         Ok(0.5 * point.inertia_slope * omega * omega - load)
     }
 
-    /// Inertia of the machine at `phi`, of the drive train and of the rotor, all at the drive link; and the potential energy.
+    /// Inertia of the machine at `phi`, of the drive train and of the motor, all at the drive link; and the potential energy.
     pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
         let point = self.point(phi)?;
-        // The rotor and the drive train turn with the drive link.
+        // The motor and the drive train turn with the drive link.
         let train = &self.file.drive_train;
         let ratio = train.ratio();
-        let drive = (train.inertia_at_input() + self.simulation.rotor_inertia) * ratio * ratio;
+        let [own, ..] = self.motor.coefficients().0;
+        let drive = (train.inertia_at_input() + own * self.motor.ratio()) * ratio * ratio;
         Ok([point.inertia + drive, point.potential_energy])
     }
 
@@ -171,36 +211,56 @@ impl<'a> Plant<'a> {
         let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
         let resisting = 0.5 * point.inertia_slope * omega * omega - load;
         let speed = omega * self.ratio();
-        let train = &self.file.drive_train;
-        let ratio = train.ratio();
-        let rotor = self.simulation.rotor_inertia;
         // With the torque at the drive link, what sits in front of it only drags along.
         let (at_motor, at_link) = match self.simulation.at {
             Shaft::Motor => (torque, 0.0),
             Shaft::DriveLink => (0.0, torque),
         };
+        let mut input_torque = 0.0;
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
-            let asked = point.inertia * alpha + resisting - at_link;
-            let input = train.input(&TrainOutput {
-                torque: asked,
+            let through = self.through(&TrainOutput {
+                torque: point.inertia * alpha + resisting - at_link,
                 torque_per_alpha: point.inertia,
                 omega,
                 alpha,
                 direction,
             });
-            loss = input.loss;
-            [
-                input.torque + rotor * ratio * alpha - at_motor,
-                input.torque_per_alpha + rotor * ratio,
-            ]
+            loss = through.loss;
+            input_torque = through.input_torque;
+            [through.torque - at_motor, through.per_alpha]
         });
         Ok(Instant {
             alpha,
             motor_torque: torque,
+            input_torque,
             motor_power: torque * speed,
             process_power: point.process * omega,
             loss: loss + (point.viscous * omega + point.coulomb * direction) * omega,
+        })
+    }
+
+    /// What the motor does at a state under its torque; `asked` is what a controller asks for.
+    pub(super) fn working(
+        &self,
+        direction: f64,
+        [phi, omega]: [f64; 2],
+        [torque, asked]: [f64; 2],
+    ) -> Result<Working, Error> {
+        let held = direction == 0.0;
+        let now = if held {
+            None
+        } else {
+            Some(self.under(direction, [phi, omega], torque)?)
+        };
+        Ok(Working {
+            phi,
+            speed: omega * self.ratio(),
+            torque,
+            asked,
+            // Held at rest, friction takes any share of it.
+            input_torque: now.map_or(torque * self.motor.ratio(), |now| now.input_torque),
+            error: None,
         })
     }
 
@@ -218,16 +278,16 @@ impl<'a> Plant<'a> {
 
     /// The columns of a row.
     pub(super) fn columns(&self) -> [Column; 5] {
-        let coordinate = self.coordinate;
-        let [speed, acceleration] = coordinate.rates();
+        let [speed, acceleration] = self.axis.coordinate.rates();
         let (motor, unit) = if self.simulation.drives_a_slide(self.file) {
             ("motor force", "N")
         } else {
             ("motor torque", "N m")
         };
+        let coordinate = self.coordinate();
         let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
         [
-            coordinate.column(),
+            self.axis.column(),
             speed,
             acceleration,
             Column::new(Quantity::MotorEffort, motor, unit),
@@ -235,18 +295,30 @@ impl<'a> Plant<'a> {
         ]
     }
 
+    /// That of the drive link.
+    fn coordinate(&self) -> Coordinate {
+        self.file.machine.mechanism().coordinate()
+    }
+
     /// The row of a state with its motor torque.
     pub(super) fn written(&self, [phi, omega, alpha]: [f64; 3], torque: f64) -> Result<Row, Error> {
         let [inertia, potential] = self.inertia(phi)?;
+        let shown = self.axis.state(&Moving { phi, omega, alpha });
         Ok(Row {
-            figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
+            figures: vec![
+                self.axis.shown(phi),
+                shown.omega,
+                shown.alpha,
+                torque,
+                inertia,
+            ],
             kinetic: 0.5 * inertia * omega * omega,
             potential,
         })
     }
 }
 
-impl run::Plant<5> for Plant<'_> {
+impl<M: Motor> run::Plant<5> for Plant<'_, M> {
     fn start(&self) -> Result<State, Error> {
         let Simulation {
             start_angle,
@@ -292,6 +364,27 @@ impl run::Plant<5> for Plant<'_> {
 
     fn heads(&self) -> Vec<Column> {
         self.columns().to_vec()
+    }
+
+    fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
+        let torque = self.torque(t, direction, y[1]);
+        let working = self.working(direction, [y[0], y[1]], [torque; 2])?;
+        Ok(Some(working))
+    }
+
+    fn missing(&self, y: &State) -> Result<Option<Missing>, Error> {
+        let [given, _] = self.motor(0.0);
+        let push = (given * self.ratio()).signum();
+        if given == 0.0 || self.simulation.halt.is_some() {
+            return Ok(None);
+        }
+        let needed = self.keeping(push, [y[0], push * HAIR])?;
+        let sign = given.signum();
+        Ok((needed * sign > given * sign).then_some(Missing {
+            phi: y[0],
+            given,
+            needed,
+        }))
     }
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {

@@ -6,8 +6,9 @@ use jred::Error;
 
 use super::SimulationError;
 use super::error::stopped;
-use super::simulated::{Impacts, Rest, Simulated};
-use super::watch::{At, Watch};
+use super::observe::{Controlling, Observer, PARTS, Working};
+use super::simulated::{Impacts, Missing, Rest, Simulated, Stuck};
+use super::watch::{At, Watch, between};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
 use crate::number::columns::{Column, Columns, Quantity};
@@ -20,7 +21,7 @@ const MOST_STEPS: u32 = 1_000_000;
 const EDGE: f64 = 1e-13;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
-const HAIR: f64 = 1e-12;
+pub(super) const HAIR: f64 = 1e-12;
 
 /// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work
 /// of the motor, the work of the process loads, and the losses (J).
@@ -47,6 +48,16 @@ pub(in crate::analysis) trait Plant<const N: usize> {
 
     /// Times at which y′ has a corner or a jump (s), in any order: no step passes over one.
     fn corners(&self) -> Vec<f64>;
+
+    /// What the motor does, if there is one to look at.
+    fn working(&self, _direction: f64, _t: f64, _y: &[f64; N]) -> Result<Option<Working>, Error> {
+        Ok(None)
+    }
+
+    /// What is missing for the motor to drive the machine on from rest, where it has no controller.
+    fn missing(&self, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
+        Ok(None)
+    }
 
     /// The columns of the figures of a [`Row`].
     fn heads(&self) -> Vec<Column>;
@@ -101,6 +112,7 @@ pub(super) fn run<const N: usize>(
     plant: &impl Plant<N>,
     file: &MachineFile,
     simulation: &Simulation,
+    observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
     let mut corners = plant.corners();
     corners.sort_by(f64::total_cmp);
@@ -127,11 +139,20 @@ pub(super) fn run<const N: usize>(
         inside: [f64::NEG_INFINITY, f64::INFINITY],
         halt: None,
         rest: None,
+        stuck: None,
+        controlling: Controlling::default(),
+        observed: simulation.control.is_some() || !observer.columns().is_empty(),
+        observer,
     };
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
     run.watch.check(run.at(0.0, &y)?)?;
-    let mut columns = Columns::new(heads(plant.heads()));
+    if plant.link(0.0, &y)?[1] == 0.0 {
+        run.misses(0.0, &y)?;
+    }
+    let figures = plant.heads().into_iter().chain(run.observer.columns());
+    let mut columns = Columns::new(heads(figures.collect()));
+    let mut states = Vec::new();
     let steps = (simulation.duration / simulation.output_step)
         .round()
         .max(1.0) as usize;
@@ -143,7 +164,12 @@ pub(super) fn run<const N: usize>(
         let step = run.output_step(&corners, simulation.halt, [t, end], y);
         let row = step.and_then(|state| {
             y = state;
-            Ok(plant.row(run.direction, end, &y)?)
+            let mut row = plant.row(run.direction, end, &y)?;
+            if let Some(working) = plant.working(run.direction, end, &y)? {
+                row.figures.extend(run.observer.figures(&working));
+            }
+            states.push(run.at(end, &y)?.state);
+            Ok(row)
         });
         let row = match row {
             Ok(row) => row,
@@ -162,6 +188,10 @@ pub(super) fn run<const N: usize>(
         columns,
         rest: run.rest,
         impacts: run.impacts,
+        missing: run.stuck,
+        torque_limit: run.controlling.limit,
+        following: run.controlling.following,
+        states,
         ended,
     })
 }
@@ -183,6 +213,11 @@ struct Run<'a, P> {
     /// When and where the motor was switched off.
     halt: Option<[f64; 2]>,
     rest: Option<Rest>,
+    stuck: Option<Stuck>,
+    controlling: Controlling,
+    /// Whether anybody looks at the motor.
+    observed: bool,
+    observer: &'a mut dyn Observer,
 }
 
 impl<P> Run<'_, P> {
@@ -234,6 +269,18 @@ impl<P> Run<'_, P> {
                 way: phi - way,
             });
         }
+    }
+
+    /// The drive link is at rest: whether the motor drives it on.
+    fn misses<const N: usize>(&mut self, time: f64, y: &[f64; N]) -> Result<(), Error>
+    where
+        P: Plant<N>,
+    {
+        if self.stuck.is_none() {
+            let missing = self.plant.missing(y)?;
+            self.stuck = missing.map(|missing| Stuck { time, missing });
+        }
+        Ok(())
     }
 
     /// Integrates from `t` to `end`; where friction changes, it turns round, holds or lets go.
@@ -295,6 +342,7 @@ impl<P> Run<'_, P> {
             let [phi, _] = self.plant.link(t, &y)?;
             y = self.plant.with_link(t, &y, [phi, 0.0])?;
             self.rests([t, phi]);
+            self.misses(t, &y)?;
             self.direction = self.start_direction(t, &y)?;
         }
         Err(SimulationError::Integrator {
@@ -395,13 +443,18 @@ impl<P> Run<'_, P> {
     }
 
     /// Refuses the way from one step to the next where a joint lets go or the equations do not hold.
-    fn check<const N: usize>(&self, from: &Point<N>, to: &Point<N>) -> Result<(), SimulationError>
+    fn check<const N: usize>(
+        &mut self,
+        from: &Point<N>,
+        to: &Point<N>,
+    ) -> Result<(), SimulationError>
     where
         P: Plant<N>,
     {
         for (t, y) in [from, to] {
             self.plant.check(self.direction, *t, y)?;
         }
+        self.observe(from, to)?;
         if self.watch.is_idle() || self.direction == 0.0 {
             return Ok(());
         }
@@ -412,5 +465,50 @@ impl<P> Run<'_, P> {
             let y = self.plant.with_link(t, &y, link)?;
             Ok(self.plant.alpha(self.direction, t, &y)?)
         })
+    }
+
+    /// Shows the motor to those who look at it, from one step to the next.
+    fn observe<const N: usize>(
+        &mut self,
+        from: &Point<N>,
+        to: &Point<N>,
+    ) -> Result<(), SimulationError>
+    where
+        P: Plant<N>,
+    {
+        let plant = self.plant;
+        let (direction, length) = (self.direction, to.0 - from.0);
+        if !self.observed {
+            return Ok(());
+        }
+        let Some(first) = plant.working(direction, self.within(from.0), &from.1)? else {
+            return Ok(());
+        };
+        let mut before = first;
+        let ends = [
+            self.at(self.within(from.0), &from.1)?,
+            self.at(self.within(to.0), &to.1)?,
+        ];
+        let inside = self.inside;
+        let at = |share: f64| -> Result<Working, SimulationError> {
+            let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
+            let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
+            let y = plant.with_link(t, &y, between(ends, share))?;
+            let working = plant.working(direction, t, &y)?;
+            Ok(working.unwrap_or(first))
+        };
+        let part = |k: u32| f64::from(k) / f64::from(PARTS);
+        for k in 1..=PARTS {
+            let shares = [part(k - 1), part(k)];
+            let after = at(shares[1])?;
+            let times = shares.map(|share| from.0 + share * length);
+            let pair = [before, after];
+            self.controlling.pass(times, pair, |share| {
+                at(shares[0] + share * (shares[1] - shares[0]))
+            })?;
+            self.observer.pass((times[0], before), (times[1], after));
+            before = after;
+        }
+        Ok(())
     }
 }

@@ -12,6 +12,14 @@ pub struct Simulated {
     pub rest: Option<Rest>,
     /// The impacts on end stops.
     pub impacts: Option<Impacts>,
+    /// Where the motor has not driven the machine on.
+    pub missing: Option<Stuck>,
+    /// Where a controlled motor is at the limit of its torque.
+    pub torque_limit: Option<TorqueLimit>,
+    /// The largest error of a controlled machine.
+    pub following: Option<Following>,
+    /// φ, ω, α of the drive link in each row.
+    pub states: Vec<[f64; 3]>,
     /// Why the motion ends before its time.
     pub ended: Option<SimulationError>,
 }
@@ -36,6 +44,50 @@ pub struct Impacts {
     pub speed: f64,
     /// Number of impacts.
     pub count: u32,
+}
+
+/// Torque of a motor at rest, and what the machine needs to go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Missing {
+    /// Position (rad, or m).
+    pub phi: f64,
+    /// Torque that the motor gives there (N·m).
+    pub given: f64,
+    /// Torque that it would need (N·m).
+    pub needed: f64,
+}
+
+/// Where a machine has stopped under its motor, or did not start, for the first time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stuck {
+    /// Time (s).
+    pub time: f64,
+    /// What is missing there.
+    pub missing: Missing,
+}
+
+/// A motor at the limit of its torque under a controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueLimit {
+    /// Time of the first (s).
+    pub time: f64,
+    /// Its position (rad, or m).
+    pub position: f64,
+    /// How many times the limit is reached.
+    pub count: u32,
+    /// How long in all (s).
+    pub duration: f64,
+}
+
+/// The largest following error, at the integrator's steps and three instants between each two of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Following {
+    /// Its time (s).
+    pub time: f64,
+    /// Its position (rad, or m).
+    pub position: f64,
+    /// Reference less position (rad, or m).
+    pub error: f64,
 }
 
 impl Simulated {

@@ -10,6 +10,7 @@ use super::SimulationError;
 use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::model::motor::{Motor as _, OwnMotor};
 use crate::model::simulation::{Shaft, Simulation};
 use crate::model::variator::{RATIOS, Slip, Variator};
 use crate::number::columns::{Column, Quantity};
@@ -26,6 +27,7 @@ const ROUNDING: f64 = 1e-9;
 pub(super) struct Plant<'a> {
     file: &'a MachineFile,
     simulation: &'a Simulation,
+    motor: OwnMotor<'a>,
     variator: &'a Variator,
     stage: Stage<'a>,
 }
@@ -87,10 +89,12 @@ impl<'a> Plant<'a> {
         file: &'a MachineFile,
         variator: &'a Variator,
         simulation: &'a Simulation,
+        motor: OwnMotor<'a>,
     ) -> Result<Self, Error> {
         Ok(Self {
             file,
             simulation,
+            motor,
             variator,
             stage: variator.stage()?,
         })
@@ -135,7 +139,7 @@ impl<'a> Plant<'a> {
             Shaft::Motor => y[1],
             Shaft::DriveLink => omega,
         };
-        let torque = self.simulation.torque.torque(speed);
+        let torque = self.motor.torque(speed);
         let (at_motor, at_link) = match self.simulation.at {
             Shaft::Motor => (torque, 0.0),
             Shaft::DriveLink => (0.0, torque),

@@ -110,7 +110,7 @@ impl<'a> Watch<'a> {
 }
 
 /// φ and ω between two states: the polynomial of the fifth degree with their positions, speeds and accelerations.
-fn between([from, to]: [At; 2], share: f64) -> [f64; 2] {
+pub(super) fn between([from, to]: [At; 2], share: f64) -> [f64; 2] {
     let h = to.t - from.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
     // What is left of the way, speed and acceleration after a parabola from the start.

@@ -68,7 +68,13 @@ impl Cycle {
 /// The speeds to look at, falling, with those at which the motor's characteristic changes and some on either side of them.
 fn speeds(turning: &Turning) -> Vec<f64> {
     let ratio = turning.plant.ratio() * turning.direction;
-    let marks = turning.plant.marks().into_iter().map(|mark| mark / ratio);
+    let marks = turning
+        .plant
+        .motor
+        .characteristic
+        .marks()
+        .into_iter()
+        .map(|mark| mark / ratio);
     let mut marks: Vec<f64> = marks.filter(|m| (SLOWEST..FASTEST).contains(m)).collect();
     marks.sort_by(f64::total_cmp);
     let middles = marks.windows(2).map(|pair| pair[0].midpoint(pair[1]));

@@ -29,7 +29,13 @@ pub enum SteadyError {
         /// The load or payload.
         what: String,
     },
-    /// There is no motor.
+    /// No motor is given.
+    #[error("[simulation] gives no motor")]
+    #[diagnostic(help(
+        "give --torque \"20 N m\", or torque, torque_speed, dc_motor or induction_motor in [simulation]"
+    ))]
+    NoMotor,
+    /// The motor has no torque.
     #[error("the motor gives no torque at rest, nor at any other speed of its characteristic")]
     #[diagnostic(help(
         "give a torque other than zero: --torque \"20 N m\", or torque, torque_speed, dc_motor or induction_motor in [simulation]"

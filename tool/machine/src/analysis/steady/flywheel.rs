@@ -56,7 +56,7 @@ impl Flywheel {
         let guess = Cell::new(own.map(|cycle| cycle.figures.begin));
         let evenness = |inertia: f64| -> Result<f64, SteadyError> {
             let file = with_flywheel(turning.file, inertia)?;
-            let turning = Turning::new(&file, simulation, turning.direction)?;
+            let turning = Turning::new(&file, simulation, turning.plant.motor, turning.direction)?;
             let Found::Cycle(begin) = cycle::near(&turning, guess.get())? else {
                 // It stops: no evenness at all.
                 return Ok(-1.0 / delta);
@@ -80,7 +80,7 @@ impl Flywheel {
             }
         };
         let file = with_flywheel(turning.file, inertia)?;
-        let with = Turning::new(&file, simulation, turning.direction)?;
+        let with = Turning::new(&file, simulation, turning.plant.motor, turning.direction)?;
         let cycle = match cycle::near(&with, guess.get())? {
             Found::Cycle(begin) => Cycle::at(&with, begin, positions)?,
             Found::Loses(from) => return Err(cycle::standstill(&with, from)?),

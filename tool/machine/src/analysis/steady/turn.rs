@@ -10,6 +10,7 @@ use jred::{Error, Reducible as _};
 use super::SteadyError;
 use crate::analysis::simulate::machine::{Instant, Plant};
 use crate::model::machine::MachineFile;
+use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
 use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
 
@@ -36,7 +37,7 @@ pub(super) enum Reached {
 /// A machine that turns one way, from a position.
 pub(super) struct Turning<'a> {
     pub(super) file: &'a MachineFile,
-    pub(super) plant: Plant<'a>,
+    pub(super) plant: Plant<'a, OwnMotor<'a>>,
     /// +1 or −1.
     pub(super) direction: f64,
     start: f64,
@@ -52,6 +53,7 @@ impl<'a> Turning<'a> {
     pub(super) fn new(
         file: &'a MachineFile,
         simulation: &'a Simulation,
+        motor: OwnMotor<'a>,
         direction: f64,
     ) -> Result<Self, Error> {
         let start = simulation.start_angle;
@@ -70,7 +72,7 @@ impl<'a> Turning<'a> {
             load[0] = load[0].max(point.load_torque().abs() + point.coulomb);
             load[1] = load[1].max(point.viscous);
         }
-        let plant = Plant::new(file, simulation);
+        let plant = Plant::new(file, simulation, motor);
         let [inertia, _] = plant.inertia(start)?;
         Ok(Self {
             file,

@@ -5,12 +5,13 @@ use crate::model::drive_train::DriveTrain;
 use crate::model::motion::Motion;
 use crate::model::simulation::{Control, EndStops, FeedForward, Halt, Shaft};
 
+use super::place::{Given, Places};
 use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{FORCE, GAIN, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+use crate::units::kind::{ANGLE, FORCE, GAIN, LENGTH, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 
 /// The most cycles that are followed: each has its corners.
 const MOST_CYCLES: f64 = 1000.0;
@@ -49,7 +50,7 @@ pub(super) fn control(
     simulation: &Section,
     around: Around,
     (at, duration): (Shaft, f64),
-    torque: &Characteristic,
+    torque: Option<&Characteristic>,
 ) -> Result<Option<Control>> {
     let Some(item) = simulation.get("control") else {
         return Ok(None);
@@ -79,7 +80,9 @@ pub(super) fn control(
             )
             .help("remove `at`: torque, speed and gains are those of the motor shaft"));
     }
-    limits(&item, torque)?;
+    if let Some(torque) = torque {
+        limits(&item, torque)?;
+    }
     let kind = if around.pushes() {
         &VISCOUS_FORCE
     } else {
@@ -174,35 +177,37 @@ pub(super) fn end_stops(
         return Ok(None);
     };
     let section = around.part(&item, "[simulation.end_stops]")?;
-    let kind = around.drive.position();
+    let places = Places::of(around);
+    let kind = if places.is_length() { &LENGTH } else { &ANGLE };
     let example = format!("at = [\"{}\", \"{}\"]", kind.example, kind.example);
     let at = section.require("at", &example)?;
-    let [lower, upper] = at.pair([kind, kind])?;
-    let [from, to] = [lower.si, upper.si];
-    if from >= to {
+    let ends = at.list("position", &example)?;
+    let [first, second] = ends.as_slice() else {
+        return Err(at
+            .problem(
+                &format!("has {} positions, but must have 2", ends.len()),
+                "here",
+            )
+            .help(format!("give the lower and the upper stop: {example}")));
+    };
+    let [first, second] = [places.position(first)?, places.position(second)?];
+    if first.value.si >= second.value.si {
         return Err(at
             .problem(
                 &format!(
                     "is {} to {}: the first must be below the second",
-                    lower.shown(),
-                    upper.shown()
+                    first.value.shown(),
+                    second.value.shown()
                 ),
                 "in this order",
             )
             .help("give the lower stop first"));
     }
-    for end in [&lower, &upper] {
-        if !around.drive.reaches(end.si) {
-            let what = format!(
-                "is {}, outside the stroke, {}",
-                end.shown(),
-                around.drive.range()
-            );
-            return Err(end
-                .problem(&what, "out of reach")
-                .help("place the end stops within the stroke"));
-        }
-    }
+    let cure = "place the end stops within the stroke";
+    let reached = |given: &Given| places.reached(given, "out of reach", cure);
+    let [first, second] = [reached(&first)?, reached(&second)?];
+    // An axis may count against its drive link.
+    let [from, to] = [first.min(second), first.max(second)];
     if !(from..=to).contains(&start) {
         return Err(at
             .problem("does not contain the start", "between these stops")

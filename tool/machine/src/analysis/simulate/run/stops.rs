@@ -45,11 +45,15 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         let Some(stops) = self.stops else {
-            let coordinate = self.file.machine.mechanism().coordinate();
+            let axis = self.file.axis();
             return Err(SimulationError::EndOfStroke {
                 t,
-                end: coordinate.place(stop),
-                speed: format!("{} {}", short(omega.abs()), coordinate.speed_unit()),
+                end: axis.place(stop),
+                speed: format!(
+                    "{} {}",
+                    short(axis.rate(omega.abs())),
+                    axis.coordinate.speed_unit()
+                ),
             });
         };
         let restitution = stops.restitution;

@@ -1,0 +1,128 @@
+//! What a motor does on its way through a simulation, and who looks at it.
+
+use crate::analysis::simulate::simulated::{Following, TorqueLimit};
+use crate::number::columns::Column;
+use crate::number::numerics;
+
+/// Between two of the integrator's steps the motor is looked at this many times.
+pub(super) const PARTS: u32 = 4;
+
+/// What a motor does at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Working {
+    /// Position of the drive link (rad, or m).
+    pub phi: f64,
+    /// Speed of the motor (rad/s).
+    pub speed: f64,
+    /// Its torque (N·m).
+    pub torque: f64,
+    /// The torque that a controller asks for; without one, its torque.
+    pub asked: f64,
+    /// Torque at the input of the drive train, behind the motor's gearbox (N·m). At rest, where friction holds an unknown share of it, all that the
+    /// motor gives.
+    pub input_torque: f64,
+    /// Reference less position (rad, or m), under a controller.
+    pub error: Option<f64>,
+}
+
+impl Working {
+    /// Whether it gives less than it is asked for.
+    pub fn is_limited(&self) -> bool {
+        self.torque.total_cmp(&self.asked).is_ne()
+    }
+}
+
+/// What follows a motor through a simulation, piece by piece, and adds columns to its rows.
+pub trait Observer {
+    /// The columns.
+    fn columns(&self) -> Vec<Column>;
+
+    /// A piece of the way, so short that everything runs nearly straight: from one time (s) to the next.
+    fn pass(&mut self, from: (f64, Working), to: (f64, Working));
+
+    /// The figures at the end of the last piece, as many as columns; `now` is the motor's state there.
+    fn figures(&self, now: &Working) -> Vec<f64>;
+}
+
+/// Nobody looks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nobody;
+
+impl Observer for Nobody {
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+    fn pass(&mut self, _: (f64, Working), _: (f64, Working)) {}
+    fn figures(&self, _: &Working) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// How long a controlled motor is at the limit of its torque, and how far the machine is off its reference.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Controlling {
+    pub(super) limit: Option<TorqueLimit>,
+    pub(super) following: Option<Following>,
+    limited: bool,
+}
+
+impl Controlling {
+    /// A piece of the way between two instants; `at` gives the states within, by their share of it.
+    pub(super) fn pass<E>(
+        &mut self,
+        [start, end]: [f64; 2],
+        [from, to]: [Working; 2],
+        at: impl Fn(f64) -> Result<Working, E>,
+    ) -> Result<(), E> {
+        self.follow(start, &from);
+        self.follow(end, &to);
+        let (share, limited) = match [from, to].map(|working| working.is_limited()) {
+            [false, false] => {
+                self.limited = false;
+                return Ok(());
+            }
+            [true, true] => ([0.0, 1.0], true),
+            [false, true] => {
+                let free = |share: f64| Ok(!at(share)?.is_limited());
+                ([numerics::edge(free, 0.0, 1.0)?, 1.0], true)
+            }
+            [true, false] => {
+                let limited = |share: f64| Ok(at(share)?.is_limited());
+                ([0.0, numerics::edge(limited, 0.0, 1.0)?], false)
+            }
+        };
+        let [begin, stop] = share.map(|share| start + share * (end - start));
+        let again = self.limited && from.is_limited();
+        let phi = if share[0] > 0.0 {
+            at(share[0])?.phi
+        } else {
+            from.phi
+        };
+        let limit = self.limit.get_or_insert(TorqueLimit {
+            time: begin,
+            position: phi,
+            count: 0,
+            duration: 0.0,
+        });
+        limit.count += u32::from(!again);
+        limit.duration += stop - begin;
+        self.limited = limited;
+        Ok(())
+    }
+
+    fn follow(&mut self, t: f64, working: &Working) {
+        let Some(error) = working.error else { return };
+        let largest = self.following.get_or_insert(Following {
+            time: t,
+            position: working.phi,
+            error,
+        });
+        if error.abs() > largest.error.abs() {
+            *largest = Following {
+                time: t,
+                position: working.phi,
+                error,
+            };
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Positions and speeds of a simulation: those of the axis, or of the drive link where its units are others.
+
+use jred::Domain;
+
+use super::Around;
+use crate::model::axis::Axis;
+use crate::model::coordinate::Coordinate;
+use crate::number::rounding::figure;
+use crate::read::drive_link::DriveLink;
+use crate::text::item::{Item, Value};
+use crate::text::problem::Result;
+
+/// The axis of a machine and its drive link.
+#[derive(Clone, Copy)]
+pub(super) struct Places {
+    drive: DriveLink,
+    axis: Axis,
+}
+
+/// What was given, and what it is at the drive link.
+pub(super) struct Given {
+    pub(super) value: Value,
+    /// At the drive link.
+    pub(super) drive: f64,
+    /// Whether it was given as one of the axis.
+    of_axis: bool,
+}
+
+impl Places {
+    pub(super) fn of(around: Around) -> Self {
+        Self {
+            drive: around.drive,
+            axis: Axis::of(around.motion, around.drive.coordinate),
+        }
+    }
+
+    /// The drive link as if its coordinate was that of the axis: for kinds of quantities.
+    fn spoken(&self) -> DriveLink {
+        DriveLink {
+            coordinate: self.axis.coordinate,
+            ..self.drive
+        }
+    }
+
+    /// Whether people speak of another coordinate than the drive link's.
+    pub(super) fn has_axis(&self) -> bool {
+        self.axis != Axis::of_drive(self.drive.coordinate)
+    }
+
+    /// Whether it is a length that they speak of.
+    pub(super) fn is_length(&self) -> bool {
+        self.axis.coordinate == Coordinate::Length
+    }
+
+    /// A position of the axis, or of the drive link where the unit says so.
+    pub(super) fn position(&self, item: &Item) -> Result<Given> {
+        let spoken = item.quantity(self.spoken().position());
+        self.either(
+            spoken,
+            || item.quantity(self.drive.position()),
+            |si| self.axis.drive_position(si),
+        )
+    }
+
+    /// A position of the drive link.
+    pub(super) fn drive_position(&self, item: &Item) -> Result<Given> {
+        let value = item.quantity(self.drive.position())?;
+        Ok(Given {
+            drive: value.si,
+            value,
+            of_axis: false,
+        })
+    }
+
+    /// A speed of the axis, or of the drive link where the unit says so.
+    pub(super) fn speed(&self, item: &Item) -> Result<Given> {
+        let spoken = item.quantity(self.spoken().speed());
+        self.either(
+            spoken,
+            || item.quantity(self.drive.speed()),
+            |si| self.axis.drive_speed(si),
+        )
+    }
+
+    /// What is read as a quantity of the axis, else, if the drive link has other units, as one of that.
+    fn either(
+        &self,
+        spoken: Result<Value>,
+        drive: impl Fn() -> Result<Value>,
+        at_drive: impl Fn(f64) -> f64,
+    ) -> Result<Given> {
+        let other = self.axis.coordinate != self.drive.coordinate;
+        match spoken {
+            Err(_) if other && drive().is_ok() => {
+                let value = drive()?;
+                Ok(Given {
+                    drive: value.si,
+                    value,
+                    of_axis: false,
+                })
+            }
+            spoken => {
+                let value = spoken?;
+                Ok(Given {
+                    drive: at_drive(value.si),
+                    value,
+                    of_axis: true,
+                })
+            }
+        }
+    }
+
+    /// Refuses a position that the stroke does not contain; a rounding beyond an end is the end.
+    pub(super) fn reached(&self, given: &Given, label: &str, cure: &str) -> Result<f64> {
+        if !self.drive.reaches(given.drive) {
+            let range = match self.axis.range(self.drive.domain) {
+                Some([from, to]) if given.of_axis => {
+                    let shown = |si: f64| figure(self.axis.coordinate.shown(si));
+                    let unit = self.axis.coordinate.unit();
+                    format!("{} {unit} to {} {unit}", shown(from), shown(to))
+                }
+                _ => self.drive.range(),
+            };
+            let what = format!("is {}, outside the stroke, {range}", given.value.shown());
+            return Err(given.value.problem(&what, label).help(cure.to_owned()));
+        }
+        Ok(match self.drive.domain {
+            Domain::Stroke { from, to } if given.of_axis => given.drive.clamp(from, to),
+            _ => given.drive,
+        })
+    }
+}

@@ -1,0 +1,375 @@
+//! The free motion of a machine under a drive of the catalogue: its torque within its envelope, its rotor, gearbox and losses.
+//!
+//! ```text
+//! T = c·x,   x = (i·α, τ₊, τ₋, i·ω, sgn ω)          the motor, in front of the drive train ([`Coefficients`])
+//! −T_brake(n) ≤ T ≤ T_drive(n)                     its envelope, in the direction in which it turns
+//! ```
+//!
+//! Without a controller the motor gives all it has up to its largest speed, and holds that. Where the envelope drops, there and between two
+//! of its pieces, the torque falls over the last thousandth of the speed; beyond the largest speed the motor brakes, with its full braking torque from a
+//! thousandth above. So the equations stay continuous, and a machine that is as fast as its motor can be is a steady state.
+
+use jred_machine::analysis::simulate::{
+    Observer, Simulated, SimulationError, Working, simulate_under,
+};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motor::{Coefficients, Motor};
+use jred_machine::model::simulation::{Shaft, Simulation};
+use jred_machine::number::columns::{Column, Quantity};
+use jred_machine::units::RPM;
+use jred_sizing::catalogue::{Drive, MotorKind};
+use jred_sizing::motor::envelope::{Limit, Prepared};
+use jred_sizing::thermal::course::Course;
+use jred_sizing::thermal::network::{Network, Rise};
+use jred_sizing::thermal::{Model, allowed_rise};
+
+use crate::way::Actuator;
+
+/// Share of the speed over which the torque falls where the envelope drops.
+pub const EASE: f64 = 1e-3;
+
+/// Why a drive cannot be simulated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unfit {
+    /// Its peak torque is not known.
+    NoPeak,
+    /// Its gearbox locks itself.
+    SelfLocking {
+        /// The gearbox.
+        gearbox: String,
+    },
+}
+
+/// A motion under a drive.
+#[derive(Debug)]
+pub struct Driven {
+    /// The motion.
+    pub simulated: Simulated,
+    /// What the drive bears.
+    pub loads: Loads,
+}
+
+/// The largest value of something that a drive bears, and what it may bear.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peak {
+    /// Its time (s).
+    pub time: f64,
+    /// Its position (rad, or m, of the drive link).
+    pub phi: f64,
+    /// The value.
+    pub value: f64,
+    /// What is allowed, if that is known.
+    pub allowed: Option<f64>,
+}
+
+impl Peak {
+    fn see(&mut self, time: f64, phi: f64, value: f64) {
+        if value > self.value {
+            *self = Self {
+                time,
+                phi,
+                value,
+                ..*self
+            };
+        }
+    }
+
+    /// Whether more is borne than is allowed.
+    pub fn exceeds(&self) -> bool {
+        self.allowed.is_some_and(|allowed| self.value > allowed)
+    }
+}
+
+/// What a drive bears over a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// Torque of the gearbox output (N·m), against its acceleration torque.
+    pub gearbox_torque: Option<Peak>,
+    /// Speed of the motor (rad/s), against the largest input speed of the gearbox.
+    pub motor_speed: Peak,
+    /// The winding, or the motor as a whole: its rise above the surroundings (K), from cold; or a share of the rated rise.
+    pub heat: Option<Heat>,
+}
+
+/// How warm the motor gets, which is cold at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heat {
+    /// The hottest, above the surroundings (K), or a share of the rated rise.
+    pub hottest: Peak,
+    /// Whether rises are shares of the rated one.
+    pub relative: bool,
+}
+
+/// The motor of a drive.
+struct DriveMotor<'a> {
+    actuator: &'a Actuator,
+    /// +1 or −1: the way it drives without a controller.
+    sense: f64,
+}
+
+/// The largest torque as a motor (N·m) at a speed (not negative), which falls over the last of each piece that drops.
+fn eased(limit: &Limit, speed: f64) -> f64 {
+    let pieces = limit.pieces();
+    let Some(k) = pieces.iter().position(|piece| speed <= piece.to) else {
+        return 0.0;
+    };
+    let piece = &pieces[k];
+    let next = pieces.get(k + 1).map_or(0.0, |next| next.torque(next.from));
+    let from = piece.from.max(piece.to * (1.0 - EASE));
+    if !piece.to.is_finite() || speed <= from || piece.torque(piece.to) <= next {
+        return piece.torque(speed);
+    }
+    let share = (speed - from) / (piece.to - from);
+    piece.torque(from) * (1.0 - share) + next * share
+}
+
+impl DriveMotor<'_> {
+    /// Least and largest torque along a motion (speed not negative).
+    fn along(&self, speed: f64) -> [f64; 2] {
+        let envelope = &self.actuator.envelope;
+        let braking = envelope.limit(true);
+        [
+            -braking.torque(speed.min(braking.end())),
+            eased(envelope.limit(false), speed),
+        ]
+    }
+}
+
+impl Motor for DriveMotor<'_> {
+    fn coefficients(&self) -> Coefficients {
+        self.actuator.coefficients
+    }
+
+    fn ratio(&self) -> f64 {
+        self.actuator.ratio
+    }
+
+    fn torque(&self, speed: f64) -> f64 {
+        let along = speed * self.sense;
+        let end = self.actuator.envelope.limit(false).end();
+        let [least, most] = self.along(along.abs());
+        let torque = if along < 0.0 {
+            -least
+        } else if along <= end {
+            most
+        } else {
+            least * ((along - end) / (EASE * end)).min(1.0)
+        };
+        torque * self.sense
+    }
+
+    fn limits(&self, speed: f64) -> [f64; 2] {
+        let [least, most] = self.along(speed.abs());
+        if speed < 0.0 {
+            [-most, -least]
+        } else {
+            [least, most]
+        }
+    }
+}
+
+/// Looks at what the drive bears.
+struct Watch<'a> {
+    drive: Drive<'a>,
+    prepared: &'a Prepared,
+    loads: Loads,
+    warming: Option<Warming>,
+    ambient: f64,
+}
+
+/// A motor that heats up.
+struct Warming {
+    model: Model,
+    network: Network,
+    rise: Rise,
+    relative: bool,
+    /// Whether the housing has a temperature of its own that is followed.
+    housing: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(drive: Drive<'a>, prepared: &'a Prepared, file: &MachineFile, duration: f64) -> Self {
+        let surroundings = &file.site.surroundings;
+        let model = Model::of(drive.motor, prepared, surroundings, duration).ok();
+        let warming = model.and_then(|model| {
+            let network = model.network()?;
+            let (relative, housing) = match model {
+                Model::Bodies {
+                    follows_housing, ..
+                } => (false, follows_housing && network.has_housing()),
+                Model::Steady { .. } | Model::Relative { .. } => (true, false),
+            };
+            Some(Warming {
+                model,
+                network,
+                rise: [0.0; 2],
+                relative,
+                housing,
+            })
+        });
+        let heat = warming.as_ref().map(|warming| Heat {
+            hottest: Peak {
+                allowed: allowed_rise(drive.motor, surroundings, warming.relative),
+                ..Peak::default()
+            },
+            relative: warming.relative,
+        });
+        let gearbox_torque = drive.gearbox.map(|gearbox| Peak {
+            allowed: gearbox.peak_torque,
+            ..Peak::default()
+        });
+        let motor_speed = Peak {
+            allowed: drive.gearbox.and_then(|gearbox| gearbox.max_speed),
+            ..Peak::default()
+        };
+        Self {
+            drive,
+            prepared,
+            loads: Loads {
+                gearbox_torque,
+                motor_speed,
+                heat,
+            },
+            warming,
+            ambient: surroundings.ambient,
+        }
+    }
+
+    fn see(&mut self, time: f64, working: &Working) {
+        if let Some(peak) = &mut self.loads.gearbox_torque {
+            peak.see(time, working.phi, working.input_torque.abs());
+        }
+        let speed = working.speed.abs();
+        self.loads.motor_speed.see(time, working.phi, speed);
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn columns(&self) -> Vec<Column> {
+        let (unit, whole) = match self.drive.motor.kind {
+            MotorKind::Rotary => ("rpm", "motor speed"),
+            MotorKind::Linear => ("m/s", "motor speed"),
+        };
+        let mut columns = vec![Column::other(whole, unit)];
+        if self.drive.gearbox.is_some() {
+            columns.push(Column::new(Quantity::Other, "gearbox torque", "N m"));
+        }
+        match &self.warming {
+            Some(warming) if warming.relative => columns.push(Column::other("rated rise", "%")),
+            Some(warming) => {
+                let whole = !warming.network.has_housing();
+                let name = if whole { "motor" } else { "winding" };
+                columns.push(Column::other(name, "degC"));
+                if warming.housing {
+                    columns.push(Column::other("housing", "degC"));
+                }
+            }
+            None => {}
+        }
+        columns
+    }
+
+    fn pass(&mut self, (start, from): (f64, Working), (end, to): (f64, Working)) {
+        self.see(start, &from);
+        self.see(end, &to);
+        let Some(warming) = &mut self.warming else {
+            return;
+        };
+        let length = end - start;
+        let point = |t: f64, working: &Working| {
+            let state = [working.torque, working.speed];
+            (warming.model).point(self.drive.motor, self.prepared, t, state)
+        };
+        let course = Course::new(vec![point(0.0, &from), point(length, &to)], length);
+        let (hottest, now) = course.follow(&warming.network, warming.rise, length);
+        warming.rise = now;
+        if let Some(heat) = &mut self.loads.heat {
+            heat.hottest.see(end, to.phi, hottest[0]);
+        }
+    }
+
+    fn figures(&self, now: &Working) -> Vec<f64> {
+        let per = match self.drive.motor.kind {
+            MotorKind::Rotary => RPM,
+            MotorKind::Linear => 1.0,
+        };
+        let mut figures = vec![now.speed / per];
+        if self.drive.gearbox.is_some() {
+            figures.push(now.input_torque);
+        }
+        if let Some(warming) = &self.warming {
+            let [winding, housing] = warming.rise;
+            if warming.relative {
+                figures.push(100.0 * winding);
+            } else {
+                figures.push(self.ambient + winding);
+                if warming.housing {
+                    figures.push(self.ambient + housing);
+                }
+            }
+        }
+        figures
+    }
+}
+
+/// The simulation of a file with a drive in the place of its motor: without a controller its full torque, the way in which the
+/// file's own motor drives, else the way of `start_speed`, else towards growing positions; with one, the drive limits the controller's torque. The motor
+/// is as warm as the surroundings at the start.
+///
+/// Accuracy: that of [`simulate_under`]; the temperature follows straight lines of the torque between a quarter of the integrator's steps.
+///
+/// # Errors
+/// A drive that cannot be simulated, or those of the machine at the start.
+pub fn driven(
+    file: &MachineFile,
+    simulation: &Simulation,
+    drive: Drive<'_>,
+) -> Result<Result<Driven, SimulationError>, Unfit> {
+    let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    let actuator = Actuator::new(&drive, prepared.envelope.clone());
+    let limits = [true, false].map(|braking| actuator.envelope.limit(braking));
+    let known = |limit: &&Limit| {
+        let pieces = limit.pieces();
+        !pieces.is_empty()
+            && pieces
+                .iter()
+                .all(|piece| piece.torque(piece.from).is_finite())
+    };
+    if !limits.iter().all(known) {
+        return Err(Unfit::NoPeak);
+    }
+    if let Some(gearbox) = drive
+        .gearbox
+        .filter(|gearbox| gearbox.back_efficiency < 0.0)
+    {
+        return Err(Unfit::SelfLocking {
+            gearbox: gearbox.key.clone(),
+        });
+    }
+    let motor = DriveMotor {
+        actuator: &actuator,
+        sense: sense(file, simulation),
+    };
+    let at_motor = Simulation {
+        at: Shaft::Motor,
+        ..simulation.clone()
+    };
+    let mut watch = Watch::new(drive, &prepared, file, simulation.duration);
+    let simulated = simulate_under(file, &at_motor, &motor, &mut watch);
+    Ok(simulated.map(|simulated| Driven {
+        simulated,
+        loads: watch.loads,
+    }))
+}
+
+/// The way of the motor without a controller.
+fn sense(file: &MachineFile, simulation: &Simulation) -> f64 {
+    let ratio = file.drive_train.ratio().signum();
+    let own = simulation.torque.as_ref().map(|own| own.torque(0.0));
+    match (own.filter(|torque| *torque != 0.0), simulation.at) {
+        (Some(torque), Shaft::Motor) => torque.signum(),
+        (Some(torque), Shaft::DriveLink) => torque.signum() * ratio,
+        (None, _) if simulation.start_speed < 0.0 => -ratio,
+        (None, _) => ratio,
+    }
+}
