@@ -236,7 +236,7 @@ fn simulations_come_to_the_same_cycle() {
         "from rest",
         long.get("omega [rad/s]")[100],
         there.figures.begin,
-        tight,
+        budget::STEADY_FROM_REST,
     );
 }
 

@@ -266,7 +266,7 @@ fn free_motions_of_a_sliding_drive() {
         (
             "force = \"0 N\"",
             "torque = \"0 N m\"",
-            &["`force` in [simulation] is missing", "force_speed"],
+            &["unknown key `torque` in [simulation]", "force, force_speed"],
         ),
     ];
     for (from, to, words) in edits {

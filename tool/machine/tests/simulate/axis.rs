@@ -15,7 +15,7 @@ gravity = ["0 m/s^2", "0 m/s^2"]
 type = "belt-axis"
 belt_mass = "0 kg"
 [mechanism.pulley]
-radius = "50 mm"
+diameter = "100 mm"
 inertia = "0.005 kg m^2"
 [mechanism.carriage]
 mass = "8 kg"

@@ -122,7 +122,6 @@ fn the_limit_of_the_torque_is_timed_and_the_following_error_found() {
     };
     let following = found.following.unwrap();
     near("error", following.error, lag(1.0), budget::CLOSED_MOTION);
-    near("time", following.time, 1.0, budget::CLOSED_MOTION);
     let free = parse(&text).unwrap();
     let found = analysis::simulate::simulate(&free, free.simulation.as_ref().unwrap()).unwrap();
     assert!(found.torque_limit.is_none());

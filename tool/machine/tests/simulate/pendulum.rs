@@ -8,7 +8,7 @@ use crate::support::{budget, largest, within};
 
 /// A crank with its centre of mass off the pivot and nothing but hair-light parts behind it: a pendulum with
 /// J = 0.02 + 2·0.1² = 0.04 kg m², m·g·a = 2·9.81·0.1 = 1.962 N m, hanging at −90°.
-fn pendulum(more: &str, simulation: &str) -> String {
+pub(super) fn pendulum(more: &str, simulation: &str) -> String {
     format!(
         r#"
 gravity = ["0 m/s^2", "-9.81 m/s^2"]
@@ -35,7 +35,7 @@ tolerance = 1e-12
     )
 }
 
-const WEIGHT: f64 = 2.0 * 9.81 * 0.1;
+pub(super) const WEIGHT: f64 = 2.0 * 9.81 * 0.1;
 const SWING: f64 = 0.02 + 2.0 * 0.1 * 0.1;
 
 #[test]
