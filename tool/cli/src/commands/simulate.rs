@@ -40,11 +40,12 @@ pub(super) fn run(options: &options::Simulate) -> Result<Done> {
     };
     let asked = [options.points, options.reactions];
     if asked.contains(&true) {
-        let columns = std::mem::take(&mut found.columns);
-        found.columns = add_columns(&file, columns, &found.states, asked).map_err(core_report)?;
+        found.columns =
+            add_columns(&file, &found.columns, &found.states, asked).map_err(core_report)?;
     }
     if let Some(path) = &options.plot {
-        let page = page::simulation_page(&file, simulation, &found.columns);
+        let columns = found.columns_of_drive(file.machine.mechanism().coordinate());
+        let page = page::simulation_page(&file, simulation, &columns);
         output::write(path, page.as_bytes())?;
     }
     let shown = list::simulation::Shown {

@@ -10,12 +10,44 @@ fn simulate() {
     };
     let desk = Desk::new()
         .with("press.toml", short("press.toml"))
-        .with("variator-press.toml", short("variator-press.toml"));
+        .with("variator-press.toml", short("variator-press.toml"))
+        .with(
+            "axis.toml",
+            Desk::machine("vertical-axis.toml").replace("output_step = \"5 ms\"", "output_step = \"100 ms\""),
+        )
+        .with(
+            "weak.toml",
+            short("press.toml").replace("torque_speed = [[\"0 rpm\", \"60 N m\"], [\"500 rpm\", \"45 N m\"], [\"800 rpm\", \"0 N m\"]]", ""),
+        );
     compare(
         "simulate",
         &desk.runs(&[
             &["simulate", "press.toml"],
             &["simulate", "variator-press.toml"],
+            &["simulate", "axis.toml"],
+            &["simulate", "axis.toml", "--drive", "sgmsh-10a"],
+            &[
+                "simulate",
+                "axis.toml",
+                "--drive",
+                "sgmah-a3a",
+                "--format",
+                "json",
+            ],
+            &["simulate", "weak.toml"],
+            &[
+                "simulate",
+                "weak.toml",
+                "--drive",
+                "sgmsh-10a",
+                "--reactions",
+                "--format",
+                "csv",
+            ],
+            &["simulate", "weak.toml", "--drive", "sgmsh-10a"],
+            &["simulate", "weak.toml", "--drive", "none"],
+            &["simulate", "variator-press.toml", "--drive", "sgmsh-10a"],
+            &["steady", "weak.toml"],
         ]),
     );
 }

@@ -247,7 +247,7 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
 /// Those of the machine.
 pub fn add_columns(
     file: &MachineFile,
-    columns: Columns,
+    columns: &Columns,
     states: &[[f64; 3]],
     [points, reactions]: [bool; 2],
 ) -> Result<Columns, Error> {

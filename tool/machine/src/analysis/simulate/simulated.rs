@@ -1,6 +1,7 @@
 //! What a simulation gives.
 
 use super::SimulationError;
+use crate::model::coordinate::Coordinate;
 use crate::number::columns::Columns;
 
 /// A motion, as far as it came.
@@ -91,6 +92,25 @@ pub struct Following {
 }
 
 impl Simulated {
+    /// The columns with position, speed and acceleration of the drive link, whatever people speak of: for figures over its angle.
+    pub fn columns_of_drive(&self, drive: Coordinate) -> Columns {
+        let [speed, acceleration] = drive.rates();
+        let own = [drive.column(), speed, acceleration];
+        let heads = self.columns.heads();
+        let is_own = |k: usize| k.checked_sub(1).filter(|k| *k < own.len());
+        let heads = (heads.iter().enumerate()).map(|(k, head)| match is_own(k) {
+            Some(k) => own[k].clone(),
+            None => head.clone(),
+        });
+        let mut columns = Columns::new(heads);
+        for (row, [phi, omega, alpha]) in self.columns.rows().iter().zip(&self.states) {
+            let state = [drive.shown(*phi), *omega, *alpha];
+            let cells = row.iter().enumerate();
+            columns.push(cells.map(|(k, cell)| is_own(k).map_or(*cell, |k| Some(state[k]))));
+        }
+        columns
+    }
+
     /// The columns of a motion that came to its end.
     ///
     /// # Errors
