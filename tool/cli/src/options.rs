@@ -219,8 +219,13 @@ pub struct Rules {
 /// `jred simulate`
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Machine file, with a `[simulation]`.
-    pub file: PathBuf,
+    /// Machine file, with a `[simulation]`. Further ones are machines on the same motor shaft, each behind its own drive train, whose drive links start
+    /// where their `[simulation]` says.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// By how much a further machine's drive link is ahead of that start, e.g. "180 deg"; one for each of them, in their order.
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
+    pub phase: Vec<f64>,
     /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
     /// full torque.
     #[arg(long, value_name = "MOTOR+GEARBOX")]

@@ -12,6 +12,7 @@ mod parting;
 mod pendulum;
 mod refusals;
 mod stops;
+mod together;
 
 use std::f64::consts::{PI, TAU};
 

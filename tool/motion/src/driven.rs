@@ -10,7 +10,7 @@
 //! thousandth above. So the equations stay continuous, and a machine that is as fast as its motor can be is a steady state.
 
 use jred_machine::analysis::simulate::{
-    Observer, Simulated, SimulationError, Working, simulate_under,
+    Observer, Simulated, SimulationError, Together, Working, simulate_under,
 };
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motor::{Coefficients, Motor};
@@ -312,7 +312,7 @@ impl Observer for Watch<'_> {
     }
 }
 
-/// The simulation of a file with a drive in the place of its motor: without a controller its full torque, the way in which the
+/// The simulation of machines with a drive in the place of the first one's motor: without a controller its full torque, the way in which the
 /// file's own motor drives, else the way of `start_speed`, else towards growing positions; with one, the drive limits the controller's torque. The motor
 /// is as warm as the surroundings at the start.
 ///
@@ -321,10 +321,11 @@ impl Observer for Watch<'_> {
 /// # Errors
 /// A drive that cannot be simulated, or those of the machine at the start.
 pub fn driven(
-    file: &MachineFile,
+    machines: &Together,
     simulation: &Simulation,
     drive: Drive<'_>,
 ) -> Result<Result<Driven, SimulationError>, Unfit> {
+    let file = machines.first;
     let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
     let actuator = Actuator::new(&drive, prepared.envelope.clone());
     let limits = [true, false].map(|braking| actuator.envelope.limit(braking));
@@ -355,7 +356,7 @@ pub fn driven(
         ..simulation.clone()
     };
     let mut watch = Watch::new(drive, &prepared, file, simulation.duration);
-    let simulated = simulate_under(file, &at_motor, &motor, &mut watch);
+    let simulated = simulate_under(machines, &at_motor, &motor, &mut watch);
     Ok(simulated.map(|simulated| Driven {
         simulated,
         loads: watch.loads,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use jred::machine::motion::State;
+use jred_machine::analysis::simulate::Together;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_machine::units::RPM;
@@ -53,7 +54,9 @@ fn gearbox() -> Gearbox {
 
 fn run(file: &MachineFile, drive: Drive<'_>) -> Driven {
     let simulation = file.simulation.as_ref().unwrap();
-    driven(file, simulation, drive).unwrap().unwrap()
+    driven(&Together::alone(file), simulation, drive)
+        .unwrap()
+        .unwrap()
 }
 
 fn columns(driven: &Driven) -> Columns {
@@ -287,14 +290,14 @@ fn what_cannot_be_simulated_is_refused() {
         gearbox,
         amplifier: None,
     };
-    let refused = driven(&file, simulation, of(&unknown, None)).unwrap_err();
+    let refused = driven(&Together::alone(&file), simulation, of(&unknown, None)).unwrap_err();
     assert_eq!(refused, Unfit::NoPeak);
     let worm = Gearbox {
         back_efficiency: -0.2,
         ..gearbox()
     };
     let motor = motor();
-    let refused = driven(&file, simulation, of(&motor, Some(&worm))).unwrap_err();
+    let refused = driven(&Together::alone(&file), simulation, of(&motor, Some(&worm))).unwrap_err();
     let gearbox = "box".to_owned();
     assert_eq!(refused, Unfit::SelfLocking { gearbox });
 }

@@ -7,10 +7,11 @@ use crate::commands::{Done, drive_named, envelope, print_parts};
 use crate::options;
 use crate::output;
 use jred_machine::analysis::reduce::add_columns;
-use jred_machine::analysis::simulate::{self, Simulated};
+use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
 use jred_machine::model::variator;
+use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::driven::{Loads, Unfit, driven};
@@ -22,34 +23,39 @@ use jred_report::page;
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::Simulate) -> Result<Done> {
-    let file = read::read(&options.file)?;
+    let Some((path, others)) = options.files.split_first() else {
+        return Err(miette!("no machine file is given"));
+    };
+    let file = read::read(path)?;
+    let others: Vec<MachineFile> = others
+        .iter()
+        .map(|path| read::read(path))
+        .collect::<Result<_>>()?;
     output::check([("--plot", &options.plot)])?;
     let simulation = file.simulation.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
             "{} has no [simulation]",
-            plain::path(&options.file)
+            plain::path(path)
         )
     })?;
+    let starts = starts(&others, &options.phase)?;
+    let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
     let (mut found, drive) = match &options.drive {
-        None => (simulate::simulate(&file, simulation)?, None),
+        None => (simulate::simulate_together(&machines, simulation)?, None),
         Some(name) => {
-            let (found, drive) = with_drive(options, name, &file, simulation)?;
+            let (found, drive) = with_drive(options, name, &machines, simulation)?;
             (found, Some(drive))
         }
     };
-    let asked = [options.points, options.reactions];
-    if asked.contains(&true) {
-        found.columns =
-            add_columns(&file, &found.columns, &found.states, asked).map_err(core_report)?;
-    }
+    add_forces(&mut found, &machines, [options.points, options.reactions])?;
     if let Some(path) = &options.plot {
         let columns = found.columns_of_drive(file.machine.mechanism().coordinate());
         let page = page::simulation_page(&file, simulation, &columns);
         output::write(path, page.as_bytes())?;
     }
     let shown = list::simulation::Shown {
-        file: &file,
+        machines: &machines,
         simulation,
         found: &found,
         drive: drive.as_ref().map(|(name, loads)| (name.as_str(), loads)),
@@ -59,18 +65,63 @@ pub(super) fn run(options: &options::Simulate) -> Result<Done> {
     found.ended.map_or(Ok(done), |error| Err(error.into()))
 }
 
+/// Where the drive links of further machines start.
+fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>> {
+    if !phases.is_empty() && phases.len() != others.len() {
+        return Err(miette!(
+            help = "give --phase once for each machine file after the first, in their order, \"0 deg\" if it has none",
+            "{} and {} were given",
+            counted(phases.len(), "--phase", "--phase"),
+            counted(others.len(), "further machine", "further machines")
+        ));
+    }
+    let start = |file: &MachineFile| match (&file.simulation, &file.motion) {
+        (Some(simulation), _) => simulation.start_angle,
+        (None, Some(motion)) => motion.at(0.0).phi,
+        (None, None) => 0.0,
+    };
+    let phases = phases.iter().copied().chain(std::iter::repeat(0.0));
+    Ok(others
+        .iter()
+        .zip(phases)
+        .map(|(file, phase)| start(file) + phase)
+        .collect())
+}
+
+/// Adds the columns of points and joint forces of each machine.
+fn add_forces(found: &mut Simulated, machines: &Together, asked: [bool; 2]) -> Result<()> {
+    if !asked.contains(&true) {
+        return Ok(());
+    }
+    for (k, machine) in machines.all().enumerate() {
+        let prefix = k
+            .checked_sub(1)
+            .map_or_else(String::new, |k| beside_name(k) + " ");
+        let states: Vec<[f64; 3]> = found
+            .states
+            .iter()
+            .map(|state| machine.state(*state))
+            .collect();
+        let wider = add_columns(machine.file, &found.columns, &states, (asked, &prefix));
+        found.columns = wider.map_err(core_report)?;
+    }
+    Ok(())
+}
+
 /// The motion under a drive of the catalogue, the name of that and what it bears.
 fn with_drive(
     options: &options::Simulate,
     name: &str,
-    file: &MachineFile,
+    machines: &Together,
     simulation: &Simulation,
 ) -> Result<(Simulated, (String, Loads))> {
+    let file = machines.first;
     variator::refuse(file, "simulate --drive")?;
     let chosen = drive_named(options.catalogue.open()?, name, file)?;
     let drive = chosen.drive();
     envelope(&drive, file);
-    let found = driven(file, simulation, drive).map_err(|unfit| refusal(&unfit, &drive.name()))?;
+    let found =
+        driven(machines, simulation, drive).map_err(|unfit| refusal(&unfit, &drive.name()))?;
     let found = found?;
     Ok((found.simulated, (drive.name(), found.loads)))
 }

@@ -11,6 +11,7 @@ fn simulate() {
     let desk = Desk::new()
         .with("press.toml", short("press.toml"))
         .with("variator-press.toml", short("variator-press.toml"))
+        .with("gripper.toml", Desk::machine("linear-gripper.toml"))
         .with(
             "axis.toml",
             Desk::machine("vertical-axis.toml").replace("output_step = \"5 ms\"", "output_step = \"100 ms\""),
@@ -48,6 +49,11 @@ fn simulate() {
             &["simulate", "weak.toml", "--drive", "none"],
             &["simulate", "variator-press.toml", "--drive", "sgmsh-10a"],
             &["steady", "weak.toml"],
+            &["simulate", "press.toml", "press.toml", "--phase", "90 deg"],
+            &["simulate", "press.toml", "press.toml", "--phase", "90"],
+            &["simulate", "press.toml", "--phase", "90 deg"],
+            &["simulate", "press.toml", "gripper.toml"],
+            &["simulate", "press.toml", "--drive", "sgm7j-a5a"],
         ]),
     );
 }

@@ -241,7 +241,8 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
     Ok(values)
 }
 
-/// Adds the columns of points, links and joint forces to rows of a motion, each with its φ, ω and α of the drive link.
+/// Adds the columns of points, links and joint forces to rows of a motion, each with its φ, ω and α of the drive link, under names that begin
+/// with `prefix`.
 ///
 /// # Errors
 /// Those of the machine.
@@ -249,7 +250,7 @@ pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
     states: &[[f64; 3]],
-    [points, reactions]: [bool; 2],
+    ([points, reactions], prefix): ([bool; 2], &str),
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
     let asked = Sets {
@@ -259,6 +260,11 @@ pub fn add_columns(
     };
     let sets = sets(&source, asked, [false, true])?;
     let heads = sets.iter().flat_map(|set| set.heads(&source));
+    let heads = heads.map(|head| Column {
+        part: format!("{prefix}{}", head.part),
+        name: format!("{prefix}{}", head.name),
+        ..head
+    });
     let mut wider = Columns::new(columns.heads().iter().cloned().chain(heads));
     for (row, [phi, omega, alpha]) in columns.rows().iter().zip(states) {
         let state = row_at(*phi, Some([*omega, *alpha]), None);

@@ -5,6 +5,7 @@
 
 mod control;
 mod error;
+mod geared;
 pub(super) mod machine;
 mod observe;
 pub(super) mod run;
@@ -13,6 +14,8 @@ mod variator;
 pub(super) mod watch;
 
 pub use error::SimulationError;
+pub use geared::{Geared, Together};
+pub use machine::beside_name;
 pub use observe::{Nobody, Observer, Working};
 pub use simulated::{Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit};
 
@@ -26,45 +29,56 @@ use crate::model::simulation::Simulation;
 /// # Errors
 /// No motor; those of the machine at the start.
 pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Simulated, SimulationError> {
-    let motor = simulation.own_motor().ok_or(SimulationError::NoMotor)?;
-    if let Some(variator) = &file.variator {
-        check(file)?;
-        let plant = variator::Plant::new(file, variator, simulation, motor)?;
-        return run::run(&plant, file, simulation, &mut Nobody);
-    }
-    simulate_under(file, simulation, &motor, &mut Nobody)
+    simulate_together(&Together::alone(file), simulation)
 }
 
-/// The same under another motor, which acts in front of the drive train; `observer` looks at it. Without a variator.
+/// The same with machines beside it on the motor's shaft.
 ///
 /// # Errors
-/// Those of the machine at the start.
+/// Those of [`simulate`].
+pub fn simulate_together(
+    machines: &Together,
+    simulation: &Simulation,
+) -> Result<Simulated, SimulationError> {
+    let motor = simulation.own_motor().ok_or(SimulationError::NoMotor)?;
+    let file = machines.first;
+    if let Some(variator) = &file.variator {
+        check(machines)?;
+        let plant = variator::Plant::new(file, variator, simulation, motor)?;
+        return run::run(&plant, simulation, &mut Nobody);
+    }
+    simulate_under(machines, simulation, &motor, &mut Nobody)
+}
+
+/// The same under another motor, which acts in front of the drive trains; `observer` looks at it. Without a variator.
+///
+/// # Errors
+/// Those of the machines at the start.
 pub fn simulate_under(
-    file: &MachineFile,
+    machines: &Together,
     simulation: &Simulation,
     motor: &impl Motor,
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
-    check(file)?;
-    match simulation.control.zip(file.motion.as_ref()) {
+    check(machines)?;
+    match simulation.control.zip(machines.first.motion.as_ref()) {
         Some((control, motion)) => run::run(
-            &control::Controlled::new(file, simulation, control, motion, motor)?,
-            file,
+            &control::Controlled::new(machines.clone(), simulation, control, motion, motor)?,
             simulation,
             observer,
         ),
         None => run::run(
-            &machine::Plant::new(file, simulation, motor),
-            file,
+            &machine::Plant::new(machines.clone(), simulation, motor),
             simulation,
             observer,
         ),
     }
 }
 
-/// Refuses a machine that goes by the motion of its file.
-fn check(file: &MachineFile) -> Result<(), SimulationError> {
-    match file.scheduled().next() {
+/// Refuses machines that go by the motion of their file.
+fn check(machines: &Together) -> Result<(), SimulationError> {
+    let mut all = machines.all();
+    match all.find_map(|machine| machine.file.scheduled().next()) {
         Some(what) => Err(SimulationError::Scheduled { what }),
         None => Ok(()),
     }

@@ -88,6 +88,14 @@ pub fn torque_argument(text: &str) -> Result<f64, String> {
     any(text, &TORQUE)
 }
 
+/// An angle of either sign, such as "90 deg" (rad).
+///
+/// # Errors
+/// A message for the command line.
+pub fn angle_argument(text: &str) -> Result<f64, String> {
+    any(text, &ANGLE)
+}
+
 /// A mass greater than zero, such as "12 kg" (kg).
 ///
 /// # Errors

@@ -32,9 +32,9 @@ mod variator;
 mod window;
 
 pub use argument::{
-    Reader, axis_position, drive_acceleration, drive_effort, drive_positions, drive_speed,
-    drive_states, inertia_argument, largest_acceleration, largest_speed, length_argument,
-    mass_argument, reserve_argument, share_argument, torque_argument,
+    Reader, angle_argument, axis_position, drive_acceleration, drive_effort, drive_positions,
+    drive_speed, drive_states, inertia_argument, largest_acceleration, largest_speed,
+    length_argument, mass_argument, reserve_argument, share_argument, torque_argument,
 };
 pub use mechanism::mechanism_types;
 

@@ -18,7 +18,7 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let file = parse(&text).unwrap();
     let found = simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
     let narrow = found.columns.heads().len();
-    let all = add_columns(&file, &found.columns, &found.states, [true, true]).unwrap();
+    let all = add_columns(&file, &found.columns, &found.states, ([true, true], "")).unwrap();
     let at: Vec<At> = (found.states.iter())
         .map(|[phi, omega, alpha]| At {
             phi: *phi,

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
-use jred_machine::analysis::simulate::Simulated;
+use jred_machine::analysis::simulate::{Simulated, Together};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
@@ -14,8 +14,8 @@ use jred_motion::driven::{Loads, Peak};
 /// A simulated motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'s> {
-    /// The machine.
-    pub file: &'s MachineFile,
+    /// The machines on the motor's shaft.
+    pub machines: &'s Together<'s>,
     /// What was asked for.
     pub simulation: &'s Simulation,
     /// The motion.
@@ -43,9 +43,7 @@ impl<'s> Shown<'s> {
     }
 
     fn title(&self) -> String {
-        let Self {
-            file, simulation, ..
-        } = self;
+        let simulation = self.simulation;
         let kind = if simulation.control.is_some() {
             "motion under its controller"
         } else {
@@ -54,15 +52,17 @@ impl<'s> Shown<'s> {
         let drive = self
             .drive
             .map_or_else(String::new, |(name, _)| format!(" with the drive {name}"));
+        let titles: Vec<&str> = self.machines.all().map(|m| m.file.title.as_str()).collect();
         format!(
             "{}: {kind}{drive}, Dormand-Prince 8(5,3), tolerance {:e}",
-            file.title, simulation.tolerance
+            titles.join(" + "),
+            simulation.tolerance
         )
     }
 
     /// What happened on the way, sentence by sentence.
     fn sentences(&self) -> Vec<String> {
-        let axis = self.file.axis();
+        let axis = self.machines.first.axis();
         let effort = self.effort_unit();
         let mut lines = Vec::new();
         if let Some(stuck) = self.found.missing {
@@ -87,7 +87,7 @@ impl<'s> Shown<'s> {
             ));
         }
         if let Some((_, loads)) = self.drive {
-            lines.extend(drive_sentences(loads, &axis, self.file));
+            lines.extend(drive_sentences(loads, &axis, self.machines.first));
         }
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
@@ -99,7 +99,7 @@ impl<'s> Shown<'s> {
     }
 
     fn slides(&self) -> bool {
-        self.simulation.drives_a_slide(self.file)
+        self.simulation.drives_a_slide(self.machines.first)
     }
 
     fn torque_limit(&self, axis: &Axis) -> Option<String> {
@@ -118,7 +118,7 @@ impl<'s> Shown<'s> {
 
     /// The same for JSON.
     fn figures(&self) -> Map<String, Value> {
-        let axis = self.file.axis();
+        let axis = self.machines.first.axis();
         let unit = axis.coordinate.unit();
         let (position, speed, way) = (
             format!("position [{unit}]"),

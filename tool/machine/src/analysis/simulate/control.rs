@@ -4,6 +4,7 @@ use jred::machine::motion::State as Reference;
 use jred::{Error, Reducible as _};
 
 use super::SimulationError;
+use super::geared::Together;
 use super::machine::{Instant, Plant};
 use super::observe::Working;
 use super::run::{self, Row};
@@ -30,7 +31,8 @@ pub(super) struct Controlled<'a, M> {
     axis: Axis,
     /// By how much the position advances in a cycle of the reference.
     advance: f64,
-    mean_inertia: f64,
+    /// Of each machine, at its drive link.
+    mean_inertia: Vec<f64>,
 }
 
 /// What the controller does at a state.
@@ -45,30 +47,25 @@ struct Command {
 
 impl<'a, M: Motor> Controlled<'a, M> {
     pub(super) fn new(
-        file: &'a MachineFile,
+        machines: Together<'a>,
         simulation: &'a Simulation,
         control: Control,
         motion: &'a Motion,
         motor: M,
     ) -> Result<Self, Error> {
-        let plant = Plant::new(file, simulation, motor);
         let mean_inertia = match control.feed_forward {
-            FeedForward::MeanInertia => {
-                let places: Vec<f64> = whole_range(file.machine.domain(), POSITIONS).collect();
-                let mut sum = 0.0;
-                for phi in &places {
-                    sum += plant.point(*phi)?.inertia;
-                }
-                sum / places.len() as f64
-            }
-            FeedForward::None | FeedForward::Model => 0.0,
+            FeedForward::MeanInertia => machines.all().map(|machine| mean(machine.file)).collect(),
+            FeedForward::None | FeedForward::Model => Ok(Vec::new()),
         };
+        let mean_inertia: Vec<f64> = mean_inertia?;
+        let axis = machines.first.axis();
+        let plant = Plant::new(machines, simulation, motor);
         Ok(Self {
             plant,
             simulation,
             control,
             motion,
-            axis: file.axis(),
+            axis,
             advance: motion.at(motion.duration()).phi - motion.at(0.0).phi,
             mean_inertia,
         })
@@ -105,8 +102,8 @@ impl<'a, M: Motor> Controlled<'a, M> {
         match self.control.feed_forward {
             FeedForward::None => Ok(0.0),
             FeedForward::MeanInertia => {
-                let torque = self.mean_inertia * alpha;
-                Ok(self.plant.at_motor(direction, [omega, alpha], torque))
+                let inertias = &self.mean_inertia;
+                Ok(self.plant.accelerating(direction, [omega, alpha], inertias))
             }
             FeedForward::Model => self.plant.required(direction, [phi, omega, alpha]),
         }
@@ -144,6 +141,16 @@ impl<'a, M: Motor> Controlled<'a, M> {
         let [torque, _, rate] = self.torque(direction, t, y)?;
         Ok((self.plant.under(direction, [y[0], y[1]], torque)?, rate))
     }
+}
+
+/// The mean of a machine's inertia over its range.
+fn mean(file: &MachineFile) -> Result<f64, Error> {
+    let places: Vec<f64> = whole_range(file.machine.domain(), POSITIONS).collect();
+    let mut sum = 0.0;
+    for phi in &places {
+        sum += file.machine.bare_reduction(*phi)?.inertia;
+    }
+    Ok(sum / places.len() as f64)
 }
 
 impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
@@ -197,6 +204,10 @@ impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
         ends.chain(self.plant.halts()).collect()
     }
 
+    fn machines(&self) -> Together<'_> {
+        self.plant.machines.clone()
+    }
+
     fn heads(&self) -> Vec<Column> {
         let own = self.plant.columns().into_iter();
         let position = self.axis.column();
@@ -208,8 +219,9 @@ impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
         let [torque, asked, _] = self.torque(direction, t, y)?;
         let link = [y[0], y[1]];
         let working = self.plant.working(direction, link, [torque, asked])?;
+        let on = self.simulation.halt.is_none_or(|halt| t < halt.time);
         Ok(Some(Working {
-            error: Some(self.reference(t).phi - y[0]),
+            error: on.then(|| self.reference(t).phi - y[0]),
             ..working
         }))
     }

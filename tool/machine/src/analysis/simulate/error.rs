@@ -27,6 +27,17 @@ pub enum SimulationError {
         /// The load or payload.
         what: String,
     },
+    /// A machine cannot run on one shaft with others.
+    #[error("the machine \"{title}\" cannot run on one shaft with others: {why}")]
+    #[diagnostic(help(
+        "simulate it alone, or refer it to the shaft of another machine as a [[drive_train.branch]]"
+    ))]
+    NotBeside {
+        /// The machine.
+        title: String,
+        /// Why.
+        why: &'static str,
+    },
     /// The drive link has passed the end of its stroke.
     #[error("the drive link hits the end of its stroke, {end}, at t = {t:.6} s, at {speed}")]
     #[diagnostic(help(

@@ -1,16 +1,16 @@
-//! A machine whose motor drives it through a fixed ratio.
+//! A machine, or several, that a motor drives through fixed ratios.
 
 use jred::machine::motion::State as Moving;
-use jred::mechanism::TrainOutput;
+use jred::mechanism::{TrainInput, TrainOutput};
 use jred::{Error, Reduction};
 
 use super::SimulationError;
+use super::geared::{Geared, Together};
 use super::observe::Working;
 use super::run::{self, HAIR, Row};
 use super::simulated::Missing;
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::MachineFile;
 use crate::model::motor::{Motor, loads_of};
 use crate::model::simulation::{Shaft, Simulation};
 use crate::number::columns::{Column, Quantity};
@@ -21,7 +21,7 @@ pub(in crate::analysis) type State = [f64; 5];
 
 /// The machine with its drive and motor torque.
 pub(in crate::analysis) struct Plant<'a, M> {
-    file: &'a MachineFile,
+    pub(super) machines: Together<'a>,
     simulation: &'a Simulation,
     pub(in crate::analysis) motor: M,
     axis: Axis,
@@ -50,25 +50,58 @@ struct Through {
     loss: f64,
 }
 
+/// What a machine beside the first is called in columns; the first of them has the index 0.
+pub fn beside_name(index: usize) -> String {
+    format!("machine {}", index + 2)
+}
+
+/// The reduced links of all machines.
+struct Points<'a> {
+    first: (Geared<'a>, Reduction),
+    beside: Vec<(Geared<'a>, Reduction)>,
+}
+
+impl<'a> Points<'a> {
+    fn all(&self) -> impl Iterator<Item = (Geared<'a>, &Reduction)> {
+        let all = std::iter::once(&self.first).chain(&self.beside);
+        all.map(|(machine, point)| (*machine, point))
+    }
+}
+
+/// The sign of a direction; none at rest.
+fn sign(direction: f64) -> f64 {
+    if direction == 0.0 {
+        0.0
+    } else {
+        direction.signum()
+    }
+}
+
+/// The torque at a drive link that keeps its speed; only the sign of the direction counts.
+fn resisting(point: &Reduction, direction: f64, omega: f64) -> f64 {
+    let load = point.load_torque() - point.viscous * omega - point.coulomb * sign(direction);
+    0.5 * point.inertia_slope * omega * omega - load
+}
+
 impl<'a, M: Motor> Plant<'a, M> {
     pub(in crate::analysis) fn new(
-        file: &'a MachineFile,
+        machines: Together<'a>,
         simulation: &'a Simulation,
         motor: M,
     ) -> Self {
         Self {
-            file,
+            axis: machines.first.axis(),
+            ends: simulation.ends(machines.first),
+            machines,
             simulation,
             motor,
-            axis: file.axis(),
-            ends: simulation.ends(file),
         }
     }
 
     /// Speed of the shaft at which the motor torque acts, per speed of the drive link.
     pub(in crate::analysis) fn ratio(&self) -> f64 {
         match self.simulation.at {
-            Shaft::Motor => self.file.drive_train.ratio() * self.motor.ratio(),
+            Shaft::Motor => self.machines.first.drive_train.ratio() * self.motor.ratio(),
             Shaft::DriveLink => 1.0,
         }
     }
@@ -79,17 +112,35 @@ impl<'a, M: Motor> Plant<'a, M> {
         [self.motor.torque(speed), speed]
     }
 
-    /// The motor in front of the drive train: what it gives for a motion of the drive link.
-    fn through(&self, output: &TrainOutput) -> Through {
-        let train = &self.file.drive_train;
-        let ratio = train.ratio();
-        let input = train.input(output);
+    /// The motor in front of the drive trains: what it gives under these speeds and accelerations of the first drive link, if each machine has
+    /// such a torque and inertia at its own.
+    fn through(
+        &self,
+        direction: f64,
+        [omega, alpha]: [f64; 2],
+        loads: impl IntoIterator<Item = (Geared<'a>, [f64; 2])>,
+    ) -> Through {
+        let mut input = TrainInput::default();
+        for (machine, [torque, inertia]) in loads {
+            let [_, omega, alpha] = machine.state([0.0, omega, alpha]);
+            let own = machine.file.drive_train.input(&TrainOutput {
+                torque,
+                torque_per_alpha: inertia,
+                omega,
+                alpha,
+                direction: direction * machine.ratio(),
+            });
+            input.torque += own.torque;
+            input.torque_per_alpha += own.torque_per_alpha * machine.ratio();
+            input.loss += own.loss;
+        }
+        let ratio = self.machines.first.drive_train.ratio();
         let form = self.motor.coefficients();
         let [own, driving, back, viscous, coulomb] = form.0;
         // At rest the direction is that of the motion to come.
-        let loads = loads_of(output.alpha * ratio, input.torque, output.direction * ratio);
-        let speed = output.omega * ratio;
-        let [alpha, torque_driving, torque_back, _, sign] = loads;
+        let [alpha, torque_driving, torque_back, _, sign] =
+            loads_of(alpha * ratio, input.torque, direction * ratio);
+        let speed = omega * ratio;
         let share = if torque_back == 0.0 { driving } else { back };
         let friction = viscous * speed + coulomb * sign;
         let lost = (share * self.motor.ratio() - 1.0) * input.torque;
@@ -119,25 +170,27 @@ impl<'a, M: Motor> Plant<'a, M> {
         direction: f64,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<f64, Error> {
-        let resisting = self.resisting(direction, [phi, omega])?;
-        let inertia = if alpha == 0.0 {
-            0.0
-        } else {
-            self.point(phi)?.inertia
-        };
-        Ok(self.at_motor(direction, [omega, alpha], inertia * alpha + resisting))
+        let points = self.points(phi)?;
+        let loads = points.all().map(|(machine, point)| {
+            let [_, omega, alpha] = machine.state([phi, omega, alpha]);
+            let resisting = resisting(point, direction * machine.ratio(), omega);
+            (machine, [point.inertia * alpha + resisting, point.inertia])
+        });
+        Ok(self.through(direction, [omega, alpha], loads).torque)
     }
 
-    /// The torque at the motor shaft that gives one at the drive link under a speed and an acceleration.
-    pub(super) fn at_motor(&self, direction: f64, [omega, alpha]: [f64; 2], torque: f64) -> f64 {
-        let output = TrainOutput {
-            torque,
-            omega,
-            alpha,
-            direction,
-            ..TrainOutput::default()
-        };
-        self.through(&output).torque
+    /// The torque at the motor shaft that accelerates machines of these inertias, each at its drive link, without loads.
+    pub(super) fn accelerating(
+        &self,
+        direction: f64,
+        [omega, alpha]: [f64; 2],
+        inertias: &[f64],
+    ) -> f64 {
+        let loads = self.machines.all().zip(inertias).map(|(machine, inertia)| {
+            let [.., alpha] = machine.state([0.0, omega, alpha]);
+            (machine, [inertia * alpha, *inertia])
+        });
+        self.through(direction, [omega, alpha], loads).torque
     }
 
     /// Torque of the motor and of the brake at the time `t`: the motor's is `driving` until it is switched off.
@@ -156,35 +209,49 @@ impl<'a, M: Motor> Plant<'a, M> {
         self.halted(t, direction, || self.motor(omega)[0])
     }
 
-    /// The reduced link at a position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that there.
-    pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
-        let phi = match self.ends {
+    /// A position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that end.
+    fn inside(&self, phi: f64) -> f64 {
+        match self.ends {
             Some([from, to]) => phi.clamp(from, to),
             None => phi,
-        };
-        Ok(self.file.machine.bare_reduction(phi)?)
+        }
     }
 
-    /// The torque at the drive link that keeps the speed `omega` at the position `phi`.
+    /// The reduced links at a position.
+    fn points(&self, phi: f64) -> Result<Points<'a>, Error> {
+        let phi = self.inside(phi);
+        let first = Geared::first(self.machines.first);
+        let beside = self.machines.beside().iter();
+        let beside = beside.map(|machine| Ok((*machine, machine.point(phi)?)));
+        Ok(Points {
+            first: (first, first.point(phi)?),
+            beside: beside.collect::<Result<_, Error>>()?,
+        })
+    }
+
+    /// The torque at the first drive link that keeps the speed `omega` at the position `phi`.
     pub(in crate::analysis) fn resisting(
         &self,
         direction: f64,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let point = self.point(phi)?;
-        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
-        Ok(0.5 * point.inertia_slope * omega * omega - load)
+        let point = Geared::first(self.machines.first).point(self.inside(phi))?;
+        Ok(resisting(&point, direction, omega))
     }
 
-    /// Inertia of the machine at `phi`, of the drive train and of the motor, all at the drive link; and the potential energy.
+    /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy.
     pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
-        let point = self.point(phi)?;
-        // The motor and the drive train turn with the drive link.
-        let train = &self.file.drive_train;
-        let ratio = train.ratio();
+        // The motor and the drive trains turn with the drive link.
+        let ratio = self.machines.first.drive_train.ratio();
         let [own, ..] = self.motor.coefficients().0;
-        let drive = (train.inertia_at_input() + own * self.motor.ratio()) * ratio * ratio;
-        Ok([point.inertia + drive, point.potential_energy])
+        let mut at_input = own * self.motor.ratio();
+        let [mut inertia, mut potential] = [0.0; 2];
+        for (machine, point) in self.points(phi)?.all() {
+            at_input += machine.file.drive_train.inertia_at_input();
+            inertia += point.inertia * machine.ratio() * machine.ratio();
+            potential += point.potential_energy;
+        }
+        Ok([inertia + at_input * ratio * ratio, potential])
     }
 
     /// The acceleration that solves the equation of motion through the losses of the drive train.
@@ -207,36 +274,43 @@ impl<'a, M: Motor> Plant<'a, M> {
         [phi, omega]: [f64; 2],
         torque: f64,
     ) -> Result<Instant, Error> {
-        let point = self.point(phi)?;
-        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
-        let resisting = 0.5 * point.inertia_slope * omega * omega - load;
+        let points = self.points(phi)?;
         let speed = omega * self.ratio();
         // With the torque at the drive link, what sits in front of it only drags along.
         let (at_motor, at_link) = match self.simulation.at {
             Shaft::Motor => (torque, 0.0),
             Shaft::DriveLink => (0.0, torque),
         };
+        // The motor acts at the first drive link alone.
+        let at = |k: usize| if k == 0 { at_link } else { 0.0 };
         let mut input_torque = 0.0;
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
-            let through = self.through(&TrainOutput {
-                torque: point.inertia * alpha + resisting - at_link,
-                torque_per_alpha: point.inertia,
-                omega,
-                alpha,
-                direction,
+            let loads = points.all().enumerate().map(|(k, (machine, point))| {
+                let [_, omega, alpha] = machine.state([phi, omega, alpha]);
+                let resisting = resisting(point, direction * machine.ratio(), omega);
+                let torque = point.inertia * alpha + resisting - at(k);
+                (machine, [torque, point.inertia])
             });
+            let through = self.through(direction, [omega, alpha], loads);
             loss = through.loss;
             input_torque = through.input_torque;
             [through.torque - at_motor, through.per_alpha]
         });
+        let mut process_power = 0.0;
+        for (machine, point) in points.all() {
+            let omega = omega * machine.ratio();
+            let direction = sign(direction * machine.ratio());
+            process_power += point.process * omega;
+            loss += (point.viscous * omega + point.coulomb * direction) * omega;
+        }
         Ok(Instant {
             alpha,
             motor_torque: torque,
             input_torque,
             motor_power: torque * speed,
-            process_power: point.process * omega,
-            loss: loss + (point.viscous * omega + point.coulomb * direction) * omega,
+            process_power,
+            loss,
         })
     }
 
@@ -277,41 +351,53 @@ impl<'a, M: Motor> Plant<'a, M> {
     }
 
     /// The columns of a row.
-    pub(super) fn columns(&self) -> [Column; 5] {
+    pub(super) fn columns(&self) -> Vec<Column> {
         let [speed, acceleration] = self.axis.coordinate.rates();
-        let (motor, unit) = if self.simulation.drives_a_slide(self.file) {
+        let (motor, unit) = if self.simulation.drives_a_slide(self.machines.first) {
             ("motor force", "N")
         } else {
             ("motor torque", "N m")
         };
         let coordinate = self.coordinate();
         let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
-        [
+        let own = [
             self.axis.column(),
             speed,
             acceleration,
             Column::new(Quantity::MotorEffort, motor, unit),
             Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
-        ]
+        ];
+        let beside = self.machines.beside().iter().enumerate();
+        let positions = beside.map(|(k, machine)| {
+            let column = machine.file.machine.mechanism().coordinate().column();
+            Column::other(format!("{} {}", beside_name(k), column.name), column.unit)
+        });
+        own.into_iter().chain(positions).collect()
     }
 
     /// That of the drive link.
     fn coordinate(&self) -> Coordinate {
-        self.file.machine.mechanism().coordinate()
+        self.machines.first.machine.mechanism().coordinate()
     }
 
     /// The row of a state with its motor torque.
     pub(super) fn written(&self, [phi, omega, alpha]: [f64; 3], torque: f64) -> Result<Row, Error> {
         let [inertia, potential] = self.inertia(phi)?;
         let shown = self.axis.state(&Moving { phi, omega, alpha });
+        let own = [
+            self.axis.shown(phi),
+            shown.omega,
+            shown.alpha,
+            torque,
+            inertia,
+        ];
+        let beside = self.machines.beside().iter();
+        let positions = beside.map(|machine| {
+            let [phi, ..] = machine.state([phi, omega, alpha]);
+            machine.file.machine.mechanism().coordinate().shown(phi)
+        });
         Ok(Row {
-            figures: vec![
-                self.axis.shown(phi),
-                shown.omega,
-                shown.alpha,
-                torque,
-                inertia,
-            ],
+            figures: own.into_iter().chain(positions).collect(),
             kinetic: 0.5 * inertia * omega * omega,
             potential,
         })
@@ -362,8 +448,12 @@ impl<M: Motor> run::Plant<5> for Plant<'_, M> {
         self.halts()
     }
 
+    fn machines(&self) -> Together<'_> {
+        self.machines.clone()
+    }
+
     fn heads(&self) -> Vec<Column> {
-        self.columns().to_vec()
+        self.columns()
     }
 
     fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {

@@ -6,6 +6,7 @@ use jred::Error;
 
 use super::SimulationError;
 use super::error::stopped;
+use super::geared::Together;
 use super::observe::{Controlling, Observer, PARTS, Working};
 use super::simulated::{Impacts, Missing, Rest, Simulated, Stuck};
 use super::watch::{At, Watch, between};
@@ -48,6 +49,9 @@ pub(in crate::analysis) trait Plant<const N: usize> {
 
     /// Times at which y′ has a corner or a jump (s), in any order: no step passes over one.
     fn corners(&self) -> Vec<f64>;
+
+    /// The machines that move.
+    fn machines(&self) -> Together<'_>;
 
     /// What the motor does, if there is one to look at.
     fn working(&self, _direction: f64, _t: f64, _y: &[f64; N]) -> Result<Option<Working>, Error> {
@@ -110,10 +114,11 @@ pub(in crate::analysis) fn cells(
 /// The machine cannot be placed at the start, or is not closed there.
 pub(super) fn run<const N: usize>(
     plant: &impl Plant<N>,
-    file: &MachineFile,
     simulation: &Simulation,
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
+    let machines = plant.machines();
+    let file = machines.first;
     let mut corners = plant.corners();
     corners.sort_by(f64::total_cmp);
     let mut run = Run {
@@ -123,7 +128,7 @@ pub(super) fn run<const N: usize>(
             tolerance: simulation.tolerance,
             most_steps: MOST_STEPS,
         },
-        watch: Watch::new(file),
+        watch: Watch::new(&machines),
         stops: simulation.end_stops,
         ends: simulation.ends(file).map(|[from, to]| {
             // The end of a stroke may be passed by a rounding.

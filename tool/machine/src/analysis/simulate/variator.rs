@@ -7,6 +7,7 @@ use jred::mechanism::TrainOutput;
 use jred::number::RangeError;
 
 use super::SimulationError;
+use super::geared::Together;
 use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
@@ -261,6 +262,10 @@ impl run::Plant<7> for Plant<'_> {
 
     fn corners(&self) -> Vec<f64> {
         self.variator.ratio.breaks().collect()
+    }
+
+    fn machines(&self) -> Together<'_> {
+        Together::alone(self.file)
     }
 
     fn heads(&self) -> Vec<Column> {

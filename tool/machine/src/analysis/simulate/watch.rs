@@ -3,8 +3,8 @@
 use jred::{Domain, Reducible as _};
 
 use super::SimulationError;
+use super::geared::{Geared, Together};
 use crate::analysis::contact::OneWay;
-use crate::model::machine::MachineFile;
 use crate::number::numerics;
 
 /// Between the integrator's steps the forces are looked at this many times over the drive link's range.
@@ -19,16 +19,29 @@ pub(crate) struct At {
     pub(crate) state: [f64; 3],
 }
 
-/// The joints of a machine that can let go.
+/// A joint that can let go, and its machine.
+#[derive(Clone, Copy)]
+struct Watched<'a> {
+    machine: Geared<'a>,
+    joint: OneWay,
+}
+
+/// The joints of machines that can let go.
 pub(crate) struct Watch<'a> {
-    file: &'a MachineFile,
-    joints: Vec<OneWay>,
+    domain: Domain,
+    joints: Vec<Watched<'a>>,
 }
 
 impl<'a> Watch<'a> {
-    pub(crate) fn new(file: &'a MachineFile) -> Self {
-        let joints = OneWay::all(file.machine.mechanism());
-        Self { file, joints }
+    pub(crate) fn new(machines: &Together<'a>) -> Self {
+        let joints = machines.all().flat_map(|machine| {
+            let joints = OneWay::all(machine.file.machine.mechanism());
+            (joints.into_iter()).map(move |joint| Watched { machine, joint })
+        });
+        Self {
+            domain: machines.first.machine.domain(),
+            joints: joints.collect(),
+        }
     }
 
     /// Whether there is nothing to watch.
@@ -39,7 +52,7 @@ impl<'a> Watch<'a> {
     /// Refuses a state in which a joint lets go.
     pub(crate) fn check(&self, at: At) -> Result<(), SimulationError> {
         match self.first_open(at)? {
-            Some((joint, force)) => Err(self.parted(joint, force, at)),
+            Some((joint, force)) => Err(parted(joint, force, at)),
             None => Ok(()),
         }
     }
@@ -50,7 +63,7 @@ impl<'a> Watch<'a> {
         [from, to]: [At; 2],
         alpha: impl Fn(f64, [f64; 2]) -> Result<f64, SimulationError>,
     ) -> Result<(), SimulationError> {
-        let span = match self.file.machine.domain() {
+        let span = match self.domain {
             Domain::Turn => std::f64::consts::TAU,
             stroke @ Domain::Stroke { .. } => stroke.span(),
         };
@@ -85,27 +98,29 @@ impl<'a> Watch<'a> {
     }
 
     /// The first joint that lets go, and its force.
-    fn first_open(&self, at: At) -> Result<Option<(OneWay, f64)>, SimulationError> {
-        for joint in &self.joints {
-            let force = joint.force(&self.file.machine, at.state)?;
+    fn first_open(&self, at: At) -> Result<Option<(Watched<'a>, f64)>, SimulationError> {
+        for watched in &self.joints {
+            let Watched { machine, joint } = watched;
+            let force = joint.force(&machine.file.machine, machine.state(at.state))?;
             if !joint.holds(force) {
-                return Ok(Some((*joint, force)));
+                return Ok(Some((*watched, force)));
             }
         }
         Ok(None)
     }
+}
 
-    fn parted(&self, joint: OneWay, force: f64, At { t, state }: At) -> SimulationError {
-        let [phi, omega, _] = state;
-        match joint.parted(&self.file.machine, [phi, omega], force) {
-            Ok(parted) => SimulationError::Parted {
-                t,
-                what: parted.what,
-                state: parted.state,
-                cure: parted.cure,
-            },
-            Err(error) => error.into(),
-        }
+fn parted(watched: Watched, force: f64, At { t, state }: At) -> SimulationError {
+    let Watched { machine, joint } = watched;
+    let [phi, omega, _] = machine.state(state);
+    match joint.parted(&machine.file.machine, [phi, omega], force) {
+        Ok(parted) => SimulationError::Parted {
+            t,
+            what: parted.what,
+            state: parted.state,
+            cure: parted.cure,
+        },
+        Err(error) => error.into(),
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::SteadyError;
 use super::turn::{Reached, State, Turning, starting};
+use crate::analysis::simulate::Together;
 use crate::analysis::simulate::run::{Plant as _, cells, heads};
 use crate::analysis::simulate::watch::{At, Watch};
 use crate::number::columns::Columns;
@@ -130,7 +131,7 @@ impl Figures {
 
     /// Refuses a cycle in which a follower leaves its cam or a rope is slack.
     pub(super) fn check_contacts(&self, turning: &Turning) -> Result<(), SteadyError> {
-        let watch = Watch::new(turning.file);
+        let watch = Watch::new(&Together::alone(turning.file));
         if watch.is_idle() {
             return Ok(());
         }

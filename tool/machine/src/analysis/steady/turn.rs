@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use jred::{Error, Reducible as _};
 
 use super::SteadyError;
+use crate::analysis::simulate::Together;
 use crate::analysis::simulate::machine::{Instant, Plant};
 use crate::model::machine::MachineFile;
 use crate::model::motor::OwnMotor;
@@ -72,7 +73,7 @@ impl<'a> Turning<'a> {
             load[0] = load[0].max(point.load_torque().abs() + point.coulomb);
             load[1] = load[1].max(point.viscous);
         }
-        let plant = Plant::new(file, simulation, motor);
+        let plant = Plant::new(Together::alone(file), simulation, motor);
         let [inertia, _] = plant.inertia(start)?;
         Ok(Self {
             file,

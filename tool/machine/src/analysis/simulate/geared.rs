@@ -1,0 +1,120 @@
+//! Several machines on one shaft: the drive train of each begins at the motor.
+//!
+//! One degree of freedom is left, the drive link of the first machine, with which the others go evenly:
+//!
+//! ```text
+//! φ_k = φ_k,0 + r_k·(φ − φ_0),   r_k = i_1/i_k          i_k: ratio of each drive train
+//! T = Σ train_k(J_k·α_k + ½·J_k′·ω_k² − load_k)          at the motor's shaft, each train with its own direction of power
+//! J = Σ J_k·r_k²                                         at the first drive link
+//! ```
+
+use jred::{Domain, Error, Reducible as _, Reduction};
+
+use super::SimulationError;
+use crate::model::machine::MachineFile;
+use crate::model::simulation::{Shaft, Simulation};
+
+/// A machine, and how its drive link goes with that of the first one: φ_k = offset + ratio·φ.
+#[derive(Clone, Copy, Debug)]
+pub struct Geared<'a> {
+    /// The machine.
+    pub file: &'a MachineFile,
+    offset: f64,
+    ratio: f64,
+}
+
+impl<'a> Geared<'a> {
+    /// The first machine.
+    pub const fn first(file: &'a MachineFile) -> Self {
+        Self {
+            file,
+            offset: 0.0,
+            ratio: 1.0,
+        }
+    }
+
+    /// Position, speed and acceleration, from those of the first drive link.
+    pub fn state(&self, [phi, omega, alpha]: [f64; 3]) -> [f64; 3] {
+        [
+            self.offset + self.ratio * phi,
+            self.ratio * omega,
+            self.ratio * alpha,
+        ]
+    }
+
+    /// Speed per speed of the first drive link.
+    pub const fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// The reduced link where the first drive link is at `phi`.
+    pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
+        let [phi, ..] = self.state([phi, 0.0, 0.0]);
+        Ok(self.file.machine.bare_reduction(phi)?)
+    }
+}
+
+/// Machines on one shaft.
+#[derive(Clone, Debug)]
+pub struct Together<'a> {
+    /// The one whose drive link counts.
+    pub first: &'a MachineFile,
+    beside: Vec<Geared<'a>>,
+}
+
+impl<'a> Together<'a> {
+    /// A machine alone.
+    pub const fn alone(first: &'a MachineFile) -> Self {
+        Self {
+            first,
+            beside: Vec::new(),
+        }
+    }
+
+    /// With further machines, each with the position (rad) of its drive link where the simulation starts.
+    ///
+    /// # Errors
+    /// One that cannot run with others.
+    pub fn with(
+        mut self,
+        others: impl IntoIterator<Item = (&'a MachineFile, f64)>,
+        simulation: &Simulation,
+    ) -> Result<Self, SimulationError> {
+        for (file, start) in others {
+            let refused = |why: &'static str| SimulationError::NotBeside {
+                title: file.title.clone(),
+                why,
+            };
+            if simulation.at == Shaft::DriveLink && !self.first.drive_train.stages().is_empty() {
+                return Err(refused(
+                    "the motor of the first machine acts at its drive link, behind its drive train",
+                ));
+            }
+            if file.variator.is_some() || self.first.variator.is_some() {
+                return Err(refused("machines with a [variator] run alone"));
+            }
+            if let Domain::Stroke { .. } = file.machine.domain() {
+                return Err(refused(
+                    "its drive link has a stroke, and only the first machine may have one",
+                ));
+            }
+            let ratio = self.first.drive_train.ratio() / file.drive_train.ratio();
+            self.beside.push(Geared {
+                file,
+                offset: start - ratio * simulation.start_angle,
+                ratio,
+            });
+        }
+        Ok(self)
+    }
+
+    /// The machines beside the first.
+    pub fn beside(&self) -> &[Geared<'a>] {
+        &self.beside
+    }
+
+    /// All machines.
+    pub fn all(&self) -> impl Iterator<Item = Geared<'a>> + '_ {
+        std::iter::once(Geared::first(self.first)).chain(self.beside.iter().copied())
+    }
+}
