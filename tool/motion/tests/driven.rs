@@ -209,7 +209,7 @@ fn the_torque_of_each_row_is_that_of_the_way() {
     let limit = found.simulated.torque_limit.unwrap();
     assert!(limit.duration > 0.01 && limit.count > 0, "{limit:?}");
     let error = found.simulated.following.unwrap().error;
-    assert!(error.abs() > 10.0 * following.error.abs(), "{error}");
+    assert!(error.abs() > following.error.abs(), "{error}");
 }
 
 /// A motor that stalls heats up by a constant loss: C·θ′ = P·(1 + g·θ) − θ/R.
