@@ -7,6 +7,7 @@ pub mod fastest;
 pub mod plan;
 pub mod retime;
 pub mod search;
+pub mod simulate;
 mod word;
 
 use std::path::PathBuf;
@@ -59,7 +60,7 @@ pub enum Command {
     /// Check the DC bus of one or more axes: power, voltage, brake resistor, and the worst phases between axes.
     Bus(bus::Bus),
     /// Simulate the free motion under the motor torque in `[simulation]`.
-    Simulate(Simulate),
+    Simulate(simulate::Simulate),
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
     Steady(Steady),
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
@@ -214,37 +215,6 @@ pub struct Rules {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-}
-
-/// `jred simulate`
-#[derive(Debug, Args)]
-pub struct Simulate {
-    /// Machine file, with a `[simulation]`. Further ones are machines on the same motor shaft, each behind its own drive train, whose drive links start
-    /// where their `[simulation]` says.
-    #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
-    /// By how much a further machine's drive link is ahead of that start, e.g. "180 deg"; one for each of them, in their order.
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
-    pub phase: Vec<f64>,
-    /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
-    /// full torque.
-    #[arg(long, value_name = "MOTOR+GEARBOX")]
-    pub drive: Option<String>,
-    /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.
-    #[arg(long)]
-    pub points: bool,
-    /// Add columns of drive torque, joint forces, shaking force and moment by d'Alembert's principle.
-    #[arg(long)]
-    pub reactions: bool,
-    /// Catalogue.
-    #[command(flatten)]
-    pub catalogue: catalogue::CatalogueFiles,
-    /// Output format.
-    #[arg(long, value_parser = word::<Format>(), default_value_t)]
-    pub format: Format,
-    /// Write plots of speed, torque and energy as one self-contained HTML page.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub plot: Option<PathBuf>,
 }
 
 /// `jred steady`

@@ -4,7 +4,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::{Done, drive_named, envelope, print_parts};
-use crate::options;
+use crate::options::simulate::Simulate;
 use crate::output;
 use jred_machine::analysis::reduce::add_columns;
 use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
@@ -22,7 +22,7 @@ use jred_report::page;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &options::Simulate) -> Result<Done> {
+pub(super) fn run(options: &Simulate) -> Result<Done> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
@@ -110,7 +110,7 @@ fn add_forces(found: &mut Simulated, machines: &Together, asked: [bool; 2]) -> R
 
 /// The motion under a drive of the catalogue, the name of that and what it bears.
 fn with_drive(
-    options: &options::Simulate,
+    options: &Simulate,
     name: &str,
     machines: &Together,
     simulation: &Simulation,

@@ -5,6 +5,7 @@
 
 mod control;
 mod error;
+mod free;
 mod geared;
 pub(super) mod machine;
 mod observe;

@@ -4,11 +4,9 @@ use jred::machine::motion::State as Moving;
 use jred::mechanism::{TrainInput, TrainOutput};
 use jred::{Error, Reduction};
 
-use super::SimulationError;
 use super::geared::{Geared, Together};
 use super::observe::Working;
-use super::run::{self, HAIR, Row};
-use super::simulated::Missing;
+use super::run::Row;
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::model::motor::{Motor, loads_of};
@@ -22,7 +20,7 @@ pub(in crate::analysis) type State = [f64; 5];
 /// The machine with its drive and motor torque.
 pub(in crate::analysis) struct Plant<'a, M> {
     pub(super) machines: Together<'a>,
-    simulation: &'a Simulation,
+    pub(super) simulation: &'a Simulation,
     pub(in crate::analysis) motor: M,
     axis: Axis,
     /// Where the drive link's way ends.
@@ -204,11 +202,6 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// The torque at the motor's shaft without a controller.
-    fn torque(&self, t: f64, direction: f64, omega: f64) -> f64 {
-        self.halted(t, direction, || self.motor(omega)[0])
-    }
-
     /// A position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that end.
     fn inside(&self, phi: f64) -> f64 {
         match self.ends {
@@ -338,11 +331,6 @@ impl<'a, M: Motor> Plant<'a, M> {
         })
     }
 
-    /// What happens at a state at the time `t`.
-    fn now(&self, direction: f64, t: f64, [phi, omega, ..]: &State) -> Result<Instant, Error> {
-        self.under(direction, [*phi, *omega], self.torque(t, direction, *omega))
-    }
-
     /// When the motor is switched off, and when the brake closes.
     pub(super) fn halts(&self) -> Vec<f64> {
         let halt = self.simulation.halt;
@@ -401,89 +389,5 @@ impl<'a, M: Motor> Plant<'a, M> {
             kinetic: 0.5 * inertia * omega * omega,
             potential,
         })
-    }
-}
-
-impl<M: Motor> run::Plant<5> for Plant<'_, M> {
-    fn start(&self) -> Result<State, Error> {
-        let Simulation {
-            start_angle,
-            start_speed,
-            ..
-        } = *self.simulation;
-        Ok([start_angle, start_speed, 0.0, 0.0, 0.0])
-    }
-
-    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
-        if direction == 0.0 {
-            return Ok([0.0; 5]);
-        }
-        let now = self.now(direction, t, y)?;
-        Ok([
-            y[1],
-            now.alpha,
-            now.motor_power,
-            now.process_power,
-            now.loss,
-        ])
-    }
-
-    fn link(&self, _: f64, y: &State) -> Result<[f64; 2], Error> {
-        Ok([y[0], y[1]])
-    }
-
-    fn with_link(&self, _: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
-        Ok([phi, omega, y[2], y[3], y[4]])
-    }
-
-    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.now(direction, t, y)?.alpha)
-    }
-
-    fn check(&self, _: f64, _: f64, _: &State) -> Result<(), SimulationError> {
-        Ok(())
-    }
-
-    fn corners(&self) -> Vec<f64> {
-        self.halts()
-    }
-
-    fn machines(&self) -> Together<'_> {
-        self.machines.clone()
-    }
-
-    fn heads(&self) -> Vec<Column> {
-        self.columns()
-    }
-
-    fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
-        let torque = self.torque(t, direction, y[1]);
-        let working = self.working(direction, [y[0], y[1]], [torque; 2])?;
-        Ok(Some(working))
-    }
-
-    fn missing(&self, y: &State) -> Result<Option<Missing>, Error> {
-        let [given, _] = self.motor(0.0);
-        let push = (given * self.ratio()).signum();
-        if given == 0.0 || self.simulation.halt.is_some() {
-            return Ok(None);
-        }
-        let needed = self.keeping(push, [y[0], push * HAIR])?;
-        let sign = given.signum();
-        Ok((needed * sign > given * sign).then_some(Missing {
-            phi: y[0],
-            given,
-            needed,
-        }))
-    }
-
-    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
-        let alpha = if direction == 0.0 {
-            0.0
-        } else {
-            self.alpha(direction, t, y)?
-        };
-        let [phi, omega, ..] = *y;
-        self.written([phi, omega, alpha], self.torque(t, direction, omega))
     }
 }

@@ -1,18 +1,23 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
+mod look;
+mod rows;
+mod start;
 mod stops;
+
+pub(in crate::analysis) use rows::{Row, cells, heads};
 
 use jred::Error;
 
 use super::SimulationError;
 use super::error::stopped;
 use super::geared::Together;
-use super::observe::{Controlling, Observer, PARTS, Working};
+use super::observe::{Controlling, Observer, Working};
 use super::simulated::{Impacts, Missing, Rest, Simulated, Stuck};
-use super::watch::{At, Watch, between};
+use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
-use crate::number::columns::{Column, Columns, Quantity};
+use crate::number::columns::{Column, Columns};
 use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
@@ -68,44 +73,6 @@ pub(in crate::analysis) trait Plant<const N: usize> {
 
     /// What is written about a state.
     fn row(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<Row, Error>;
-}
-
-/// What is written about a state, without the time and the columns of energies.
-pub(in crate::analysis) struct Row {
-    pub(in crate::analysis) figures: Vec<f64>,
-    /// (J)
-    pub(in crate::analysis) kinetic: f64,
-    /// (J)
-    pub(in crate::analysis) potential: f64,
-}
-
-/// The columns of a motion: the time, the `figures` of a [`Row`], energies and their balance.
-pub(in crate::analysis) fn heads(figures: Vec<Column>) -> impl Iterator<Item = Column> {
-    let energies = [
-        "kinetic energy",
-        "potential energy",
-        "motor work",
-        "process work",
-        "losses",
-    ]
-    .map(|name| Column::new(Quantity::Energy, name, "J"));
-    let balance = Column::new(Quantity::EnergyBalance, "energy balance", "J");
-    let time = std::iter::once(Column::new(Quantity::Time, "t", "s"));
-    time.chain(figures).chain(energies).chain([balance])
-}
-
-/// A row of these columns at the time `t`, with the work of the motor, of the process loads, and the losses since a start with
-/// the energy `start`; and the balance.
-pub(in crate::analysis) fn cells(
-    t: f64,
-    row: Row,
-    [motor, process, losses]: [f64; 3],
-    start: f64,
-) -> (impl Iterator<Item = f64>, f64) {
-    let balance = row.kinetic + row.potential - start - motor - process + losses;
-    let energies = [row.kinetic, row.potential, motor, process, losses, balance];
-    let cells = std::iter::once(t).chain(row.figures).chain(energies);
-    (cells, balance)
 }
 
 /// Runs a simulation.
@@ -276,18 +243,6 @@ impl<P> Run<'_, P> {
         }
     }
 
-    /// The drive link is at rest: whether the motor drives it on.
-    fn misses<const N: usize>(&mut self, time: f64, y: &[f64; N]) -> Result<(), Error>
-    where
-        P: Plant<N>,
-    {
-        if self.stuck.is_none() {
-            let missing = self.plant.missing(y)?;
-            self.stuck = missing.map(|missing| Stuck { time, missing });
-        }
-        Ok(())
-    }
-
     /// Integrates from `t` to `end`; where friction changes, it turns round, holds or lets go.
     fn advance<const N: usize>(
         &mut self,
@@ -383,38 +338,6 @@ impl<P> Run<'_, P> {
         Ok(steps)
     }
 
-    /// The direction of motion at the start; at rest, the way it will start.
-    fn heading<const N: usize>(&self, y: &[f64; N]) -> Result<f64, Error>
-    where
-        P: Plant<N>,
-    {
-        let [_, omega] = self.plant.link(0.0, y)?;
-        if omega == 0.0 {
-            self.start_direction(0.0, y)
-        } else {
-            Ok(omega.signum())
-        }
-    }
-
-    /// The way the drive link starts to move from rest: +1, −1, or 0 if friction holds it.
-    fn start_direction<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<f64, Error>
-    where
-        P: Plant<N>,
-    {
-        let [phi, _] = self.plant.link(t, y)?;
-        let t = self.within(t);
-        for direction in [1.0, -1.0] {
-            if self.is_at_stop(phi, direction) {
-                continue;
-            }
-            let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
-            if self.plant.alpha(direction, t, &moved)? * direction > 0.0 {
-                return Ok(direction);
-            }
-        }
-        Ok(0.0)
-    }
-
     /// Whether the drive link has turned round, or friction does not hold it any more.
     fn is_over<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<bool, Error>
     where
@@ -470,50 +393,5 @@ impl<P> Run<'_, P> {
             let y = self.plant.with_link(t, &y, link)?;
             Ok(self.plant.alpha(self.direction, t, &y)?)
         })
-    }
-
-    /// Shows the motor to those who look at it, from one step to the next.
-    fn observe<const N: usize>(
-        &mut self,
-        from: &Point<N>,
-        to: &Point<N>,
-    ) -> Result<(), SimulationError>
-    where
-        P: Plant<N>,
-    {
-        let plant = self.plant;
-        let (direction, length) = (self.direction, to.0 - from.0);
-        if !self.observed {
-            return Ok(());
-        }
-        let Some(first) = plant.working(direction, self.within(from.0), &from.1)? else {
-            return Ok(());
-        };
-        let mut before = first;
-        let ends = [
-            self.at(self.within(from.0), &from.1)?,
-            self.at(self.within(to.0), &to.1)?,
-        ];
-        let inside = self.inside;
-        let at = |share: f64| -> Result<Working, SimulationError> {
-            let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
-            let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
-            let y = plant.with_link(t, &y, between(ends, share))?;
-            let working = plant.working(direction, t, &y)?;
-            Ok(working.unwrap_or(first))
-        };
-        let part = |k: u32| f64::from(k) / f64::from(PARTS);
-        for k in 1..=PARTS {
-            let shares = [part(k - 1), part(k)];
-            let after = at(shares[1])?;
-            let times = shares.map(|share| from.0 + share * length);
-            let pair = [before, after];
-            self.controlling.pass(times, pair, |share| {
-                at(shares[0] + share * (shares[1] - shares[0]))
-            })?;
-            self.observer.pass((times[0], before), (times[1], after));
-            before = after;
-        }
-        Ok(())
     }
 }

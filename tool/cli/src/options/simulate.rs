@@ -1,0 +1,40 @@
+//! `jred simulate`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::catalogue::CatalogueFiles;
+use super::word::word;
+use jred_report::table::output::Format;
+
+/// `jred simulate`
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// Machine file, with a `[simulation]`. Further ones are machines on the same motor shaft, each behind its own drive train, whose drive links start
+    /// where their `[simulation]` says.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// By how much a further machine's drive link is ahead of that start, e.g. "180 deg"; one for each of them, in their order.
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
+    pub phase: Vec<f64>,
+    /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
+    /// full torque.
+    #[arg(long, value_name = "MOTOR+GEARBOX")]
+    pub drive: Option<String>,
+    /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.
+    #[arg(long)]
+    pub points: bool,
+    /// Add columns of drive torque, joint forces, shaking force and moment by d'Alembert's principle.
+    #[arg(long)]
+    pub reactions: bool,
+    /// Catalogue.
+    #[command(flatten)]
+    pub catalogue: CatalogueFiles,
+    /// Output format.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+    /// Write plots of speed, torque and energy as one self-contained HTML page.
+    #[arg(long, value_name = "HTML", value_parser = super::output_file())]
+    pub plot: Option<PathBuf>,
+}

@@ -1,0 +1,54 @@
+//! Shows the motor to those who look at it.
+
+use super::{Plant, Run};
+use crate::analysis::simulate::SimulationError;
+use crate::analysis::simulate::observe::{PARTS, Working};
+use crate::analysis::simulate::watch::between;
+use crate::number::numerics::dormand_prince::Point;
+
+impl<P> Run<'_, P> {
+    /// Shows the motor to those who look at it, from one step to the next.
+    pub(super) fn observe<const N: usize>(
+        &mut self,
+        from: &Point<N>,
+        to: &Point<N>,
+    ) -> Result<(), SimulationError>
+    where
+        P: Plant<N>,
+    {
+        let plant = self.plant;
+        let (direction, length) = (self.direction, to.0 - from.0);
+        if !self.observed {
+            return Ok(());
+        }
+        let Some(first) = plant.working(direction, self.within(from.0), &from.1)? else {
+            return Ok(());
+        };
+        let mut before = first;
+        let ends = [
+            self.at(self.within(from.0), &from.1)?,
+            self.at(self.within(to.0), &to.1)?,
+        ];
+        let inside = self.inside;
+        let at = |share: f64| -> Result<Working, SimulationError> {
+            let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
+            let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
+            let y = plant.with_link(t, &y, between(ends, share))?;
+            let working = plant.working(direction, t, &y)?;
+            Ok(working.unwrap_or(first))
+        };
+        let part = |k: u32| f64::from(k) / f64::from(PARTS);
+        for k in 1..=PARTS {
+            let shares = [part(k - 1), part(k)];
+            let after = at(shares[1])?;
+            let times = shares.map(|share| from.0 + share * length);
+            let pair = [before, after];
+            self.controlling.pass(times, pair, |share| {
+                at(shares[0] + share * (shares[1] - shares[0]))
+            })?;
+            self.observer.pass((times[0], before), (times[1], after));
+            before = after;
+        }
+        Ok(())
+    }
+}

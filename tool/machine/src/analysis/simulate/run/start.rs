@@ -1,0 +1,52 @@
+//! From rest: the way the drive link starts, and what is missing where it does not.
+
+use jred::Error;
+
+use super::{HAIR, Plant, Run};
+use crate::analysis::simulate::simulated::Stuck;
+
+impl<P> Run<'_, P> {
+    /// The direction of motion at the start; at rest, the way it will start.
+    pub(super) fn heading<const N: usize>(&self, y: &[f64; N]) -> Result<f64, Error>
+    where
+        P: Plant<N>,
+    {
+        let [_, omega] = self.plant.link(0.0, y)?;
+        if omega == 0.0 {
+            self.start_direction(0.0, y)
+        } else {
+            Ok(omega.signum())
+        }
+    }
+
+    /// The way the drive link starts to move from rest: +1, −1, or 0 if friction holds it.
+    pub(super) fn start_direction<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<f64, Error>
+    where
+        P: Plant<N>,
+    {
+        let [phi, _] = self.plant.link(t, y)?;
+        let t = self.within(t);
+        for direction in [1.0, -1.0] {
+            if self.is_at_stop(phi, direction) {
+                continue;
+            }
+            let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
+            if self.plant.alpha(direction, t, &moved)? * direction > 0.0 {
+                return Ok(direction);
+            }
+        }
+        Ok(0.0)
+    }
+
+    /// The drive link is at rest: whether the motor drives it on.
+    pub(super) fn misses<const N: usize>(&mut self, time: f64, y: &[f64; N]) -> Result<(), Error>
+    where
+        P: Plant<N>,
+    {
+        if self.stuck.is_none() {
+            let missing = self.plant.missing(y)?;
+            self.stuck = missing.map(|missing| Stuck { time, missing });
+        }
+        Ok(())
+    }
+}
