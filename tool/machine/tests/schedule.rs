@@ -1,5 +1,6 @@
 //! Loads that act in a part of the motion, and payloads: against the work and the torque in closed form.
 
+mod carriage;
 mod payload;
 
 use std::path::Path;

@@ -196,11 +196,11 @@ fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
         return Ok(());
     }
     for instant in &duty.instants {
-        let machine = file.machine_at(&Now::of(instant.t, instant.omega));
+        let machine = file.machine_at(&Now::of(instant.t, instant.omega), instant.phi)?;
         for joint in &joints {
-            let force = joint.force(machine, [instant.phi, instant.omega, instant.alpha])?;
+            let force = joint.force(&machine, [instant.phi, instant.omega, instant.alpha])?;
             if !joint.holds(force) {
-                let parted = joint.parted(machine, [instant.phi, instant.omega], force)?;
+                let parted = joint.parted(&machine, [instant.phi, instant.omega], force)?;
                 return Err(Fault::Parts(Box::new(parted)));
             }
         }

@@ -152,7 +152,7 @@ impl<'a> Way<'a> {
     }
 
     fn place_now(&self, now: &Now, phi: f64) -> Result<Place, Error> {
-        let point: Reduction = self.file.machine_at(now).bare_reduction(phi)?;
+        let point: Reduction = self.file.machine_at(now, phi)?.bare_reduction(phi)?;
         Ok(Place {
             phi,
             inertia: point.inertia,

@@ -186,6 +186,19 @@ struct Moving<'a> {
 }
 
 impl Moving<'_> {
+    /// The reduced link, and the torque with which carriages resist by their motion along their guides, which is not among its process
+    /// loads: it goes with masses and the square of the pace, as that of velocity does.
+    fn parts(&mut self, now: &Now, phi: f64) -> Result<(Reduction, f64), Error> {
+        if !self.file.schedule.flows() {
+            return Ok((self.reduction(now, phi)?, 0.0));
+        }
+        let machine = self.file.machine_at(now, phi)?;
+        let mut reduction = self.file.reduction_of(&machine, phi)?;
+        let driving = self.file.carriage_torque(&machine, phi)?;
+        reduction.process -= driving;
+        Ok((reduction, -driving))
+    }
+
     fn reduction(&mut self, now: &Now, phi: f64) -> Result<Reduction, Error> {
         let number = self.file.schedule.number(now);
         if let Some((place, known, reduction)) = &self.last
@@ -204,8 +217,9 @@ impl Instant {
     /// The machine at time `t` of its motion.
     fn new(moving: &mut Moving, t: f64, weight: f64) -> Result<Self, Error> {
         let state = moving.motion.at(t);
-        let reduction = moving.reduction(&Now::of(t, state.omega), state.phi)?;
-        let terms = reduction.torque(state.omega, state.alpha);
+        let (reduction, carriages) = moving.parts(&Now::of(t, state.omega), state.phi)?;
+        let mut terms = reduction.torque(state.omega, state.alpha);
+        terms.velocity += carriages;
         Ok(Self::with(moving, t, weight, state, &reduction, terms))
     }
 
@@ -216,9 +230,10 @@ impl Instant {
             alpha: 0.0,
             ..moving.motion.at(t)
         };
-        let reduction = moving.reduction(&Now::starting(t, direction), state.phi)?;
+        let (reduction, carriages) = moving.parts(&Now::starting(t, direction), state.phi)?;
         let terms = TorqueTerms {
             coulomb: reduction.coulomb * direction,
+            velocity: carriages,
             ..reduction.torque(0.0, 0.0)
         };
         let instant = Self::with(moving, t, 0.0, state, &reduction, terms);

@@ -117,10 +117,10 @@ fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R)
         timed &= row.now.t.is_some();
         directed &= row.now.omega.is_some();
     }
-    file.scheduled_where(|when| {
+    let missing = file.scheduled_where(|when| {
         (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
-    })
-    .collect()
+    });
+    missing.chain(file.carriages().filter(|_| !timed)).collect()
 }
 
 /// Columns that belong together.

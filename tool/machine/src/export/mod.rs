@@ -141,7 +141,7 @@ impl Export {
                 message: format!(
                     "{what}: that goes by [motion], and a table is over the position of the drive link alone"
                 ),
-                help: "remove its segments, during, direction and at_rest, or the payload, for this command, and give the firmware \
+                help: "remove its segments, during, direction and at_rest, the payload or the carriage, for this command, and give the firmware \
                        what acts in one part of the motion as a torque of its own; a payload that comes and goes is a table each"
                     .to_owned(),
             });

@@ -1,5 +1,7 @@
 //! A machine as described by a machine file, checked and in SI units.
 
+use std::borrow::Cow;
+
 use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Machine, Reduction};
 
@@ -25,7 +27,7 @@ pub struct MachineFile {
     /// The mechanism with gravity, loads and flywheel, *without* the drive train. What [`schedule`](Self::schedule) says is not in
     /// it.
     pub machine: Machine<AnyMechanism>,
-    /// Loads that act in a part of the motion only, and payloads.
+    /// Loads that act in a part of the motion only, payloads and carriages.
     pub schedule: Schedule,
     /// Inertia of the flywheel on the drive link (kg·m²), contained in `machine`.
     pub flywheel: f64,
@@ -88,10 +90,37 @@ impl MachineFile {
         Axis::of(self.motion.as_ref(), self.machine.mechanism().coordinate())
     }
 
-    /// The machine at an instant, with what acts and what is carried then, without the drive train.
-    pub fn machine_at(&self, now: &Now) -> &Machine<AnyMechanism> {
+    /// The machine at an instant, with what acts and what is carried then, without the drive train. What it has of carriages is that of
+    /// the position `phi` of the drive link only.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    pub fn machine_at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
         let number = self.schedule.number(now);
-        self.schedule.machine(number).unwrap_or(&self.machine)
+        let machine = self.schedule.machine(number).unwrap_or(&self.machine);
+        self.schedule.flowing(Cow::Borrowed(machine), now, phi)
+    }
+
+    /// Share of carriages in the process torque of a machine of [`machine_at`](Self::machine_at), at its position: of their motion along
+    /// their guides (N·m).
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn carriage_torque(
+        &self,
+        machine: &Machine<AnyMechanism>,
+        phi: f64,
+    ) -> Result<f64, Error> {
+        if !self.schedule.flows() {
+            return Ok(0.0);
+        }
+        let frames = machine.mechanism().frames(phi)?;
+        let torques = self.schedule.carriages().iter().filter_map(|carriage| {
+            let load = machine.loads().get(carriage.load)?;
+            let frame = frames.get(load.link())?;
+            Some(load.reduce(frame, phi).process)
+        });
+        Ok(torques.sum())
     }
 
     /// The reduced link at `phi` without the drive train and without what the schedule says, as [`Machine::bare_reduction`] gives it, but
@@ -109,7 +138,19 @@ impl MachineFile {
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
     pub fn bare_reduction_at(&self, now: &Now, phi: f64) -> Result<Reduction, Error> {
-        let mut reduction = self.machine_at(now).bare_reduction(phi)?;
+        self.reduction_of(&*self.machine_at(now, phi)?, phi)
+    }
+
+    /// The same of one of its machines.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn reduction_of(
+        &self,
+        machine: &Machine<AnyMechanism>,
+        phi: f64,
+    ) -> Result<Reduction, Error> {
+        let mut reduction = machine.bare_reduction(phi)?;
         let weight = self.payload_weight(phi)?;
         reduction.potential_slope += weight;
         reduction.process += weight;
@@ -124,7 +165,7 @@ impl MachineFile {
         match self.scheduled().next() {
             None => Ok(()),
             Some(what) => Err(miette::miette!(
-                help = "remove its segments, during, direction and at_rest, or the payload, for this command; `jred size` contains them",
+                help = "remove its segments, during, direction and at_rest, the payload or the carriage, for this command; `jred size` contains them",
                 "{what}: that goes by [motion], but `jred {command}` seeks another motion"
             )),
         }
@@ -138,11 +179,12 @@ impl MachineFile {
         let loads = self.schedule.loads().iter();
         let at_rest = loads.filter(|load| load.at_rest.is_some());
         let mut at_rest = at_rest.map(|load| format!("load \"{}\" {}", load.name, load.words));
-        let timed = self.scheduled_where(|when| when.spans.is_some()).next();
+        let timed = self.scheduled_where(|when| when.spans.is_some());
+        let timed = timed.chain(self.carriages()).next();
         match timed.or_else(|| at_rest.next()) {
             None => Ok(()),
             Some(what) => Err(miette::miette!(
-                help = "remove its segments, during and at_rest, or the payload, for this command; `jred size` contains them",
+                help = "remove its segments, during and at_rest, the payload or the carriage, for this command; `jred size` contains them",
                 "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
             )),
         }
@@ -150,7 +192,13 @@ impl MachineFile {
 
     /// What the schedule says, item by item, such as `load "punch" acts in segment 2`.
     pub fn scheduled(&self) -> impl Iterator<Item = String> {
-        self.scheduled_where(|_| true)
+        self.scheduled_where(|_| true).chain(self.carriages())
+    }
+
+    /// The carriages, such as `carriage "trolley" is moved along beam by its own motion`.
+    pub fn carriages(&self) -> impl Iterator<Item = String> {
+        let carriages = self.schedule.carriages().iter();
+        carriages.map(|c| format!("carriage \"{}\" {}", c.name, c.words))
     }
 
     /// The same of what acts, or is carried, at such times.
@@ -260,8 +308,29 @@ impl<'f> Machines<'f> {
         })
     }
 
-    /// The machine at an instant.
-    pub fn at(&self, now: &Now) -> &Machine<AnyMechanism> {
+    /// The machine at an instant; what it has of carriages is that of the position `phi` of the drive link only.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    pub fn at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
+        self.flowing(self.among(now), now, phi)
+    }
+
+    /// The machine at an instant, without carriages.
+    pub fn among(&self, now: &Now) -> &Machine<AnyMechanism> {
         &self.machines[self.schedule.number(now)]
+    }
+
+    /// One of the machines with the carriages where they are at an instant.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    pub fn flowing<'m>(
+        &self,
+        machine: &'m Machine<AnyMechanism>,
+        now: &Now,
+        phi: f64,
+    ) -> Result<Cow<'m, Machine<AnyMechanism>>, Error> {
+        self.schedule.flowing(Cow::Borrowed(machine), now, phi)
     }
 }

@@ -1,12 +1,16 @@
-//! What of a machine changes in the course of its motion: loads that act in a part of it only, and payloads that are picked up and set
-//! down.
+//! What of a machine changes in the course of its motion: loads that act in a part of it only, payloads that are picked up and set
+//! down, and carriages that a second axis moves.
 //!
 //! At every instant the machine is one of a few: each of them has the same links, joints and loads in the same order, of which some
-//! are without force, and some links are heavier by what they carry.
+//! are without force, and some links are heavier by what they carry. A carriage makes another machine at every instant.
 
+use std::borrow::Cow;
+
+use jred::machine::Mechanism as _;
 use jred::machine::{Action, Load};
 use jred::{Error, Machine};
 
+use crate::model::carriage::Carriage;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
@@ -125,6 +129,7 @@ type State = (Vec<Share>, Vec<bool>);
 pub struct Schedule {
     loads: Vec<Scheduled>,
     payloads: Vec<Payload>,
+    carriages: Vec<Carriage>,
     /// End of the motion (s).
     end: f64,
     variants: Vec<(State, Machine<AnyMechanism>)>,
@@ -137,13 +142,13 @@ impl Schedule {
     /// Those of the machine.
     pub fn new(
         machine: &Machine<AnyMechanism>,
-        loads: Vec<Scheduled>,
-        payloads: Vec<Payload>,
+        (loads, payloads, carriages): (Vec<Scheduled>, Vec<Payload>, Vec<Carriage>),
         motion: Option<&Motion>,
     ) -> Result<Self, Error> {
         let mut schedule = Self {
             loads,
             payloads,
+            carriages,
             end: motion.map_or(0.0, Motion::duration),
             variants: Vec::new(),
         };
@@ -186,7 +191,12 @@ impl Schedule {
         if self.is_empty() {
             return Ok(Self::default());
         }
-        Self::new(machine, self.loads.clone(), self.payloads.clone(), motion)
+        let parts = (
+            self.loads.clone(),
+            self.payloads.clone(),
+            self.carriages.clone(),
+        );
+        Self::new(machine, parts, motion)
     }
 
     /// The loads that do not always act, or have a value of their own at rest.
@@ -199,9 +209,24 @@ impl Schedule {
         &self.payloads
     }
 
+    /// What second axes move.
+    pub fn carriages(&self) -> &[Carriage] {
+        &self.carriages
+    }
+
+    /// Whether the load of this index is that of a carriage.
+    pub fn is_of_carriage(&self, load: usize) -> bool {
+        self.carriages.iter().any(|carriage| carriage.load == load)
+    }
+
     /// Whether nothing changes.
     pub const fn is_empty(&self) -> bool {
-        self.loads.is_empty() && self.payloads.is_empty()
+        self.loads.is_empty() && self.payloads.is_empty() && self.carriages.is_empty()
+    }
+
+    /// Whether the machine is another one at every instant, not one of a few.
+    pub const fn flows(&self) -> bool {
+        !self.carriages.is_empty()
     }
 
     /// Whether a load has to be broken away from rest.
@@ -215,6 +240,9 @@ impl Schedule {
         let whens = loads.chain(self.payloads.iter().map(|payload| &payload.when));
         let spans = whens.filter_map(|when| when.spans.as_ref()).flatten();
         let mut times: Vec<f64> = spans.flatten().copied().collect();
+        for carriage in &self.carriages {
+            times.extend(carriage.motion.stretches().into_iter().map(|(_, to)| to));
+        }
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
@@ -245,8 +273,38 @@ impl Schedule {
         self.variants.iter().map(|(_, machine)| machine)
     }
 
+    /// `machine`, which is that of this instant but for its carriages, with them where they are, at the position `phi` of the drive link.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there; those of the machine.
+    pub fn flowing<'m>(
+        &self,
+        machine: Cow<'m, Machine<AnyMechanism>>,
+        now: &Now,
+        phi: f64,
+    ) -> Result<Cow<'m, Machine<AnyMechanism>>, Error> {
+        let (Some(t), true) = (now.t, self.flows()) else {
+            return Ok(machine);
+        };
+        let placed: Vec<Attached> = self.carriages.iter().map(|c| c.placed(t)).collect();
+        let frames = machine.mechanism().frames(phi)?;
+        let mechanism = laden(machine.mechanism(), &placed)?;
+        let moved = rebuilt(&machine, mechanism, |k, load| {
+            let carriage = (self.carriages.iter().zip(&placed)).find(|(c, _)| c.load == k);
+            let Some(((carriage, placed), frame)) = carriage.zip(frames.get(load.link())) else {
+                return Ok(*load);
+            };
+            let force = carriage.force(frame, t, now.omega.unwrap_or(0.0));
+            Ok(Load::new(load.link(), Action::Force(force))?.at(placed.at)?)
+        })?;
+        Ok(Cow::Owned(moved))
+    }
+
     /// Whether something is carried at this time of the motion.
     pub fn is_laden(&self, t: f64) -> bool {
+        if self.flows() {
+            return true;
+        }
         let now = Now::of(t, 0.0);
         (self.payloads.iter()).any(|payload| payload.when.holds(&now, self.end))
     }
@@ -287,12 +345,9 @@ impl Schedule {
         let masses = (self.payloads.iter().zip(carried))
             .filter_map(|(payload, carried)| carried.then_some(&payload.mass));
         let mechanism = laden(machine.mechanism(), masses)?;
-        let mut made = Machine::new(mechanism)
-            .with_gravity(machine.gravity())?
-            .with_flywheel(machine.flywheel())?;
-        for (k, load) in machine.loads().iter().enumerate() {
+        rebuilt(machine, mechanism, |k, load| {
             let scheduled = self.loads.iter().zip(shares).find(|(s, _)| s.load == k);
-            let load = match scheduled {
+            Ok(match scheduled {
                 Some((_, Share::Nothing)) => {
                     // Its edges stay: the machines differ in nothing but their forces and masses.
                     let none = Load::new(load.link(), Action::Moment(0.0))?;
@@ -300,12 +355,25 @@ impl Schedule {
                 }
                 Some((scheduled, Share::AtRest)) => scheduled.at_rest.unwrap_or(*load),
                 _ => *load,
-            };
-            made = made.with_load(load)?;
-        }
-        for element in machine.elements() {
-            made = made.with_element(*element)?;
-        }
-        Ok(made)
+            })
+        })
     }
+}
+
+/// The machine with another mechanism of the same links, and with other loads in the place of its own.
+fn rebuilt(
+    machine: &Machine<AnyMechanism>,
+    mechanism: AnyMechanism,
+    load_of: impl Fn(usize, &Load) -> Result<Load, Error>,
+) -> Result<Machine<AnyMechanism>, Error> {
+    let mut made = Machine::new(mechanism)
+        .with_gravity(machine.gravity())?
+        .with_flywheel(machine.flywheel())?;
+    for (k, load) in machine.loads().iter().enumerate() {
+        made = made.with_load(load_of(k, load)?)?;
+    }
+    for element in machine.elements() {
+        made = made.with_element(*element)?;
+    }
+    Ok(made)
 }

@@ -47,31 +47,29 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
         let number = file.schedule.number(&now);
         let state = [state.phi, state.omega, state.alpha];
         if let Some((same, known, force)) = last.get()
+            && !file.schedule.flows()
             && same == number
             && known.map(f64::to_bits) == state.map(f64::to_bits)
         {
             return Ok(force);
         }
-        let force = joint.force(file.machine_at(&now), state)?;
+        let force = joint.force(&*file.machine_at(&now, state[0])?, state)?;
         last.set(Some((number, state, force)));
         Ok(force)
     };
     // The pull of a rope goes with the motion alone, unless a load has edges or a table.
     let moved = file.machine.mechanism();
     let tables = moved.own_links() < moved.links().len();
-    let smooth = joint.rope && !tables && file.machine.edge(0).is_none();
+    let smooth = joint.rope && !tables && !file.schedule.flows() && file.machine.edge(0).is_none();
     let samples = if smooth { 0.0 } else { SAMPLES };
     let (t, least) = smallest(file, motion, samples, force).map_err(report)?;
     if joint.holds(least) {
         return Ok(());
     }
     let state = motion.at(t);
-    let parted = joint
-        .parted(
-            file.machine_at(&Now::of(t, state.omega)),
-            [state.phi, state.omega],
-            least,
-        )
+    let parted = file
+        .machine_at(&Now::of(t, state.omega), state.phi)
+        .and_then(|machine| joint.parted(&machine, [state.phi, state.omega], least))
         .map_err(report)?;
     let message = format!(
         "{} in the prescribed motion: at {}, {}",

@@ -4,6 +4,7 @@
 //! its value and the limit, and says what to do.
 
 mod argument;
+mod carriage;
 mod check;
 mod contact;
 mod curve_file;
@@ -219,7 +220,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
     }
     let mechanism = mass::read(&root, mechanism)?;
     let (mechanism, tables) = load_table::read(&root, mechanism, drive_link, gravity, files)?;
-    let (loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
+    let (mut loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
@@ -234,7 +235,15 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .help(error.cure().to_string())
         })?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
-    let schedule = schedule::read(&root, &entries, &loads, &machine, motion.as_ref())?;
+    let (machine, carriages) =
+        carriage::read(&root, files, machine, &mut loads, motion.as_ref())?;
+    let schedule = schedule::read(
+        &root,
+        (&entries, carriages),
+        &loads,
+        &machine,
+        motion.as_ref(),
+    )?;
     let machine = schedule.at_no_time().cloned().unwrap_or(machine);
     let around = simulation::Around {
         drive: drive_link,

@@ -70,6 +70,31 @@ fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
     Ok(start.si)
 }
 
+/// The motion of another axis, over the time of that of the machine: its positions are lengths on a stroke.
+pub(super) fn along(
+    section: &Section,
+    files: &dyn Files,
+    axis: DriveLink,
+    (machine, loads): (&Machine<AnyMechanism>, &[NamedLoad]),
+) -> Result<Motion> {
+    let types = ["cycle", "point-to-point", "profile"];
+    let kind = section
+        .require("type", "type = \"cycle\"")?
+        .choice(&types)?;
+    let prescribed = Prescribed {
+        axis,
+        drive: axis,
+        tool: None,
+        machine,
+        loads,
+    };
+    match kind {
+        0 => segments::read(section, true, &prescribed),
+        1 => segments::read(section, false, &prescribed),
+        _ => profile::read(section, files, &prescribed),
+    }
+}
+
 fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> {
     let axis = prescribed.axis;
     let Some(per_turn) = prescribed.per_turn() else {

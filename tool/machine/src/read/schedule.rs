@@ -6,6 +6,7 @@ use jred::Machine;
 use jred::machine::Load;
 
 use super::loads::{self, SCHEDULE};
+use crate::model::carriage::Carriage;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;
 use crate::model::schedule::{Now, Schedule, Scheduled, Travel, When};
@@ -47,7 +48,7 @@ pub(super) struct Entry {
 /// The schedule of the file, whose `entries` are the `[[load]]` tables in their order.
 pub(super) fn read(
     root: &Section,
-    entries: &[Entry],
+    (entries, carriages): (&[Entry], Vec<Carriage>),
     named: &[NamedLoad],
     machine: &Machine<AnyMechanism>,
     motion: Option<&Motion>,
@@ -80,10 +81,10 @@ pub(super) fn read(
     }
     check_contradictions(&acting, &course)?;
     let payloads = payload::read(root, machine, &course)?;
-    if scheduled.is_empty() && payloads.is_empty() {
+    if scheduled.is_empty() && payloads.is_empty() && carriages.is_empty() {
         return Ok(Schedule::default());
     }
-    Schedule::new(machine, scheduled, payloads, motion).map_err(|error| {
+    Schedule::new(machine, (scheduled, payloads, carriages), motion).map_err(|error| {
         root.problem(error.to_string(), "in this machine")
             .help(error.cure().to_string())
     })

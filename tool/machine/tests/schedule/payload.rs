@@ -101,7 +101,10 @@ fn on_a_rod_it_is_the_payload_of_a_table() {
     let mut turned = 0.0f64;
     for k in 0..200 {
         let phi = TAU * (f64::from(k) * 0.618_033_988_749_895).fract();
-        let forces = |file: &MachineFile| file.machine_at(&now).forces(phi, 9.0, -20.0).unwrap();
+        let forces = |file: &MachineFile| {
+            let machine = file.machine_at(&now, phi).unwrap();
+            machine.forces(phi, 9.0, -20.0).unwrap()
+        };
         let (a, b) = (forces(&table), forces(&carried));
         near("drive", a.drive, b.drive, 1e-9);
         for k in 0..carried.machine.mechanism().own_joints() {
@@ -110,7 +113,7 @@ fn on_a_rod_it_is_the_payload_of_a_table() {
                 assert!((a - b).abs() < 1e-9, "{phi}: {a} {b}");
             }
         }
-        let after = carried.machine_at(&Now::of(1.1, 0.0));
+        let after = carried.machine_at(&Now::of(1.1, 0.0), phi).unwrap();
         near(
             "set down",
             after.forces(phi, 9.0, -20.0).unwrap().drive,

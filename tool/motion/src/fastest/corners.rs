@@ -98,7 +98,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let outside = usize::from(whole);
     let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
     let mut found = Vec::new();
-    for load in file.machine_at(&field.way.now()).loads() {
+    for load in file.machine_at(&field.way.now(), from)?.loads() {
         let friction = |x: f64| -> Result<f64, Error> {
             let phi = from + field.way.direction * x;
             let frames = machine.mechanism().frames(phi)?;

@@ -7,7 +7,7 @@
 //! T(s, m, p) = m·(J·α + ½·J′·ω²)/s² + m·U′_weight + U′_springs + p·process + b·ω/s + c·sgn ω
 //! ```
 //!
-//! m scales every mass and inertia of the mechanism and its flywheel, p every force and moment of given direction. The
+//! m scales every mass and inertia of the mechanism, of what it carries and of its flywheel, p every force and moment of given direction. The
 //! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
 
 use jred::machine::{Mechanism as _, TorqueTerms};
@@ -75,7 +75,11 @@ impl<'a> Altered<'a> {
         let laden = (file.schedule.machines().map(bare)).collect::<Result<Vec<_>, Error>>()?;
         let weights = (duty.instants.iter())
             .map(|i| {
-                let number = file.schedule.number(&Now::of(i.t, i.omega));
+                let now = Now::of(i.t, i.omega);
+                if file.schedule.flows() {
+                    return weight(&bare(&*file.machine_at(&now, i.phi)?)?, i.phi);
+                }
+                let number = file.schedule.number(&now);
                 weight(laden.get(number).unwrap_or(&own), i.phi)
             })
             .collect::<Result<Vec<f64>, Error>>()?;

@@ -36,6 +36,8 @@ pub enum Effect {
     Springs,
     /// Process loads.
     Process,
+    /// Motion of a carriage along its guide.
+    Carriage,
     /// Viscous loads.
     Viscous,
     /// Loads against the motion.
@@ -55,12 +57,13 @@ pub enum Effect {
 }
 
 impl Effect {
-    pub(super) const ALL: [Self; 13] = [
+    pub(super) const ALL: [Self; 14] = [
         Self::Acceleration,
         Self::Velocity,
         Self::Weight,
         Self::Springs,
         Self::Process,
+        Self::Carriage,
         Self::Viscous,
         Self::Coulomb,
         Self::Train,
@@ -79,6 +82,7 @@ impl Effect {
             Self::Weight => "weight".to_owned(),
             Self::Springs => "springs".to_owned(),
             Self::Process => "process".to_owned(),
+            Self::Carriage => "second axis".to_owned(),
             Self::Viscous => "viscous".to_owned(),
             Self::Coulomb => "dry friction".to_owned(),
             Self::Train => format!("drive train, {inertia}"),
@@ -125,12 +129,13 @@ impl Contributions {
             // The cycle may take longer than that of the file.
             let t = instant.t * share;
             let starts = instant.omega == 0.0 && instant.direction != 0.0;
+            // At the pace of the file, which is that of its carriages.
             let now = if starts {
                 Now::starting(t, instant.direction)
             } else {
-                Now::of(t, instant.omega)
+                Now::of(t, instant.omega / share)
             };
-            machine(&mut contributions, file, drive, (instant, &now))?;
+            machine(&mut contributions, file, drive, (instant, &now, share))?;
             drive_parts(&mut contributions, file, drive, instant);
         }
         Ok(contributions)
@@ -163,9 +168,9 @@ fn machine(
     contributions: &mut Contributions,
     file: &MachineFile,
     drive: &Drive,
-    (instant, now): (&Instant, &Now),
+    (instant, now, pace): (&Instant, &Now, f64),
 ) -> Result<(), Error> {
-    let machine = file.machine_at(now);
+    let machine = file.machine_at(now, instant.phi)?;
     let mechanism = machine.mechanism();
     let total = file.drive_train.ratio() * drive.ratio();
     let (omega, alpha) = (instant.omega, instant.alpha);
@@ -200,7 +205,7 @@ fn machine(
         machine.flywheel() * alpha / total,
     );
     contributions.add_inertia("flywheel", machine.flywheel() / (total * total));
-    for (load, named) in machine.loads().iter().zip(&file.loads) {
+    for (k, (load, named)) in machine.loads().iter().zip(&file.loads).enumerate() {
         let curves = frames.get(load.link());
         let curves = curves.map(|frame| load.reduce(frame, instant.phi));
         let curves = curves.unwrap_or_default();
@@ -210,7 +215,12 @@ fn machine(
         } else {
             Effect::Process
         };
-        contributions.add(part, effect, -curves.process / total);
+        let (effect, scale) = if file.schedule.is_of_carriage(k) {
+            (Effect::Carriage, pace * pace)
+        } else {
+            (effect, 1.0)
+        };
+        contributions.add(part, effect, -curves.process * scale / total);
         contributions.add(part, Effect::Viscous, curves.viscous * omega / total);
         contributions.add(part, Effect::Coulomb, curves.coulomb * sign / total);
     }

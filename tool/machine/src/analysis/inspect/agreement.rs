@@ -1,10 +1,14 @@
 //! Independent checks: d'Alembert's principle against the reduced equation, work against energy.
 
+use std::borrow::Cow;
+
+use jred::machine::motion::State;
 use jred::machine::{Jointed as _, Mechanism as _};
 use jred::{Error, Machine, Reducible as _};
 use serde::Serialize;
 
 use crate::analysis::duty;
+use crate::model::carriage::Carriage;
 use crate::model::coordinate::whole_range;
 use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::AnyMechanism;
@@ -20,6 +24,9 @@ const PANELS: u32 = 96;
 
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
+
+/// The ends of a stretch are taken from inside by this share of it.
+const HAIR: f64 = 1e-13;
 
 /// The moving masses.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -86,7 +93,7 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
     };
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
     for (now, [phi, omega, alpha]) in states {
-        let machine = machines.at(&now);
+        let machine = machines.at(&now, phi)?;
         if !machine.mechanism().determined(phi) {
             continue;
         }
@@ -124,7 +131,7 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     };
     let parts: Vec<Part> = stretches
         .into_iter()
-        .map(|(from, to)| Part::new(machines, motion, [from, to]))
+        .map(|(from, to)| Part::new(file, machines, motion, [from, to]))
         .collect();
     let mut moved = 0.0;
     for part in &parts {
@@ -143,51 +150,90 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     Ok(if moved > 0.0 { off / moved } else { off })
 }
 
-/// A smooth stretch of the motion, over which the machine is one and the same.
+/// A smooth stretch of the motion, over which the machine is one and the same, but for carriages.
 struct Part<'m> {
+    carriages: &'m [Carriage],
+    machines: &'m Machines<'m>,
     machine: &'m Machine<AnyMechanism>,
     motion: &'m Motion,
     span: [f64; 2],
 }
 
 impl<'m> Part<'m> {
-    fn new(machines: &'m Machines, motion: &'m Motion, span: [f64; 2]) -> Self {
+    fn new(
+        file: &'m MachineFile,
+        machines: &'m Machines,
+        motion: &'m Motion,
+        span: [f64; 2],
+    ) -> Self {
         let t = span[0].midpoint(span[1]);
         Self {
-            machine: machines.at(&Now::of(t, motion.at(t).omega)),
+            carriages: file.schedule.carriages(),
+            machines,
+            machine: machines.among(&Now::of(t, motion.at(t).omega)),
             motion,
             span,
         }
     }
 
+    /// The machine at a time, a hair inside the stretch: at its ends the acceleration of a carriage may jump.
+    fn at(&self, t: f64) -> Result<(f64, State<f64>, Cow<'m, Machine<AnyMechanism>>), Error> {
+        let [from, to] = self.span;
+        let hair = HAIR * (to - from);
+        let state = self.motion.at(t);
+        let inside = t.clamp(from + hair, to - hair);
+        let now = Now::of(inside, state.omega);
+        let machine = self.machines.flowing(self.machine, &now, state.phi)?;
+        Ok((inside, state, machine))
+    }
+
     /// Power of the drive.
     fn drive(&self, t: f64) -> Result<f64, Error> {
-        let state = self.motion.at(t);
+        let (_, state, machine) = self.at(t)?;
         let (phi, omega, alpha) = (state.phi, state.omega, state.alpha);
         // At a change point there is one way only.
-        let drive = if self.machine.mechanism().determined(phi) {
-            self.machine.forces(phi, omega, alpha)?.drive
+        let drive = if machine.mechanism().determined(phi) {
+            machine.forces(phi, omega, alpha)?.drive
         } else {
-            self.machine
-                .bare_reduction(phi)?
-                .torque(omega, alpha)
-                .total()
+            machine.bare_reduction(phi)?.torque(omega, alpha).total()
         };
         Ok(drive * omega)
     }
 
-    /// What loads and losses leave of it.
+    /// What loads and losses leave of it, and what second axes add.
     fn power(&self, t: f64) -> Result<f64, Error> {
-        let state = self.motion.at(t);
-        let point = self.machine.bare_reduction(state.phi)?;
+        let (inside, state, machine) = self.at(t)?;
+        let point = machine.bare_reduction(state.phi)?;
         let loads = point.reduced_torque(state.omega) + point.potential_slope;
-        Ok(self.drive(t)? + loads * state.omega)
+        let mut power = self.drive(t)? + loads * state.omega;
+        if !self.carriages.is_empty() {
+            let frames = machine.mechanism().frames(state.phi)?;
+            let gravity = machine.gravity();
+            for carriage in self.carriages {
+                let load = machine.loads().get(carriage.load);
+                let Some((load, frame)) = load.zip(frames.get(carriage.mass.link)) else {
+                    continue;
+                };
+                // Its inertia force is none that a load of the machine gives.
+                power -= load.reduce(frame, state.phi).process * state.omega;
+                power += carriage.power(frame, inside, [state.omega, state.alpha], gravity);
+            }
+        }
+        Ok(power)
     }
 
     fn energy(&self, t: f64) -> Result<f64, Error> {
-        let state = self.motion.at(t);
-        let point = self.machine.bare_reduction(state.phi)?;
-        let kinetic = 0.5 * point.inertia * state.omega * state.omega;
-        Ok(kinetic + point.potential_energy)
+        let (inside, state, machine) = self.at(t)?;
+        let point = machine.bare_reduction(state.phi)?;
+        let mut energy = 0.5 * point.inertia * state.omega * state.omega + point.potential_energy;
+        if !self.carriages.is_empty() {
+            let frames = machine.mechanism().frames(state.phi)?;
+            for carriage in self.carriages {
+                if let Some(frame) = frames.get(carriage.mass.link) {
+                    energy += carriage.energy(frame, inside, state.omega);
+                }
+            }
+        }
+        Ok(energy)
     }
 }

@@ -81,7 +81,7 @@ impl Set for Curves {
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
-        let machine = source.machines.at(&place.now);
+        let machine = source.machines.at(&place.now, place.phi)?;
         let point = machine.reduction(place.phi)?;
         let [inertia, slope, bend] = point.inertias();
         let mut values = vec![
@@ -109,7 +109,7 @@ impl Set for Curves {
         // The drive train's inertia sits in its stages, between the losses.
         let bare = source
             .file
-            .machine_at(&place.now)
+            .machine_at(&place.now, place.phi)?
             .bare_reduction(place.phi)?;
         let bare = bare.torque(state.omega, state.alpha).total();
         let train = &source.file.drive_train;

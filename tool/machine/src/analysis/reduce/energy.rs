@@ -30,7 +30,7 @@ impl Set for Energy {
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
-        let machine = source.machines.at(&place.now);
+        let machine = source.machines.at(&place.now, place.phi)?;
         let point = machine.bare_reduction(place.phi)?;
         let Some(state) = place.state else {
             let mut values = vec![None; self.heads(source).len()];
@@ -38,9 +38,14 @@ impl Set for Energy {
             return Ok(values);
         };
         let omega = state.omega;
-        let kinetic = 0.5 * point.inertia * omega * omega;
-        let mut values = vec![kinetic, point.potential_energy];
         let frames = &place.frames;
+        let carriages = source.file.schedule.carriages().iter();
+        let beyond = carriages.filter_map(|carriage| {
+            let frame = frames.get(carriage.mass.link)?;
+            Some(carriage.energy(frame, place.now.t?, omega))
+        });
+        let kinetic = 0.5 * point.inertia * omega * omega + beyond.sum::<f64>();
+        let mut values = vec![kinetic, point.potential_energy];
         let links = machine.mechanism().links().iter().zip(frames);
         let [g_x, g_y] = machine.gravity();
         let weight = links.map(|(link, frame)| {

@@ -80,7 +80,7 @@ impl Set for Reactions {
         let Some(state) = place.state else {
             return Ok(vec![None; self.heads(source).len()]);
         };
-        let machine = source.machines.at(&place.now);
+        let machine = source.machines.at(&place.now, place.phi)?;
         if !machine.mechanism().determined(place.phi) {
             // At a change point the drive's effort is that of the reduced link, and no joint's force is known.
             let mut values = vec![None; self.heads(source).len()];
@@ -96,8 +96,19 @@ impl Set for Reactions {
             let [x, y] = reaction.force;
             values.extend(self.pick(k, [x, y, x.hypot(y), reaction.moment]));
         }
-        let [x, y] = forces.shaking_force;
-        values.extend([x, y, x.hypot(y), forces.shaking_moment]);
+        let [mut x, mut y] = forces.shaking_force;
+        let mut moment = forces.shaking_moment;
+        for carriage in source.file.schedule.carriages() {
+            // What it does by its motion along its guide is an inertia force, too.
+            let load = machine.loads().get(carriage.load);
+            let Some((load, frame)) = load.zip(place.frames.get(carriage.mass.link)) else {
+                continue;
+            };
+            let wrench = load.wrench(frame, place.phi, state.omega);
+            (x, y) = (x + wrench.force[0], y + wrench.force[1]);
+            moment += wrench.moment_about([0.0, 0.0]);
+        }
+        values.extend([x, y, x.hypot(y), moment]);
         Ok(values.into_iter().map(Some).collect())
     }
 }

@@ -22,11 +22,11 @@ pub enum SteadyError {
     /// The machine goes by the motion of the file, which a steady cycle does not follow.
     #[error("{what}: that goes by [motion], which a steady cycle does not follow")]
     #[diagnostic(help(
-        "remove its segments, during, direction and at_rest, or the payload, for this command; `jred reduce --over time` and \
+        "remove its segments, during, direction and at_rest, the payload or the carriage, for this command; `jred reduce --over time` and \
          `jred size` contain them"
     ))]
     Scheduled {
-        /// The load or payload.
+        /// The load, payload or carriage.
         what: String,
     },
     /// No motor is given.

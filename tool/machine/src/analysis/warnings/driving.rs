@@ -34,13 +34,14 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     // A web pulls whether it is wound or unwound.
     let loads: Vec<_> = loads
         .skip(mechanism.pulls())
-        .filter(|(_, named)| !mechanism.is_weight(&named.load))
+        .filter(|(k, named)| !mechanism.is_weight(&named.load) && !file.schedule.is_of_carriage(*k))
         .collect();
     // Position of the largest driving power, that power, the sum of all powers and of their magnitudes.
     let mut found = vec![(0.0, 0.0f64, [0.0f64; 2]); loads.len()];
     for (now, [phi, omega]) in states {
         let frames = mechanism.frames(phi)?;
-        let acting = file.machine_at(&now).loads();
+        let machine = file.machine_at(&now, phi)?;
+        let acting = machine.loads();
         for ((k, _), (place, driving, [net, moved])) in loads.iter().zip(&mut found) {
             let load = &acting[*k];
             let Some(frame) = frames.get(load.link()) else {

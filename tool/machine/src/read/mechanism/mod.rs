@@ -10,7 +10,7 @@ mod indexing_cam;
 mod inverted_slider_crank;
 mod linkage;
 mod parallel_shafts;
-mod parts;
+pub(super) mod parts;
 mod planetary;
 mod rack;
 mod reduced_curves;

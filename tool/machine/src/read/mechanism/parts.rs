@@ -62,7 +62,7 @@ pub(super) fn mass(section: &Section) -> Result<f64> {
 }
 
 /// The two ends of a stroke.
-pub(super) fn ends(item: &Item, kind: &'static Kind, example: &str) -> Result<[f64; 2]> {
+pub(in crate::read) fn ends(item: &Item, kind: &'static Kind, example: &str) -> Result<[f64; 2]> {
     let [from, to] = item.pair([kind, kind])?;
     if to.si - from.si >= kind.smallest {
         return Ok([from.si, to.si]);

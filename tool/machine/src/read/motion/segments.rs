@@ -23,11 +23,10 @@ const CONTINUOUS: f64 = 1e-6;
 pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> Result<Motion> {
     let drive = prescribed.axis;
     let start = start(section, prescribed)?;
-    let item = section.require(
-        "segment",
-        "[[motion.segment]] once for each move = \"…\" and each dwell = \"…\"",
-    )?;
-    let parts = item.sections("[[motion.segment]]")?;
+    let title = format!("[{}.segment]]", section.title().trim_end_matches(']'));
+    let once = format!("{title} once for each move = \"…\" and each dwell = \"…\"");
+    let item = section.require("segment", &once)?;
+    let parts = item.sections(&title)?;
     finish(section)?;
     if parts.is_empty() || parts.len() > MAX_SEGMENTS {
         return Err(item
