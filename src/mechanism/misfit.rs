@@ -130,7 +130,7 @@ impl Curable for Misfit {
                 Ok(())
             }
             Self::NeverFlat { .. } => f.write_str(
-                "keep no branch: this linkage does not leave the one that it is assembled on",
+                "do not guide it through change points: this linkage stays on the branch on which it is assembled",
             ),
             Self::TwoTurns => {
                 f.write_str("drive it over a stroke, at most of two turns for the whole motion")

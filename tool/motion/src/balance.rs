@@ -11,7 +11,7 @@
 //! The bounds of a real body and a real spring are convex, so is the RMS or the peak of T: the result is the global optimum, with a gap
 //! that is stated. T is that at the drive link, with the inertia of the drive train and without its losses.
 
-use jred::machine::Element;
+use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Reducible as _};
 use jred_machine::analysis::contact::{OneWay, Parted};
 use jred_machine::analysis::duty::Duty;
@@ -29,6 +29,9 @@ mod unknowns;
 
 /// Positions over the range at which weight and inertia are looked at.
 const POSITIONS: usize = 1440;
+
+/// Share by which the RMS over the motion may rise for the sake of another goal without a word.
+const HEATS: f64 = 0.1;
 
 /// Share of the largest value below which all that is left is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -117,6 +120,16 @@ pub struct Figures {
     pub deviation: f64,
 }
 
+impl Balanced {
+    /// Share by which the RMS over the motion rises, if it does by more than a motor is likely to bear unnoticed.
+    pub fn heats(&self) -> Option<f64> {
+        let [Some([was, _]), Some([is, _])] = [self.before.torque, self.after.torque] else {
+            return None;
+        };
+        (is > (1.0 + HEATS) * was).then(|| is / was - 1.0)
+    }
+}
+
 impl Figures {
     /// What is to be least.
     pub fn of(&self, goal: Goal) -> f64 {
@@ -137,6 +150,9 @@ pub struct Balanced {
     pub masses: Vec<Option<Attached>>,
     /// The springs, in the order of the request; `None`: none is best.
     pub springs: Vec<Option<Element>>,
+    /// How hard each spring pulls and pushes at most (N, or N·m of one in torsion against and towards growing angles), over the motion, or
+    /// without one over the range.
+    pub efforts: Vec<Option<[f64; 2]>>,
     /// With the springs of the file, without counterweights.
     pub before: Figures,
     /// With what was found.
@@ -174,12 +190,35 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
         hold_together(&after, duty)?;
     }
     Ok(Balanced {
+        efforts: efforts(&after, duty.as_ref(), &springs)?,
         after: figures(&after, duty.as_ref())?,
         before,
         masses,
         springs,
         bound,
     })
+}
+
+/// How hard these springs pull and push at most over the motion, or without one over the range.
+fn efforts(
+    file: &MachineFile,
+    duty: Option<&Duty>,
+    springs: &[Option<Element>],
+) -> Result<Vec<Option<[f64; 2]>>, Fault> {
+    let mechanism = file.machine.mechanism();
+    let mut efforts: Vec<Option<[f64; 2]>> = springs.iter().map(|s| s.map(|_| [0.0; 2])).collect();
+    let range = || positions(mechanism.domain(), POSITIONS).collect();
+    let places: Vec<f64> = duty.map_or_else(range, |d| d.instants.iter().map(|i| i.phi).collect());
+    for phi in places {
+        let frames = mechanism.frames(phi).map_err(Error::from)?;
+        for (spring, most) in springs.iter().zip(&mut efforts) {
+            if let (Some(spring), Some([pull, push])) = (spring, most) {
+                let effort = spring.effort(&frames, 0.0);
+                (*pull, *push) = (pull.max(-effort), push.max(effort));
+            }
+        }
+    }
+    Ok(efforts)
 }
 
 /// The motion of a machine, if it has one.

@@ -275,3 +275,37 @@ fn what_cannot_be_balanced() {
         Fault::Parts(_)
     ));
 }
+
+/// Over a range on both sides of the upright position the weight turns the lever either way, and so must the spring: by k·80° each. On one side
+/// it turns one way only.
+#[test]
+fn a_spring_says_whether_it_works_both_ways() {
+    let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
+    let efforts = |range: &str| {
+        let file = lever(range, spring);
+        let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
+        let rate = found.springs[0].and_then(|spring| spring.spring_rate()).unwrap();
+        (rate, found.efforts[0].unwrap())
+    };
+    let ([stiffness, free], [pull, push]) = efforts("stroke = [\"10 deg\", \"170 deg\"]\n");
+    let most = stiffness * 80f64.to_radians();
+    assert!((free - 90f64.to_radians()).abs() < 1e-5, "{free}");
+    assert!((pull / most - 1.0).abs() < 1e-5 && (push / most - 1.0).abs() < 1e-5);
+    let ([stiffness, free], [pull, push]) = efforts("stroke = [\"10 deg\", \"80 deg\"]\n");
+    let most = stiffness * (free - 10f64.to_radians());
+    assert!(pull == 0.0 && (push / most - 1.0).abs() < 1e-9, "{pull} {push} {most}");
+}
+
+/// A goal that costs more than a tenth of heat's root is named.
+#[test]
+fn a_higher_rms_is_said() {
+    let file = lever("", "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n");
+    let mut found = balance(&file, &request(Goal::Peak, &[(0, 20.0, 0.5)], &[])).unwrap();
+    assert_eq!(found.heats(), None);
+    let [rms, peak] = found.before.torque.unwrap();
+    for (share, said) in [(0.05, None), (0.12, Some(0.12))] {
+        found.after.torque = Some([rms * (1.0 + share), peak]);
+        let heats = found.heats();
+        assert_eq!(heats.map(|x| (x * 1e6).round() / 1e6), said);
+    }
+}

@@ -8,7 +8,7 @@ use jred::{Domain, Link, Machine};
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
+use jred_machine::model::machine::{MachineFile, OverRange};
 use jred_machine::model::mechanism::AnyMechanism;
 use serde_json::Value;
 
@@ -74,6 +74,7 @@ fn lever() -> MachineFile {
     MachineFile {
         title: "Lever".to_owned(),
         machine: Machine::new(mechanism),
+        over_range: OverRange::default(),
         ..file
     }
 }

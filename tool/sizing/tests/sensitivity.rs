@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::support::{Folder, budget, near, press_file, press_text, within};
-use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::analysis::duty::{Duty, Instant, Sampling};
 use jred_machine::model::rule::Rule;
 use jred_machine::read;
 use jred_machine::units::RPM;
@@ -309,4 +309,72 @@ fn one_drive_is_judged_as_in_the_catalogue() {
         context.findings(&machine.file.rules),
     );
     assert_eq!(format!("{a:?}"), format!("{b:?}"));
+}
+
+/// A machine whose torque at the motor goes with the ratio of its gear: a friction M at the wheel asks M·z₁/z₂ of the motor at constant speed, so
+/// the share goes with 1/z₂, by du/d ln z₂ = −u, and by z/2·(1/(z + 1) − 1/(z − 1)) = −z²/(z² − 1) of u for one more and one less.
+#[test]
+fn teeth_are_moved_by_one() {
+    let text = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { diameter = \"1 m\", mass = \"1 kg\" }\n\
+                [[load]]\non = \"table\"\nopposing_moment = \"700 N m\"\n\
+                [[drive_train]]\ntype = \"gear-train\"\n[[drive_train.stage]]\n\
+                driver = { teeth = 20, inertia = \"1 kg cm^2\" }\ndriven = { teeth = 40, inertia = \"1 kg cm^2\" }\n\
+                [motion]\ntype = \"constant-speed\"\nspeed = \"10 rpm\"\n";
+    let (_folder, study) = study(text, 60);
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let reach = Reach {
+        change: 0.01,
+        most: 0.5,
+    };
+    let found = Sensitivity::new(&study, &one, reach, || ()).unwrap();
+    let share = |rule: Rule| found.shares.iter().find(|(r, _)| *r == rule).unwrap().1;
+    for (path, z, sign) in [
+        ("drive_train.1.stage.1.driven.teeth", 40.0f64, -1.0),
+        ("drive_train.1.stage.1.driver.teeth", 20.0, 1.0),
+    ] {
+        let teeth = study.document.find(path).unwrap();
+        let dependence = found.dependences.iter().find(|d| d.quantity == teeth);
+        let dependence = dependence.unwrap_or_else(|| panic!("{path}: {:?}", found.fixed));
+        assert!(dependence.whole);
+        let slope = dependence.slopes.iter().find(|s| s.rule == Rule::RmsTorque).unwrap();
+        let by_one = if sign < 0.0 { z * z / (z * z - 1.0) } else { 1.0 };
+        near(path, slope.slope, sign * by_one * share(Rule::RmsTorque), 1e-9);
+        let bend = if sign < 0.0 { z / (z * z - 1.0) } else { 0.0 };
+        within(path, slope.uncertainty, bend * share(Rule::RmsTorque), 1e-9);
+        for room in &dependence.room {
+            let teeth = room.change() * z;
+            within("whole", teeth, teeth.round(), 1e-9);
+        }
+    }
+}
+
+/// The sampling of neighbours against a fine one: every share of a limit of every shipped machine that can be sized.
+#[test]
+fn neighbours_are_sampled_finely_enough() {
+    let (mut worst, mut machines) = (0.0f64, 0);
+    for name in ["press", "linkage-press", "excavator-bucket", "four-bar", "rack", "toggle-press", "hoist"] {
+        let path = press_file().with_file_name(format!("{name}.toml"));
+        let shares = |sampling: Sampling| {
+            let study = Study::open(&path, strong(), None, sampling).ok()?;
+            let filter = Filter::default();
+            let one = ChosenDrive::choose(&study, Some("strong+five"), &filter, None).ok()?;
+            let machine = study.machine(&[]).unwrap();
+            Some(jred_sizing::study::sensitivity::shares(&machine.file.rules, &one.findings(&machine)))
+        };
+        let (Some(coarse), Some(fine)) = (shares(Sampling::OF_NEIGHBOURS), shares(8000.into())) else {
+            continue;
+        };
+        machines += 1;
+        assert_eq!(coarse.len(), fine.len(), "{name}");
+        for ((rule, coarse), (_, fine)) in coarse.iter().zip(&fine) {
+            let off = (coarse - fine).abs() / fine.abs().max(1e-3);
+            if off > 1e-6 {
+                println!("{name} {}: {coarse} {fine} {off:e}", rule.name());
+            }
+            worst = worst.max(off);
+        }
+    }
+    assert!(machines >= 5, "{machines}");
+    // Two-sided: much finer than it must be would only be slow.
+    assert!((1e-6..1e-3).contains(&worst), "{worst:e}");
 }

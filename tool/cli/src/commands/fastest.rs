@@ -224,7 +224,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
         drive_named(catalogue(&options.supply, &filter)?, name, file)?
     } else {
         file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
-        let study = study(&options.file, &options.supply, &filter)?;
+        let study = study(&options.file, &options.supply, &filter, options.supply.steps())?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };
     let drive = drive.drive();

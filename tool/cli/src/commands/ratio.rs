@@ -40,7 +40,7 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         ));
     }
     jred_sizing::select::fit::fit_input(&mut catalogue, &file)?;
-    let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
+    let duty = Duty::new(&file, motion, options.supply.steps()).map_err(core_report)?;
     let gear = Gear {
         inertia: options.gearbox_inertia.unwrap_or(0.0),
         efficiency: options.efficiency,

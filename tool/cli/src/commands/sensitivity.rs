@@ -17,7 +17,8 @@ use jred_sizing::study::sensitivity::{Reach, Sensitivity};
 /// Bad input.
 pub fn sensitivity(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let study = study(&options.file, &options.supply, &filter)?;
+    let sampling = options.supply.of_neighbours();
+    let study = study(&options.file, &options.supply, &filter, sampling)?;
     options.search.check(&study.catalogue, &[])?;
     let one = ChosenDrive::choose(
         &study,

@@ -59,14 +59,14 @@ pub fn size(options: &Size) -> Result<Done> {
             own: motion,
             catalogue: &catalogue,
             motors: &motors,
-            steps: options.supply.steps as usize,
+            steps: options.supply.steps(),
             narrow: &narrow,
         };
         let best = suited(&judging, options)?;
         file.motion = best.or(file.motion);
     }
     let motion = file.required_motion()?;
-    let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
+    let duty = Duty::new(&file, motion, options.supply.steps()).map_err(core_report)?;
     let cycle = Cycle::new(&duty);
     let warnings = warnings(&file).map_err(core_report)?;
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);

@@ -22,7 +22,8 @@ use jred_sizing::study::tolerance::{Samples, Scatter};
 /// Bad input, or a file that cannot be written.
 pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let study = study(&options.file, &options.supply, &filter)?;
+    let sampling = options.supply.of_neighbours();
+    let study = study(&options.file, &options.supply, &filter, sampling)?;
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let given = options.tolerance.iter().map(|text| given(text));

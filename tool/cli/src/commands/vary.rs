@@ -9,6 +9,7 @@ use crate::options::search::{Merge, Rows, SizingOptions, Vary};
 use crate::output;
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
+use jred_machine::analysis::duty::Sampling;
 use jred_machine::number::words::{Word as _, counted};
 use jred_machine::plain;
 use jred_report::table::rows::{RowFormat, table};
@@ -44,9 +45,14 @@ pub fn catalogue(supply: &SizingOptions, filter: &Filter) -> Result<Catalogue> {
 ///
 /// # Errors
 /// Files that cannot be used; a machine that cannot be sized; nothing left.
-pub fn study(file: &Path, supply: &SizingOptions, filter: &Filter) -> Result<Study> {
+pub fn study(
+    file: &Path,
+    supply: &SizingOptions,
+    filter: &Filter,
+    sampling: impl Into<Sampling>,
+) -> Result<Study> {
     let catalogue = catalogue(supply, filter)?;
-    Study::open(file, catalogue, supply.rule_set()?, supply.steps as usize)
+    Study::open(file, catalogue, supply.rule_set()?, sampling)
 }
 
 impl Rows {
@@ -67,7 +73,7 @@ impl Rows {
 /// Bad input, or a file that cannot be written.
 pub fn vary(options: &Vary) -> Result<Done> {
     let filter = options.search.filter();
-    let study = study(&options.file, &options.supply, &filter)?;
+    let study = study(&options.file, &options.supply, &filter, options.supply.steps())?;
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let axes = options

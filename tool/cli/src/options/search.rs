@@ -7,6 +7,7 @@ use glob::Pattern;
 
 use super::catalogue::CatalogueFiles;
 use super::word::word;
+use jred_machine::analysis::duty::{STEPS, Sampling};
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::words::Word as _;
 use jred_machine::number::words::counted;
@@ -29,9 +30,22 @@ pub struct SizingOptions {
     /// apply.
     #[arg(long, value_name = "SET")]
     pub rules: Option<String>,
-    /// Number of time steps per cycle.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
-    pub steps: u32,
+    /// Number of time steps per cycle; by default 2000, for `sensitivity` and `tolerance` 250.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
+    pub steps: Option<u32>,
+}
+
+impl SizingOptions {
+    /// Number of time steps of a machine's cycle.
+    pub fn steps(&self) -> usize {
+        self.steps.map_or(STEPS, |steps| steps as usize)
+    }
+
+    /// How the many neighbours of a machine are sampled.
+    pub fn of_neighbours(&self) -> Sampling {
+        let given = self.steps.map(|steps| Sampling::from(steps as usize));
+        given.unwrap_or(Sampling::OF_NEIGHBOURS)
+    }
 }
 
 /// Which drives are considered and how they are ranked.

@@ -3,10 +3,9 @@
 use jred::machine::TorqueTerms;
 use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
-use jred::{Error, Reducible as _, Reduction};
+use jred::{Error, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
-use crate::model::coordinate;
 use crate::model::drive_train::DriveTrain;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
@@ -75,8 +74,32 @@ pub(crate) const INSIDE: f64 = 1e-9;
 /// Share of a stretch after which a move that begins from rest has a speed; at its start it has this share of that speed at most.
 const SLIGHTLY: f64 = 1e-3;
 
-/// Share of the largest input torque by which a peak between two instants may be missed.
-const PEAK_MISSED: f64 = 1e-5;
+/// How finely a motion is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Time steps of a cycle, about.
+    pub steps: usize,
+    /// Share of the largest input torque by which the straight line between two instants may miss a peak.
+    pub missed: f64,
+}
+
+impl Sampling {
+    /// Of the many neighbours of a machine whose shares of limits are compared: sums are of fourth order in the step, and a peak is that of
+    /// the parabola through three instants (test `neighbours_are_sampled_finely_enough`).
+    pub const OF_NEIGHBOURS: Self = Self {
+        steps: 250,
+        missed: 1e-3,
+    };
+}
+
+impl From<usize> for Sampling {
+    fn from(steps: usize) -> Self {
+        Self {
+            steps,
+            missed: 1e-5,
+        }
+    }
+}
 
 /// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction
 /// and cogging hold that.
@@ -94,12 +117,12 @@ const MOST_INSTANTS: f64 = 1e6;
 fn refine_bends(
     moving: &mut Moving,
     first: usize,
-    most_parts: f64,
+    (missed, most_parts): (f64, f64),
     instants: &mut Vec<Instant>,
 ) -> Result<(), Error> {
     let stretch = instants.get(first..).unwrap_or_default();
     let torques = stretch.iter().map(|i| i.input_torque.abs());
-    let most = PEAK_MISSED * torques.fold(0.0, f64::max);
+    let most = missed * torques.fold(0.0, f64::max);
     let mut fine = Vec::new();
     for four in stretch.windows(4) {
         let [a, b, c, d] = four else {
@@ -296,7 +319,12 @@ impl Duty {
     ///
     /// # Errors
     /// Those of the machine.
-    pub fn new(file: &MachineFile, motion: &Motion, steps: usize) -> Result<Self, Error> {
+    pub fn new(
+        file: &MachineFile,
+        motion: &Motion,
+        sampling: impl Into<Sampling>,
+    ) -> Result<Self, Error> {
+        let Sampling { steps, missed } = sampling.into();
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
         let mut smooth = Smooth::default();
@@ -332,13 +360,12 @@ impl Duty {
                 let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
                 instants.push(Instant::new(&mut moving, from + place * span, weight)?);
             }
-            refine_bends(&mut moving, first, most_parts, &mut instants)?;
+            refine_bends(&mut moving, first, (missed, most_parts), &mut instants)?;
         }
         insert_extremes(&mut moving, &mut instants, &mut smooth)?;
         let ratio = file.drive_train.ratio();
         let (mut hold_torque, mut unheld) = (0.0f64, 0.0f64);
-        for phi in coordinate::positions(file.machine.domain(), 720) {
-            let reduction = file.bare_reduction(phi)?;
+        for (_, reduction) in file.over_range()? {
             let slope = reduction.potential_slope.abs();
             hold_torque = hold_torque.max(slope / ratio.abs());
             unheld = unheld.max(slope - reduction.coulomb);

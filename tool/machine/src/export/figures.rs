@@ -175,6 +175,9 @@ impl Export {
         if chosen.layout == LayoutName::SliderCrank {
             text += &self.closed();
         }
+        if let Some(left_out) = self.left_out() {
+            let _ = writeln!(text, "{left_out}");
+        }
         let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
             format!(" of {} {effort} allowed", rounded(allowed))
         });
@@ -223,6 +226,21 @@ impl Export {
             let _ = writeln!(text, "unused bits: {}", unused.join(", "));
         }
         text
+    }
+
+    /// What of the drive train is not in the table.
+    fn left_out(&self) -> Option<String> {
+        let named: Vec<String> = self.branches.iter().map(|name| format!("\"{name}\"")).collect();
+        let [first, rest @ ..] = named.as_slice() else {
+            return None;
+        };
+        let branches = match rest {
+            [] => format!("branch {first}"),
+            _ => format!("branches {first}, {}", rest.join(", ")),
+        };
+        Some(format!(
+            "not in the table: losses and friction of the {branches} of the drive train, which change sides with their own power; their inertia is in it"
+        ))
     }
 
     /// What a closed form costs, and how to have a table.
@@ -300,6 +318,9 @@ impl Export {
             },
         });
         if let Some(map) = object.as_object_mut() {
+            if let Some(left_out) = self.left_out() {
+                map.insert("left_out".into(), left_out.into());
+            }
             map.extend(figures(chosen));
             let scale = chosen.scale();
             map.insert(

@@ -97,6 +97,8 @@ pub struct Export {
     task: Task,
     /// Identifier of the machine.
     machine: u32,
+    /// Branches of the drive train, whose losses and friction no table contains.
+    branches: Vec<String>,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
     /// Which of them was chosen.
@@ -232,6 +234,9 @@ impl Export {
             in_pieces: !pieces.is_empty(),
             task,
             machine: id,
+            branches: (file.drive_train.branches().iter())
+                .map(|branch| branch.name.clone())
+                .collect(),
             answers,
             chosen,
         })

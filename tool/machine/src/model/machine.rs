@@ -1,11 +1,14 @@
 //! A machine as described by a machine file, checked and in SI units.
 
 use std::borrow::Cow;
+use std::fmt;
+use std::sync::OnceLock;
 
 use jred::machine::{Element, Mechanism as _};
-use jred::{Error, Machine, Reduction};
+use jred::{Error, Machine, Reducible as _, Reduction};
 
 use crate::model::axis::Axis;
+use crate::model::coordinate::positions;
 use crate::model::drive_train::DriveTrain;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
@@ -16,6 +19,9 @@ use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
+
+/// Positions over the range at which inertia and holding torque are looked at.
+pub const POSITIONS: usize = 720;
 
 /// The content of a machine file.
 #[derive(Clone, Debug)]
@@ -49,6 +55,25 @@ pub struct MachineFile {
     pub tolerances: Vec<Tolerance>,
     /// Supply, surroundings, stiffness and tool.
     pub site: Site,
+    /// The reduced link over the range, once somebody asked.
+    pub over_range: OverRange,
+}
+
+/// The reduced link over the range of the drive link, computed once. A copy of a machine, which may be changed, begins without it.
+#[derive(Default)]
+pub struct OverRange(OnceLock<Vec<(f64, Reduction)>>);
+
+impl Clone for OverRange {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl fmt::Debug for OverRange {
+    /// It follows from the rest of the machine, so a digest of that needs no more.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("OverRange")
+    }
 }
 
 impl MachineFile {
@@ -131,6 +156,20 @@ impl MachineFile {
     /// The mechanism cannot be placed at `phi`.
     pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
         self.bare_reduction_at(&Now::default(), phi)
+    }
+
+    /// [`bare_reduction`](Self::bare_reduction) at [`POSITIONS`] positions over the range, with each of them.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at one of them.
+    pub fn over_range(&self) -> Result<&[(f64, Reduction)], Error> {
+        if let Some(known) = self.over_range.0.get() {
+            return Ok(known);
+        }
+        let all = positions(self.machine.domain(), POSITIONS)
+            .map(|phi| Ok((phi, self.bare_reduction(phi)?)))
+            .collect::<Result<Vec<_>, Error>>()?;
+        Ok(self.over_range.0.get_or_init(|| all))
     }
 
     /// The same at an instant, with what acts and what is carried then.
@@ -263,6 +302,7 @@ impl MachineFile {
         }
         self.schedule = self.schedule.of_machine(&machine, self.motion.as_ref())?;
         self.machine = self.schedule.at_no_time().cloned().unwrap_or(machine);
+        self.over_range = OverRange::default();
         Ok(())
     }
 

@@ -10,6 +10,7 @@ use jred::friction::{
     Stage, Traction, Variable,
 };
 use jred::machine::motion::Law;
+use jred_enclosure::Interval;
 use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
@@ -150,6 +151,14 @@ impl Ratio {
         Self {
             whole: Some(Whole::Formula(formula)),
             ..ratio
+        }
+    }
+
+    /// An interval with all ratios of a formula over these times (s) and angles of the input shaft (rad); `None` of what is not one.
+    pub fn bounds(&self, t: Interval, phi: Interval) -> Option<Interval> {
+        match &self.whole {
+            Some(Whole::Formula(formula)) => Some(formula.bounds(&[t, phi])),
+            _ => None,
         }
     }
 

@@ -14,6 +14,9 @@
 use std::ops::Range;
 
 use jred::friction::Dual;
+use jred_enclosure::Interval;
+
+mod bound;
 
 /// Deepest nesting.
 const DEPTH: usize = 64;
@@ -21,19 +24,19 @@ const DEPTH: usize = 64;
 /// Longest text (bytes).
 const LONGEST: usize = 1000;
 
-/// A function of one argument: value and derivative.
-type Function = fn(f64) -> [f64; 2];
+/// A function of one argument: value and derivative, and the values of an interval.
+type Function = (fn(f64) -> [f64; 2], fn(Interval) -> Interval);
 
 /// The functions by name. Angles are in radians.
 const FUNCTIONS: [(&str, Function); 8] = [
-    ("sin", |x| [x.sin(), x.cos()]),
-    ("cos", |x| [x.cos(), -x.sin()]),
-    ("tan", |x| [x.tan(), 1.0 + x.tan() * x.tan()]),
-    ("atan", |x| [x.atan(), 1.0 / (1.0 + x * x)]),
-    ("tanh", |x| [x.tanh(), 1.0 - x.tanh() * x.tanh()]),
-    ("exp", |x| [x.exp(), x.exp()]),
-    ("ln", |x| [x.ln(), 1.0 / x]),
-    ("sqrt", |x| [x.sqrt(), 0.5 / x.sqrt()]),
+    ("sin", (|x| [x.sin(), x.cos()], |x| x.sin_cos().0)),
+    ("cos", (|x| [x.cos(), -x.sin()], |x| x.sin_cos().1)),
+    ("tan", (|x| [x.tan(), 1.0 + x.tan() * x.tan()], bound::tan)),
+    ("atan", (|x| [x.atan(), 1.0 / (1.0 + x * x)], bound::atan)),
+    ("tanh", (|x| [x.tanh(), 1.0 - x.tanh() * x.tanh()], bound::tanh)),
+    ("exp", (|x| [x.exp(), x.exp()], bound::exp)),
+    ("ln", (|x| [x.ln(), 1.0 / x], bound::ln)),
+    ("sqrt", (|x| [x.sqrt(), 0.5 / x.sqrt()], Interval::sqrt)),
 ];
 
 /// Where in the text a formula cannot be read, and why.
@@ -129,7 +132,7 @@ fn value<const N: usize>(node: &Node, variables: &[Dual<N>]) -> Dual<N> {
         Node::Negative(inner) => -value(inner, variables),
         Node::Call(function, inner) => {
             let inner = value(inner, variables);
-            let [at, slope] = FUNCTIONS[*function].1(inner.value);
+            let [at, slope] = FUNCTIONS[*function].1.0(inner.value);
             inner.through(at, slope)
         }
         Node::Pair(operation, pair) => {

@@ -6,14 +6,11 @@ use jred::machine::PoseError;
 use jred::{Domain, Error, Reducible};
 
 use crate::analysis::duty;
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, POSITIONS};
 use crate::number::numerics;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-
-/// Samples of a turn or a stroke.
-const SAMPLES: u32 = 720;
 
 /// An inertia that falls below this share of its largest value is zero.
 const ZERO: f64 = 1e-12;
@@ -21,21 +18,23 @@ const ZERO: f64 = 1e-12;
 /// Checks that the reduced inertia is positive at every angle, drive train included.
 pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let report = |error: &Error| no_inertia(mechanism, error);
-    let machine = file.with_drive_train().map_err(|error| report(&error))?;
+    let train = file.train_inertia();
     let inertia = |phi: f64| {
-        Ok(machine
-            .reduction(phi)
-            .map_err(|error| report(&error.into()))?
-            .inertia)
+        let reduction = file.bare_reduction(phi).map_err(|error| report(&error))?;
+        Ok(reduction.inertia + train)
     };
-    let domain = machine.domain();
+    let domain = file.machine.domain();
     let (from, to) = (domain.position(0.0), domain.position(1.0));
-    let step = domain.span() / f64::from(SAMPLES);
+    let step = domain.span() / (POSITIONS - 1) as f64;
     let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
+    let all = file.over_range().map_err(|error| report(&error))?;
+    // A turn ends where it begins.
     let (mut before, mut steepest) = (None, 0.0_f64);
-    for k in 0..=SAMPLES {
-        let phi = domain.position(f64::from(k) / f64::from(SAMPLES));
-        let value = inertia(phi)?;
+    if let (Domain::Turn, Some((_, last))) = (domain, all.last()) {
+        before = Some(last.inertia + train);
+    }
+    for (phi, reduction) in all {
+        let (phi, value) = (*phi, reduction.inertia + train);
         largest = largest.max(value);
         if value < smallest {
             (smallest, place) = (value, phi);

@@ -44,7 +44,7 @@ use std::path::Path;
 use jred::Machine;
 use miette::{Report, miette};
 
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, OverRange};
 use crate::model::rules::RuleSet;
 use crate::plain;
 use crate::text::file::{self, Files};
@@ -282,6 +282,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
             tool,
             ..site
         },
+        over_range: OverRange::default(),
     };
     if moves {
         check::inertia(&file, &section)?;

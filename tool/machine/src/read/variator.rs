@@ -2,6 +2,7 @@
 
 use jred::friction::{Contact, Course as _, CreepContact, CreepLimit, Flow, OperatingPoint};
 use jred::machine::motion::Law;
+use jred_enclosure::Interval;
 
 use crate::model::variator::{Adhesion, RATIOS, Ratio, Slip, VARIABLES, Variator};
 use crate::number::formula::Formula;
@@ -154,7 +155,73 @@ fn formula(item: &Item, root: &Section) -> Result<Ratio> {
             ));
         }
     }
+    if let Some(place) = unbounded(&ratio, duration) {
+        return Err(item
+            .problem(
+                &format!(
+                    "is not shown to stay between {} and {} near {place}",
+                    RATIOS[0], RATIOS[1]
+                ),
+                "this formula",
+            )
+            .help("between the instants that were tried it may have a pole or a zero there: check what is divided by"));
+    }
     Ok(ratio)
+}
+
+/// Parts of a range that are looked into at first.
+const PARTS: u32 = 64;
+
+/// Share of a range below which a part is a place.
+const PLACE: f64 = 1e-12;
+
+/// Most parts that are looked into.
+const MOST_PARTS: u32 = 400_000;
+
+/// Where the bounds of a formula do not lie within those of a ratio, over all times of the simulation and one turn of the input shaft.
+fn unbounded(ratio: &Ratio, duration: f64) -> Option<String> {
+    let turn = if ratio.is_turned() {
+        std::f64::consts::TAU
+    } else {
+        0.0
+    };
+    let spans = [duration, turn];
+    let part = |span: f64, k: u32| {
+        let end = |k: u32| span * f64::from(k) / f64::from(PARTS);
+        Interval::between(end(k), end(k + 1))
+    };
+    let counts = spans.map(|span| if span > 0.0 { PARTS } else { 1 });
+    let times = (0..counts[0]).rev();
+    let mut parts: Vec<[Interval; 2]> = times
+        .flat_map(|k| (0..counts[1]).rev().map(move |l| [part(spans[0], k), part(spans[1], l)]))
+        .collect();
+    let mut looked = 0;
+    while let Some([t, phi]) = parts.pop() {
+        let found = ratio.bounds(t, phi)?;
+        if RATIOS[0] <= found.lo() && found.hi() <= RATIOS[1] {
+            continue;
+        }
+        looked += 1;
+        let share = |of: Interval, span: f64| if span > 0.0 { of.width() / span } else { 0.0 };
+        let [in_time, in_angle] = [share(t, duration), share(phi, turn)];
+        if looked > MOST_PARTS || in_time.max(in_angle) < PLACE {
+            let mut place = format!("t = {} s", figure(t.middle()));
+            if ratio.is_turned() {
+                place += &format!(", phi = {} rad", figure(phi.middle()));
+            }
+            return Some(place);
+        }
+        let halves = |of: Interval| {
+            let middle = of.middle();
+            [Interval::between(middle, of.hi()), Interval::between(of.lo(), middle)]
+        };
+        if in_time >= in_angle {
+            parts.extend(halves(t).map(|t| [t, phi]));
+        } else {
+            parts.extend(halves(phi).map(|phi| [t, phi]));
+        }
+    }
+    None
 }
 
 /// `ratio = [["0 s", 0.5], …]`: a curve through points in time.

@@ -80,6 +80,7 @@ fn text(shown: &Shown) -> String {
     let Balanced {
         masses,
         springs,
+        efforts,
         before,
         after,
         bound,
@@ -110,6 +111,9 @@ fn text(shown: &Shown) -> String {
         ),
     );
     table(&mut text, shown, [before, after]);
+    for warning in warnings(shown) {
+        line(&mut text, "warning", &warning);
+    }
     let bodies = shown.request.counterweights.iter().zip(masses);
     for (asked, found) in bodies {
         text.push('\n');
@@ -121,7 +125,8 @@ fn text(shown: &Shown) -> String {
             }
         }
     }
-    for (number, found) in shown.request.springs.iter().zip(springs) {
+    let springs = springs.iter().zip(efforts);
+    for (number, (found, efforts)) in shown.request.springs.iter().zip(springs) {
         text.push('\n');
         let name = shown
             .file
@@ -129,13 +134,45 @@ fn text(shown: &Shown) -> String {
             .get(*number)
             .map_or("", |named| &named.name);
         match found {
-            Some(found) => spring(&mut text, name, found),
+            Some(found) => spring(&mut text, name, found, efforts.as_ref()),
             None => {
                 let _ = writeln!(text, "# {name}: no spring is best");
             }
         }
     }
     text
+}
+
+/// What the result has against it.
+fn warnings(shown: &Shown) -> Vec<String> {
+    let effort = &shown.coordinate().vocabulary().torque;
+    let heats = shown.balanced.heats().map(|share| {
+        format!(
+            "the RMS {effort} of the drive link rises by {}: the motor gets hotter; compare with --least rms",
+            percent(share)
+        )
+    });
+    heats.into_iter().collect()
+}
+
+/// Share of the larger of pull and push below which the other is none.
+const ONE_WAY: f64 = 1e-6;
+
+/// A spring that must both pull and push.
+fn both_ways(found: &Element, [pull, push]: [f64; 2]) -> Option<String> {
+    if pull.min(push) <= ONE_WAY * pull.max(push) {
+        return None;
+    }
+    let [pull, push] = [pull, push].map(short);
+    Some(if found.is_torsional() {
+        format!(
+            "turns its bodies both ways, by up to {pull} and {push} N m: take a torsion spring that is fixed to both of them, or a preloaded pair"
+        )
+    } else {
+        format!(
+            "pulls by up to {pull} N and pushes by up to {push} N: take a preloaded pair, or a spring for both directions that is fixed at both ends"
+        )
+    })
 }
 
 /// The figures before and after.
@@ -201,7 +238,7 @@ fn mass(text: &mut String, on: &str, found: &Attached) {
     }
 }
 
-fn spring(text: &mut String, name: &str, found: &Element) {
+fn spring(text: &mut String, name: &str, found: &Element, efforts: Option<&[f64; 2]>) {
     let [stiffness, free] = found.spring_rate().unwrap_or_default();
     let _ = if found.is_torsional() {
         writeln!(
@@ -218,12 +255,16 @@ fn spring(text: &mut String, name: &str, found: &Element) {
             figure(free * 1e3)
         )
     };
+    if let Some(remark) = efforts.and_then(|efforts| both_ways(found, *efforts)) {
+        let _ = writeln!(text, "# {remark}");
+    }
 }
 
 fn json(shown: &Shown) -> Value {
     let Balanced {
         masses,
         springs,
+        efforts,
         before,
         after,
         bound,
@@ -250,8 +291,8 @@ fn json(shown: &Shown) -> Value {
             })
         })
         .collect();
-    let springs: Vec<Value> = (shown.request.springs.iter().zip(springs))
-        .map(|(number, found)| {
+    let springs: Vec<Value> = (shown.request.springs.iter().zip(springs.iter().zip(efforts)))
+        .map(|(number, (found, efforts))| {
             let rate =
                 found.and_then(|spring| spring.spring_rate().zip(Some(spring.is_torsional())));
             let found = rate.map(|([stiffness, free], torsional)| {
@@ -260,7 +301,10 @@ fn json(shown: &Shown) -> Value {
                 } else {
                     "free_length"
                 };
-                json!({ "stiffness": stiffness, name: free })
+                {
+                    let [pull, push] = efforts.unwrap_or_default();
+                    json!({ "stiffness": stiffness, name: free, "pull": pull, "push": push })
+                }
             });
             let name = shown.file.elements.get(*number).map(|named| &named.name);
             json!({ "name": name, "found": found })
@@ -273,6 +317,7 @@ fn json(shown: &Shown) -> Value {
         "before": figures(before),
         "after": figures(after),
         "bound": bound,
+        "warnings": warnings(shown),
         "counterweights": masses,
         "springs": springs,
     })

@@ -117,6 +117,14 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
             }
         }
     }
+    let whole = found.dependences.iter().filter(|d| d.whole);
+    let whole: Vec<&str> = whole.map(|d| path(d.quantity)).collect();
+    if !whole.is_empty() {
+        notes.push(format!(
+            "by one more and one less, because they are whole numbers: {}",
+            whole.join(", ")
+        ));
+    }
     notes.extend(
         (found.fixed.iter()).map(|(index, why)| format!("not varied: {}: {why}", path(*index))),
     );
@@ -130,8 +138,8 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
         "value",
         "affects most",
         "% of limit per +1 %",
-        "room down",
-        "room up",
+        "margin down",
+        "margin up",
     ];
     let row = |dependence: &Dependence| -> Vec<Cell> {
         let quantity = study.document.quantities().get(dependence.quantity);

@@ -10,12 +10,11 @@
 //! m scales every mass and inertia of the mechanism, of what it carries and of its flywheel, p every force and moment of given direction. The
 //! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
 
-use jred::machine::{Mechanism as _, TorqueTerms};
+use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
 use jred_machine::analysis::duty::{Duty, Instant, Smooth};
-use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
 use jred_machine::model::schedule::Now;
@@ -54,9 +53,6 @@ pub struct Altered<'a> {
     range: Vec<[f64; 2]>,
 }
 
-/// Positions at which the holding torque is sought, as in [`Duty::new`].
-const POSITIONS: usize = 720;
-
 impl<'a> Altered<'a> {
     /// Prepares a duty.
     ///
@@ -83,11 +79,10 @@ impl<'a> Altered<'a> {
                 weight(laden.get(number).unwrap_or(&own), i.phi)
             })
             .collect::<Result<Vec<f64>, Error>>()?;
-        let mut range = positions(machine.mechanism().domain(), POSITIONS)
-            .map(|phi| {
-                let weight = weight(&own, phi)?;
-                let all = file.bare_reduction(phi)?.potential_slope;
-                Ok([weight, all - weight])
+        let mut range = (file.over_range()?.iter())
+            .map(|(phi, reduction)| {
+                let weight = weight(&own, *phi)?;
+                Ok([weight, reduction.potential_slope - weight])
             })
             .collect::<Result<Vec<[f64; 2]>, Error>>()?;
         let carried = duty.instants.iter().zip(&weights);

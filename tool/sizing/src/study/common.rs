@@ -9,7 +9,7 @@ use crate::catalogue::Catalogue;
 use crate::catalogue::{Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::select::fit::fit_input;
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::plain;
@@ -32,8 +32,8 @@ pub struct Study {
     pub catalogue: Catalogue,
     /// Rule set instead of the file's.
     rules: Option<RuleSet>,
-    /// Number of time steps per cycle.
-    pub steps: usize,
+    /// How finely a cycle is sampled.
+    pub sampling: Sampling,
     /// The cycle of the machine as the file says, once it was asked for.
     cycle: OnceLock<Arc<Cycle>>,
 }
@@ -61,11 +61,18 @@ impl Study {
         path: &std::path::Path,
         catalogue: Catalogue,
         rules: Option<RuleSet>,
-        steps: usize,
+        sampling: impl Into<Sampling>,
     ) -> Result<Self> {
         let name = plain::path(path);
         let files = Box::new(read::folder(path).to_owned());
-        Self::new(name, read::text(path)?, files, catalogue, rules, steps)
+        Self::new(
+            name,
+            read::text(path)?,
+            files,
+            catalogue,
+            rules,
+            sampling,
+        )
     }
 
     /// Reads the `text` of a machine file, which must be one that can be sized, and what it names from `files`; `rules` are a set
@@ -79,7 +86,7 @@ impl Study {
         files: Box<dyn Files + Send + Sync>,
         mut catalogue: Catalogue,
         rules: Option<RuleSet>,
-        steps: usize,
+        sampling: impl Into<Sampling>,
     ) -> Result<Self> {
         let mut nominal = read::parse(&name, &text, &*files)?;
         if let Some(set) = &rules {
@@ -94,7 +101,7 @@ impl Study {
             nominal,
             catalogue,
             rules,
-            steps,
+            sampling: sampling.into(),
             cycle: OnceLock::new(),
         })
     }
@@ -131,7 +138,7 @@ impl Study {
         let known = self.cycle.get().filter(|_| around).cloned();
         let cycle = match known {
             Some(cycle) => cycle,
-            None => Arc::new(cycle(&file, self.steps)?),
+            None => Arc::new(cycle(&file, self.sampling)?),
         };
         if around {
             // Another thread may have been first: the cycles are the same.
@@ -199,9 +206,9 @@ pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive
 ///
 /// # Errors
 /// A machine without a motion, or one that cannot follow it.
-pub fn cycle(file: &MachineFile, steps: usize) -> Result<Cycle> {
+pub fn cycle(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Cycle> {
     let motion = file.required_motion()?;
-    let duty = Duty::new(file, motion, steps).into_diagnostic()?;
+    let duty = Duty::new(file, motion, sampling).into_diagnostic()?;
     Ok(Cycle::new(&duty))
 }
 

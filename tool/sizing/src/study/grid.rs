@@ -66,7 +66,7 @@ impl Task for GridStudy<'_> {
                 )
             })
             .collect();
-        options.push(format!("steps = {}", self.study.steps));
+        options.push(format!("steps = {}", self.study.sampling.steps));
         options.push(format!("filter = {}", digest(&self.filter)));
         options.push(format!(
             "rank = {}",

@@ -4,8 +4,9 @@
 //! Every number with a unit, and every plain number, is moved by its relative change ε with all else as it is; the machine
 //! is read and judged anew. The derivative of a rule's share of its limit u is the central difference
 //! (u(ε) − u(−ε))/(2ε), extrapolated from ε and ε/2 to (4·D(ε/2) − D(ε))/3, whose error grows with ε⁴; what two such values
-//! differ by is stated as its uncertainty. A quantity that is zero has no relative change, and some cannot be moved alone
-//! (the moves of a cycle add up to whole turns, teeth are whole): these are named with the reason.
+//! differ by is stated as its uncertainty. A count, such as a number of teeth, is moved by one: its derivative is (u(n + 1) − u(n − 1))·n/2, its
+//! uncertainty the half of what the two steps differ by. A quantity that is zero has no relative change, and some cannot be moved alone (the
+//! moves of a cycle add up to whole turns): these are named with the reason.
 
 use crate::judge::Findings;
 use crate::judge::broken;
@@ -58,6 +59,8 @@ impl Room {
 pub struct Dependence {
     /// Index of the quantity in the document.
     pub quantity: usize,
+    /// Whether it is a count, which was moved by one.
+    pub whole: bool,
     /// The slopes of the rules that can be checked.
     pub slopes: Vec<Slope>,
     /// Room to smaller and to larger values.
@@ -145,9 +148,16 @@ type Tried = Result<Judged, String>;
 impl Mover<'_> {
     /// The drive with the quantity moved by a relative change.
     fn at(&self, change: f64) -> Tried {
+        let number = self.number * (1.0 + change);
+        // A count by its own step is whole but for a rounding.
+        let whole = number.round();
         let edit = Edit {
             quantity: self.quantity,
-            number: self.number * (1.0 + change),
+            number: if (number - whole).abs() <= 1e-9 * whole.abs() {
+                whole
+            } else {
+                number
+            },
             unit: self.unit,
         };
         let machine = self
@@ -188,6 +198,104 @@ impl Mover<'_> {
             })
         };
         Ok((fine.iter().filter_map(slope).collect(), outer))
+    }
+
+    /// What the quantity changes: by a small share of it; of a count, which cannot, by one.
+    fn dependence(&self, reach: Reach, holds: bool) -> Result<Dependence, String> {
+        let dependence = |whole: bool, slopes: Vec<Slope>, room: [Room; 2]| Dependence {
+            quantity: self.quantity,
+            whole,
+            slopes,
+            room,
+        };
+        let broken = [Room::Broken, Room::Broken];
+        match self.slopes(reach.change) {
+            Ok((slopes, _)) if !holds => Ok(dependence(false, slopes, broken)),
+            Ok((slopes, [below, above])) => {
+                let room = [self.room(-1.0, reach, below), self.room(1.0, reach, above)];
+                Ok(dependence(false, slopes, room))
+            }
+            Err(_) if self.counts() => {
+                let slopes = self.slopes_by_one()?;
+                let room = if holds {
+                    [-1.0, 1.0].map(|sign| self.room_by_one(sign, reach))
+                } else {
+                    broken
+                };
+                Ok(dependence(true, slopes, room))
+            }
+            Err(why) => Err(why),
+        }
+    }
+
+    /// Whether it is a count, and not an entry of a list, which names something by its number.
+    fn counts(&self) -> bool {
+        let quantity = self.study.document.quantities().get(self.quantity);
+        quantity.is_some_and(|quantity| {
+            let last = quantity.path.rsplit('.').next().unwrap_or_default();
+            quantity.is_whole() && self.number >= 1.0 && last.parse::<f64>().is_err()
+        })
+    }
+
+    /// The count with so many more.
+    fn more(&self, by: f64) -> Tried {
+        self.at(by / self.number)
+    }
+
+    fn slopes_by_one(&self) -> Result<Vec<Slope>, String> {
+        let below = self.more(-1.0).map_err(|why| format!("one less: {why}"))?;
+        let [same, above] = [0.0, 1.0].map(|by| self.more(by));
+        let (same, above) = (same?, above.map_err(|why| format!("one more: {why}"))?);
+        let of = |judged: &Judged, rule: Rule| {
+            let found = judged.shares.iter().find(|(r, _)| *r == rule);
+            found.map(|(_, share)| *share)
+        };
+        let slope = |(rule, above): &(Rule, f64)| {
+            let [below, same] = [of(&below, *rule)?, of(&same, *rule)?];
+            Some(Slope {
+                rule: *rule,
+                refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
+                slope: 0.5 * self.number * (above - below),
+                uncertainty: 0.5 * self.number * (above - 2.0 * same + below).abs(),
+            })
+        };
+        Ok(above.shares.iter().filter_map(slope).collect())
+    }
+
+    /// Room of a count in the direction of `sign`: by doubling steps, then by halves of the last.
+    fn room_by_one(&self, sign: f64, reach: Reach) -> Room {
+        let share = |by: f64| sign * by / self.number;
+        let most = (reach.most * self.number).floor().max(1.0);
+        let most = if sign < 0.0 { most.min(self.number - 1.0) } else { most };
+        let holds = |tried: &Tried| matches!(tried, Ok(Judged { broken: None, .. }));
+        let (mut held, mut step) = (0.0, 1.0f64);
+        let mut stopped = loop {
+            let by = step.min(most);
+            if held >= most {
+                return Room::AtLeast(share(held));
+            }
+            let tried = self.more(sign * by);
+            if !holds(&tried) {
+                break (by, tried);
+            }
+            (held, step) = (by, 2.0 * step);
+        };
+        while stopped.0 - held > 1.0 {
+            let by = (0.5 * (held + stopped.0)).floor();
+            let tried = self.more(sign * by);
+            if holds(&tried) {
+                held = by;
+            } else {
+                stopped = (by, tried);
+            }
+        }
+        match stopped.1 {
+            Ok(Judged {
+                broken: Some(rule), ..
+            }) => Room::UpTo(share(held), rule),
+            Err(why) => Room::Refused(share(held), why),
+            Ok(Judged { broken: None, .. }) => Room::AtLeast(share(held)),
+        }
     }
 
     /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last; `first` is the drive at the first.
@@ -284,20 +392,7 @@ impl Sensitivity {
                 let dependence = if quantity.number() == 0.0 {
                     Err("zero has no relative change".to_owned())
                 } else {
-                    mover.slopes(reach.change).map(|(slopes, [below, above])| {
-                        let room = |sign, first| {
-                            if holds {
-                                mover.room(sign, reach, first)
-                            } else {
-                                Room::Broken
-                            }
-                        };
-                        Dependence {
-                            quantity: index,
-                            slopes,
-                            room: [room(-1.0, below), room(1.0, above)],
-                        }
-                    })
+                    mover.dependence(reach, holds)
                 };
                 progress();
                 (index, dependence)

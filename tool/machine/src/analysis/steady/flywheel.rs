@@ -7,7 +7,7 @@ use super::SteadyError;
 use super::cycle::{self, Cycle, Found};
 use super::figures::Figures;
 use super::turn::Turning;
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, OverRange};
 use crate::model::simulation::Simulation;
 use crate::number::numerics;
 use crate::number::rounding::short;
@@ -135,6 +135,7 @@ impl Flywheel {
 fn with_flywheel(file: &MachineFile, inertia: f64) -> Result<MachineFile, SteadyError> {
     let mut file = file.clone();
     file.machine = file.machine.with_flywheel(inertia)?;
+    file.over_range = OverRange::default();
     Ok(file)
 }
 

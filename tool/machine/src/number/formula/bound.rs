@@ -1,0 +1,118 @@
+//! Bounds of a formula over intervals of its variables.
+
+use jred_enclosure::Interval;
+
+use super::{FUNCTIONS, Formula, Node, Operation};
+
+/// Units of the last place by which functions of the standard library may be off, with room to spare.
+const OFF: f64 = 8.0 * f64::EPSILON;
+
+/// Largest whole exponent that is multiplied out.
+const LARGEST_EXPONENT: f64 = 64.0;
+
+impl Formula {
+    /// An interval with all its values where each variable is anywhere in its own; all numbers where there may be a pole.
+    pub fn bounds(&self, variables: &[Interval]) -> Interval {
+        bounds(&self.root, variables)
+    }
+}
+
+fn bounds(node: &Node, variables: &[Interval]) -> Interval {
+    match node {
+        Node::Number(number) => Interval::of(*number),
+        Node::Variable(k) => variables.get(*k).copied().unwrap_or(Interval::ALL),
+        Node::Negative(inner) => -bounds(inner, variables),
+        Node::Call(function, inner) => {
+            let inner = bounds(inner, variables);
+            if inner.is_bounded() {
+                FUNCTIONS[*function].1.1(inner)
+            } else {
+                Interval::ALL
+            }
+        }
+        Node::Pair(operation, pair) => {
+            let [a, b] = [&pair[0], &pair[1]].map(|node| bounds(node, variables));
+            match operation {
+                Operation::Plus => a + b,
+                Operation::Minus => a - b,
+                Operation::Times if pair[0] == pair[1] => a.square(),
+                Operation::Times => a * b,
+                Operation::Over => a / b,
+                Operation::Power => power(a, b),
+            }
+        }
+    }
+}
+
+/// aᵇ: by products for a whole exponent, else of positive a only.
+fn power(a: Interval, b: Interval) -> Interval {
+    if !a.is_bounded() || !b.is_bounded() {
+        return Interval::ALL;
+    }
+    let exponent = b.lo();
+    if b.hi() - b.lo() > 0.0 {
+        return if a.lo() > 0.0 {
+            exp(b * ln(a))
+        } else {
+            Interval::ALL
+        };
+    }
+    if exponent.fract() == 0.0 && exponent.abs() <= LARGEST_EXPONENT {
+        let whole = a.power(exponent.abs() as usize);
+        return if exponent < 0.0 {
+            Interval::ONE / whole
+        } else {
+            whole
+        };
+    }
+    if a.lo() > 0.0 || (a.lo() == 0.0 && exponent > 0.0) {
+        let [low, high] = [a.lo(), a.hi()].map(|x| rounded(x.powf(exponent)));
+        return low.hull(high);
+    }
+    Interval::ALL
+}
+
+/// A value of the standard library, with what it may be off.
+fn rounded(value: f64) -> Interval {
+    Interval::around(value, OFF * value.abs())
+}
+
+/// A function that rises throughout.
+fn rising(x: Interval, f: fn(f64) -> f64) -> Interval {
+    rounded(f(x.lo())).hull(rounded(f(x.hi())))
+}
+
+pub(super) fn tan(x: Interval) -> Interval {
+    let (sin, cos) = x.sin_cos();
+    let quotient = sin / cos;
+    // Between two poles it rises.
+    if quotient.is_bounded() {
+        quotient.and(rising(x, f64::tan))
+    } else {
+        quotient
+    }
+}
+
+pub(super) fn atan(x: Interval) -> Interval {
+    rising(x, f64::atan)
+}
+
+pub(super) fn tanh(x: Interval) -> Interval {
+    rising(x, f64::tanh)
+}
+
+pub(super) fn exp(x: Interval) -> Interval {
+    if x.is_bounded() {
+        rising(x, f64::exp)
+    } else {
+        Interval::ALL
+    }
+}
+
+pub(super) fn ln(x: Interval) -> Interval {
+    if x.lo() > 0.0 {
+        rising(x, f64::ln)
+    } else {
+        Interval::ALL
+    }
+}
