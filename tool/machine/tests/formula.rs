@@ -1,6 +1,7 @@
 //! Formulas and their slopes, against the same written in Rust and differentiated by hand.
 
 use jred::friction::Dual;
+use jred_enclosure::Interval;
 use jred_machine::number::formula::Formula;
 
 use crate::support::{near, within};
@@ -97,4 +98,51 @@ fn faults_have_a_place() {
         let fault = Formula::parse(text, &["t"]).unwrap_err();
         assert_eq!(fault.place, place, "{text}: {}", fault.what);
     }
+}
+
+/// Wherever the variables are in their intervals, the value is in the bounds; where there is no pole they close in on it.
+#[test]
+fn bounds_contain_every_value() {
+    let formulas = [
+        "0.8 + 0.3*sin(2*pi*t)*cos(phi)",
+        "t/(phi + 3) - t^2",
+        "exp(-t)*tanh(phi) + atan(t - phi)",
+        "sqrt(t + 2) + ln(phi + 3) + tan(t/4)",
+        "(t + 3)^1.7 + (phi + 2)^t + 2^-3",
+        "t*t - phi^3/(t^2 + 1)",
+    ];
+    let mut random = 12345u64;
+    let mut next = || {
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (random >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for text in formulas {
+        let formula = Formula::parse(text, &["t", "phi"]).unwrap();
+        for width in [1.0, 1e-3, 1e-6] {
+            for _ in 0..200 {
+                let from = [next(), next()].map(|x| 2.0 * x - 1.0);
+                let [t, phi] = from.map(|x| Interval::between(x, x + width));
+                let bounds = formula.bounds(&[t, phi]);
+                let place = from.map(|x| x + width * next());
+                let [value, ..] = at(text, place);
+                assert!(
+                    !value.is_finite() || bounds.contains(value),
+                    "{text} {place:?} {bounds:?}"
+                );
+                if width < 0.1 && bounds.is_bounded() && value.abs() < 10.0 {
+                    assert!(
+                        bounds.width() < 200.0 * width,
+                        "{text} {place:?} {bounds:?}"
+                    );
+                }
+            }
+        }
+    }
+    // Across a pole every number is a value.
+    let pole = Formula::parse("1/(t - 0.50001)", &["t", "phi"]).unwrap();
+    let near = |a: f64, b: f64| pole.bounds(&[Interval::between(a, b), Interval::ZERO]);
+    assert!(!near(0.5, 0.51).is_bounded());
+    assert!(near(0.5, 0.50000001).is_bounded());
 }

@@ -121,7 +121,7 @@ fn a_ratio_by_a_formula_keeps_the_energy() {
 /// Formulas that keep within the range where the file is read, and leave it at angles that the simulation comes to.
 #[test]
 fn a_ratio_that_leaves_its_range_ends_the_simulation() {
-    for formula in ["0.5 + 2*sin(62.5*phi)", "0.8/(10 - phi)"] {
+    for formula in ["0.6 - 0.06*phi", "0.8/(10 - phi)"] {
         let Err(message) = run(&by_formula(formula)) else {
             panic!("simulated {formula}");
         };

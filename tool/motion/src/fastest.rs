@@ -15,6 +15,7 @@ mod obstacle;
 mod phases;
 pub mod plane;
 pub mod sweep;
+pub mod tool_speed;
 pub mod track;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -30,6 +31,7 @@ use leg::Step;
 pub use obstacle::NoMotion;
 pub use phases::Phase;
 use sweep::Piece;
+pub use tool_speed::ToolSpeed;
 use track::{Ends, Track};
 
 /// Cells of the first try, and the most.
@@ -298,6 +300,7 @@ fn excess(
             let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
             let place = way.place(ends.from + direction * x)?;
             let (v, alpha) = (state.omega * direction, state.alpha * direction);
+            most = most.max(v / field.tool_speed(place.phi)? - 1.0);
             // A torque at its limit is measured by that of the motor at rest: the limit itself may be nothing.
             let limits = field.motor_torques(v);
             let scale = way.actuator.torques(0.0).map(f64::abs);

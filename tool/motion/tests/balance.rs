@@ -284,7 +284,9 @@ fn a_spring_says_whether_it_works_both_ways() {
     let efforts = |range: &str| {
         let file = lever(range, spring);
         let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
-        let rate = found.springs[0].and_then(|spring| spring.spring_rate()).unwrap();
+        let rate = found.springs[0]
+            .and_then(|spring| spring.spring_rate())
+            .unwrap();
         (rate, found.efforts[0].unwrap())
     };
     let ([stiffness, free], [pull, push]) = efforts("stroke = [\"10 deg\", \"170 deg\"]\n");
@@ -293,13 +295,19 @@ fn a_spring_says_whether_it_works_both_ways() {
     assert!((pull / most - 1.0).abs() < 1e-5 && (push / most - 1.0).abs() < 1e-5);
     let ([stiffness, free], [pull, push]) = efforts("stroke = [\"10 deg\", \"80 deg\"]\n");
     let most = stiffness * (free - 10f64.to_radians());
-    assert!(pull == 0.0 && (push / most - 1.0).abs() < 1e-9, "{pull} {push} {most}");
+    assert!(
+        pull == 0.0 && (push / most - 1.0).abs() < 1e-9,
+        "{pull} {push} {most}"
+    );
 }
 
 /// A goal that costs more than a tenth of heat's root is named.
 #[test]
 fn a_higher_rms_is_said() {
-    let file = lever("", "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n");
+    let file = lever(
+        "",
+        "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n",
+    );
     let mut found = balance(&file, &request(Goal::Peak, &[(0, 20.0, 0.5)], &[])).unwrap();
     assert_eq!(found.heats(), None);
     let [rms, peak] = found.before.torque.unwrap();

@@ -5,6 +5,7 @@ mod lengths;
 mod programme;
 mod refusals;
 mod scales;
+mod tool_speed;
 mod varying;
 
 use std::collections::BTreeMap;

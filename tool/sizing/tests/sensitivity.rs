@@ -336,9 +336,22 @@ fn teeth_are_moved_by_one() {
         let dependence = found.dependences.iter().find(|d| d.quantity == teeth);
         let dependence = dependence.unwrap_or_else(|| panic!("{path}: {:?}", found.fixed));
         assert!(dependence.whole);
-        let slope = dependence.slopes.iter().find(|s| s.rule == Rule::RmsTorque).unwrap();
-        let by_one = if sign < 0.0 { z * z / (z * z - 1.0) } else { 1.0 };
-        near(path, slope.slope, sign * by_one * share(Rule::RmsTorque), 1e-9);
+        let slope = dependence
+            .slopes
+            .iter()
+            .find(|s| s.rule == Rule::RmsTorque)
+            .unwrap();
+        let by_one = if sign < 0.0 {
+            z * z / (z * z - 1.0)
+        } else {
+            1.0
+        };
+        near(
+            path,
+            slope.slope,
+            sign * by_one * share(Rule::RmsTorque),
+            1e-9,
+        );
         let bend = if sign < 0.0 { z / (z * z - 1.0) } else { 0.0 };
         within(path, slope.uncertainty, bend * share(Rule::RmsTorque), 1e-9);
         for room in &dependence.room {
@@ -352,16 +365,28 @@ fn teeth_are_moved_by_one() {
 #[test]
 fn neighbours_are_sampled_finely_enough() {
     let (mut worst, mut machines) = (0.0f64, 0);
-    for name in ["press", "linkage-press", "excavator-bucket", "four-bar", "rack", "toggle-press", "hoist"] {
+    for name in [
+        "press",
+        "linkage-press",
+        "excavator-bucket",
+        "four-bar",
+        "rack",
+        "toggle-press",
+        "hoist",
+    ] {
         let path = press_file().with_file_name(format!("{name}.toml"));
         let shares = |sampling: Sampling| {
             let study = Study::open(&path, strong(), None, sampling).ok()?;
             let filter = Filter::default();
             let one = ChosenDrive::choose(&study, Some("strong+five"), &filter, None).ok()?;
             let machine = study.machine(&[]).unwrap();
-            Some(jred_sizing::study::sensitivity::shares(&machine.file.rules, &one.findings(&machine)))
+            Some(jred_sizing::study::sensitivity::shares(
+                &machine.file.rules,
+                &one.findings(&machine),
+            ))
         };
-        let (Some(coarse), Some(fine)) = (shares(Sampling::OF_NEIGHBOURS), shares(8000.into())) else {
+        let (Some(coarse), Some(fine)) = (shares(Sampling::OF_NEIGHBOURS), shares(8000.into()))
+        else {
             continue;
         };
         machines += 1;

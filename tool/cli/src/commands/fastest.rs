@@ -9,16 +9,18 @@ use crate::commands::{Done, drive_named, envelope, print};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
-use jred::Reducible as _;
+use jred::machine::Mechanism as _;
+use jred::{Domain, Reducible as _};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
+use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, single};
-use jred_motion::fastest::{Limits, NoMotion, Reserve, Task};
+use jred_motion::fastest::{Limits, NoMotion, Reserve, Task, ToolSpeed};
 use jred_motion::moves::{NoMoves, parts};
 use jred_motion::way::Actuator;
 use jred_report::list;
@@ -208,9 +210,67 @@ fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limi
     )?;
     Ok(Limits {
         speed: read("max-speed", &options.max_speed, read::largest_speed)?,
+        tool: match &options.max_tool_speed {
+            Some(text) => Some(tool_speed(text, file)?),
+            None => None,
+        },
         acceleration,
         deceleration: deceleration.or(acceleration),
         ..gearbox
+    })
+}
+
+/// "slider, 60 mm/s, 300 deg, 360 deg".
+fn tool_speed(text: &str, file: &MachineFile) -> Result<ToolSpeed> {
+    let given = format!("--max-tool-speed {}", plain::quoted(text));
+    let mechanism = file.machine.mechanism();
+    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let &[point, speed, from, to] = parts.as_slice() else {
+        return Err(miette!(
+            help = "write a point, its largest speed, and two positions of the drive link: \"slider, 60 mm/s, 300 deg, 360 deg\"",
+            "{given} has {} instead of four",
+            counted(parts.len(), "part", "parts")
+        ));
+    };
+    let named = mechanism.points().iter().find(|own| own.name == point);
+    let link = || links.iter().position(|name| name == point);
+    let place = named
+        .map(|own| (own.link, own.at))
+        .or_else(|| Some((link()?, [0.0; 2])));
+    let Some(place) = place else {
+        let points = mechanism.points().iter().map(|own| own.name.as_str());
+        let all: Vec<&str> = points.chain(links.iter().map(String::as_str)).collect();
+        return Err(miette!(
+            help = format!("it has {}", all.join(", ")),
+            "{given}: the mechanism has no point and no link {}",
+            plain::quoted(point)
+        ));
+    };
+    let refused = |why: String| miette!("{given} cannot be used: {why}");
+    let speed = read::largest_speed(speed, Coordinate::Length).map_err(refused)?;
+    let ends = format!("{from}, {to}");
+    let ends = read::drive_positions(&ends, mechanism.domain(), mechanism.coordinate());
+    let &[start, end] = ends.map_err(refused)?.as_slice() else {
+        return Err(refused("it needs two positions".to_owned()));
+    };
+    let between = [start, end];
+    let turns = mechanism.domain() == Domain::Turn;
+    let width = between[1] - between[0];
+    if width == 0.0 || (!turns && width < 0.0) || width.abs() > mechanism.domain().span() {
+        return Err(miette!(
+            help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
+            "{given}: from {from} to {to} is no part of the way"
+        ));
+    }
+    let limit = ToolSpeed::new(mechanism, place, speed, between);
+    let limit = limit.map_err(core_report)?;
+    limit.ok_or_else(|| {
+        miette!(
+            help = "choose a point or a link that moves with the drive link",
+            "{given}: {} does not move",
+            plain::quoted(point)
+        )
     })
 }
 
@@ -224,7 +284,12 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
         drive_named(catalogue(&options.supply, &filter)?, name, file)?
     } else {
         file.motion_or("name a --drive, or give --torque and --motor-speed, or ")?;
-        let study = study(&options.file, &options.supply, &filter, options.supply.steps())?;
+        let study = study(
+            &options.file,
+            &options.supply,
+            &filter,
+            options.supply.steps(),
+        )?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };
     let drive = drive.drive();

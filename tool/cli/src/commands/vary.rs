@@ -73,7 +73,12 @@ impl Rows {
 /// Bad input, or a file that cannot be written.
 pub fn vary(options: &Vary) -> Result<Done> {
     let filter = options.search.filter();
-    let study = study(&options.file, &options.supply, &filter, options.supply.steps())?;
+    let study = study(
+        &options.file,
+        &options.supply,
+        &filter,
+        options.supply.steps(),
+    )?;
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let axes = options

@@ -80,6 +80,10 @@ pub struct Fastest {
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
+    /// Largest speed of a point of the tool in a part of the way: a named point or a link, the speed, and two positions of the drive link, e.g.
+    /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere.
+    #[arg(long, value_name = "POINT, SPEED, FROM, TO")]
+    pub max_tool_speed: Option<String>,
     /// Largest acceleration of the drive link while its speed grows, e.g. "120 rad/s^2" ("3 m/s^2").
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_acceleration: Option<String>,

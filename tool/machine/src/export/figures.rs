@@ -230,7 +230,11 @@ impl Export {
 
     /// What of the drive train is not in the table.
     fn left_out(&self) -> Option<String> {
-        let named: Vec<String> = self.branches.iter().map(|name| format!("\"{name}\"")).collect();
+        let named: Vec<String> = self
+            .branches
+            .iter()
+            .map(|name| format!("\"{name}\""))
+            .collect();
         let [first, rest @ ..] = named.as_slice() else {
             return None;
         };

@@ -83,7 +83,9 @@ impl Carriage {
     /// Power of the second axis (W), m·(r̈ − g)·e·ṡ, where the drive link moves with ω and α.
     pub fn power(&self, frame: &Frame, t: f64, [omega, alpha]: [f64; 2], gravity: [f64; 2]) -> f64 {
         let [along, _] = self.directions(frame);
-        let carried = frame.point(self.placed(t).at).map(|c| c.acceleration(omega, alpha));
+        let carried = frame
+            .point(self.placed(t).at)
+            .map(|c| c.acceleration(omega, alpha));
         let own = self.force(frame, t, omega);
         let force = |k: usize| self.mass.mass * (carried[k] - gravity[k]) - own[k];
         (force(0) * along[0] + force(1) * along[1]) * self.at(t).omega

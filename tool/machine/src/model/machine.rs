@@ -131,11 +131,7 @@ impl MachineFile {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
-    pub fn carriage_torque(
-        &self,
-        machine: &Machine<AnyMechanism>,
-        phi: f64,
-    ) -> Result<f64, Error> {
+    pub fn carriage_torque(&self, machine: &Machine<AnyMechanism>, phi: f64) -> Result<f64, Error> {
         if !self.schedule.flows() {
             return Ok(0.0);
         }

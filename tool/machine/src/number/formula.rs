@@ -33,7 +33,10 @@ const FUNCTIONS: [(&str, Function); 8] = [
     ("cos", (|x| [x.cos(), -x.sin()], |x| x.sin_cos().1)),
     ("tan", (|x| [x.tan(), 1.0 + x.tan() * x.tan()], bound::tan)),
     ("atan", (|x| [x.atan(), 1.0 / (1.0 + x * x)], bound::atan)),
-    ("tanh", (|x| [x.tanh(), 1.0 - x.tanh() * x.tanh()], bound::tanh)),
+    (
+        "tanh",
+        (|x| [x.tanh(), 1.0 - x.tanh() * x.tanh()], bound::tanh),
+    ),
     ("exp", (|x| [x.exp(), x.exp()], bound::exp)),
     ("ln", (|x| [x.ln(), 1.0 / x], bound::ln)),
     ("sqrt", (|x| [x.sqrt(), 0.5 / x.sqrt()], Interval::sqrt)),

@@ -48,7 +48,10 @@ pub(super) fn read(
     }
     let Some(of_machine) = of_machine else {
         return Err(item
-            .problem("is given, but the file has no [motion]", "at which time is it where?")
+            .problem(
+                "is given, but the file has no [motion]",
+                "at which time is it where?",
+            )
             .help("add a [motion] of the drive link: a carriage moves over its time"));
     };
     let mut carriages: Vec<Carriage> = Vec::new();
@@ -56,7 +59,10 @@ pub(super) fn read(
         let carriage = carriage(section, files, &machine, loads, of_machine)?;
         if let Some(same) = carriages.iter().position(|c| c.name == carriage.name) {
             return Err(section
-                .problem(format!("two carriages are named \"{}\"", carriage.name), "this one")
+                .problem(
+                    format!("two carriages are named \"{}\"", carriage.name),
+                    "this one",
+                )
                 .at(sections[same].header(), "and this one")
                 .help("give each a name of its own"));
         }
@@ -136,7 +142,11 @@ fn carriage(
 /// The motion of a carriage ends with that of the machine, or stands before; where that repeats, it ends where it began.
 fn fits(own: &Section, motion: &Motion, of_machine: &Motion, stroke: f64) -> Result<()> {
     let [lasts, whole] = [motion, of_machine].map(Motion::duration);
-    let times = format!("lasts {} s, but [motion] {} s", figure(lasts), figure(whole));
+    let times = format!(
+        "lasts {} s, but [motion] {} s",
+        figure(lasts),
+        figure(whole)
+    );
     if lasts > whole * (1.0 + SAME_TIME) {
         return Err(own
             .problem(format!("[carriage.motion] {times}"), "too long")

@@ -235,8 +235,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .help(error.cure().to_string())
         })?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
-    let (machine, carriages) =
-        carriage::read(&root, files, machine, &mut loads, motion.as_ref())?;
+    let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, motion.as_ref())?;
     let schedule = schedule::read(
         &root,
         (&entries, carriages),

@@ -132,41 +132,63 @@ fn formula(item: &Item, root: &Section) -> Result<Ratio> {
             share * duration,
             (share * 64.0).fract() * std::f64::consts::TAU,
         );
-        let found = ratio.at(OperatingPoint::at_time(t).with_angle(phi));
-        let value = found.value;
-        if !found.is_finite() || !(RATIOS[0]..=RATIOS[1]).contains(&value) {
-            let at = if ratio.is_turned() {
-                format!("t = {} s, phi = {} rad", figure(t), figure(phi))
-            } else {
-                format!("t = {} s", figure(t))
-            };
-            let what = if value.is_finite() && found.is_finite() {
-                format!(
-                    "is {} at {at}, but must be between {} and {}",
-                    figure(value),
-                    RATIOS[0],
-                    RATIOS[1]
-                )
-            } else {
-                format!("has no finite value or slope at {at}")
-            };
-            return Err(item.problem(&what, "this formula").help(
-                "the output speed over the input speed is positive at every instant of the simulation: check the signs, and what is divided by",
-            ));
+        if let Some(what) = leaves(&ratio, t, phi) {
+            return Err(item.problem(&what, "this formula").help(POSITIVE));
         }
     }
-    if let Some(place) = unbounded(&ratio, duration) {
-        return Err(item
-            .problem(
-                &format!(
-                    "is not shown to stay between {} and {} near {place}",
-                    RATIOS[0], RATIOS[1]
-                ),
-                "this formula",
-            )
-            .help("between the instants that were tried it may have a pole or a zero there: check what is divided by"));
+    match unbounded(&ratio, duration) {
+        None => Ok(ratio),
+        Some([t, phi]) => Err(match leaves(&ratio, t, phi) {
+            Some(what) => item
+                .problem(&what, "this formula")
+                .help(POSITIVE),
+            None => item
+                .problem(
+                    &format!(
+                        "is not shown to stay between {} and {} near {}",
+                        RATIOS[0],
+                        RATIOS[1],
+                        place(&ratio, t, phi)
+                    ),
+                    "this formula",
+                )
+                .help("between the instants that were tried it may have a pole or a zero there: check what is divided by"),
+        }),
     }
-    Ok(ratio)
+}
+
+/// The cure of a formula that leaves its range.
+const POSITIVE: &str = "the output speed over the input speed is positive at every instant of the simulation: check the signs, and what is divided by";
+
+/// A time, and an angle where the ratio depends on it.
+fn place(ratio: &Ratio, t: f64, phi: f64) -> String {
+    if ratio.is_turned() {
+        format!("t = {} s, phi = {} rad", figure(t), figure(phi))
+    } else {
+        format!("t = {} s", figure(t))
+    }
+}
+
+/// How a ratio leaves its range at a time (s) and an angle (rad), if it does.
+fn leaves(ratio: &Ratio, t: f64, phi: f64) -> Option<String> {
+    let found = ratio.at(OperatingPoint::at_time(t).with_angle(phi));
+    let value = found.value;
+    if !found.is_finite() {
+        return Some(format!(
+            "has no finite value or slope at {}",
+            place(ratio, t, phi)
+        ));
+    }
+    let out = !(RATIOS[0]..=RATIOS[1]).contains(&value);
+    out.then(|| {
+        format!(
+            "is {} at {}, but must be between {} and {}",
+            figure(value),
+            place(ratio, t, phi),
+            RATIOS[0],
+            RATIOS[1]
+        )
+    })
 }
 
 /// Parts of a range that are looked into at first.
@@ -179,7 +201,7 @@ const PLACE: f64 = 1e-12;
 const MOST_PARTS: u32 = 400_000;
 
 /// Where the bounds of a formula do not lie within those of a ratio, over all times of the simulation and one turn of the input shaft.
-fn unbounded(ratio: &Ratio, duration: f64) -> Option<String> {
+fn unbounded(ratio: &Ratio, duration: f64) -> Option<[f64; 2]> {
     let turn = if ratio.is_turned() {
         std::f64::consts::TAU
     } else {
@@ -193,7 +215,11 @@ fn unbounded(ratio: &Ratio, duration: f64) -> Option<String> {
     let counts = spans.map(|span| if span > 0.0 { PARTS } else { 1 });
     let times = (0..counts[0]).rev();
     let mut parts: Vec<[Interval; 2]> = times
-        .flat_map(|k| (0..counts[1]).rev().map(move |l| [part(spans[0], k), part(spans[1], l)]))
+        .flat_map(|k| {
+            (0..counts[1])
+                .rev()
+                .map(move |l| [part(spans[0], k), part(spans[1], l)])
+        })
         .collect();
     let mut looked = 0;
     while let Some([t, phi]) = parts.pop() {
@@ -204,16 +230,17 @@ fn unbounded(ratio: &Ratio, duration: f64) -> Option<String> {
         looked += 1;
         let share = |of: Interval, span: f64| if span > 0.0 { of.width() / span } else { 0.0 };
         let [in_time, in_angle] = [share(t, duration), share(phi, turn)];
-        if looked > MOST_PARTS || in_time.max(in_angle) < PLACE {
-            let mut place = format!("t = {} s", figure(t.middle()));
-            if ratio.is_turned() {
-                place += &format!(", phi = {} rad", figure(phi.middle()));
-            }
-            return Some(place);
+        let middle = [t, phi].map(Interval::middle);
+        let small = looked > MOST_PARTS || in_time.max(in_angle) < PLACE;
+        if small || leaves(ratio, middle[0], middle[1]).is_some() {
+            return Some(middle);
         }
         let halves = |of: Interval| {
             let middle = of.middle();
-            [Interval::between(middle, of.hi()), Interval::between(of.lo(), middle)]
+            [
+                Interval::between(middle, of.hi()),
+                Interval::between(of.lo(), middle),
+            ]
         };
         if in_time >= in_angle {
             parts.extend(halves(t).map(|t| [t, phi]));

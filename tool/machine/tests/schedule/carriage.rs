@@ -92,7 +92,8 @@ fn energy(file: &MachineFile, phi: f64, omega: f64, t: f64) -> [f64; 2] {
     let h = 2e-4;
     let [a, b, c, d] = [2.0, 1.0, -1.0, -2.0].map(|k| place(phi + k * h * omega, t + k * h));
     let speed = [0, 1, 2].map(|k| (8.0 * (b[k] - c[k]) - (a[k] - d[k])) / (12.0 * h));
-    let kinetic = 0.5 * MASS * (speed[0].powi(2) + speed[1].powi(2)) + 0.5 * 0.02 * speed[2].powi(2);
+    let kinetic =
+        0.5 * MASS * (speed[0].powi(2) + speed[1].powi(2)) + 0.5 * 0.02 * speed[2].powi(2);
     let here = place(phi, t);
     [kinetic, -MASS * (3.0 * here[0] - 9.0 * here[1])]
 }
@@ -145,7 +146,10 @@ fn its_torque_is_lagranges() {
         let machine = file.machine_at(&now, state.phi).unwrap();
         let own = file.carriage_torque(&machine, state.phi).unwrap();
         let expected = lagrange(&file, t);
-        assert!((added - expected).abs() < 2e-6, "t = {t}: {added} {expected}");
+        assert!(
+            (added - expected).abs() < 2e-6,
+            "t = {t}: {added} {expected}"
+        );
         (largest, relative) = (largest.max(expected.abs()), relative.max(own.abs()));
     }
     // What its own motion adds is no rounding.
@@ -207,7 +211,11 @@ duration = "0.6 s"
 fn energy_balances_with_the_second_axis() {
     let found = Findings::of(&parse(&rod(LEANING))).unwrap();
     assert!(found.agreement.dalembert < 1e-10, "{:?}", found.agreement);
-    assert!(found.agreement.energy.unwrap() < 1e-9, "{:?}", found.agreement);
+    assert!(
+        found.agreement.energy.unwrap() < 1e-9,
+        "{:?}",
+        found.agreement
+    );
 }
 
 /// At rest it holds the carriage wherever it goes: an arm that stands upright and level by turns.
@@ -248,12 +256,23 @@ duration = "0.3 s"
 fn contradictions_are_refused() {
     let refused = |from: &str, to: &str| {
         let text = rod(&LEANING.replacen(from, to, 1));
-        format!("{:?}", read::parse("machine.toml", &text, Path::new("")).unwrap_err())
+        format!(
+            "{:?}",
+            read::parse("machine.toml", &text, Path::new("")).unwrap_err()
+        )
     };
     for (from, to, words) in [
-        ("duration = \"0.35 s\"", "duration = \"0.5 s\"", "lasts 1.05 s"),
+        (
+            "duration = \"0.35 s\"",
+            "duration = \"0.5 s\"",
+            "lasts 1.05 s",
+        ),
         ("move = \"-130 mm\"", "move = \"-120 mm\"", "10 mm"),
-        ("move = \"130 mm\"", "move = \"145 mm\"", "leaves the stroke"),
+        (
+            "move = \"130 mm\"",
+            "move = \"145 mm\"",
+            "leaves the stroke",
+        ),
         ("on = \"rod\"", "on = \"rot\"", "rod"),
         ("type = \"cycle\"", "type = \"constant-speed\"", "cycle"),
         ("mass = \"3 kg\"", "mass = \"0 kg\"", "mass"),
@@ -269,6 +288,9 @@ fn contradictions_are_refused() {
         let (_, machine) = machine.split_once("[mechanism]").unwrap();
         format!("[mechanism]{machine}[[carriage]]{without}")
     });
-    let found = format!("{:?}", read::parse("machine.toml", &text, Path::new("")).unwrap_err());
+    let found = format!(
+        "{:?}",
+        read::parse("machine.toml", &text, Path::new("")).unwrap_err()
+    );
     assert!(found.contains("has no [motion]"), "{found}");
 }

@@ -5,7 +5,7 @@ use crate::support::edited;
 
 #[test]
 fn wrong_formulas_are_refused_with_their_place() {
-    let edits: [(&str, &[&str]); 9] = [
+    let edits: [(&str, &[&str]); 11] = [
         (
             "0.5 + 0.2*tim",
             &["\"tim\" is not known here", "t, phi, pi", "sin, cos"],
@@ -24,11 +24,21 @@ fn wrong_formulas_are_refused_with_their_place() {
             "0.5 + 1e-9/(t - 2.5)",
             &["has no finite value or slope at t = 2.5 s", "divided by"],
         ),
+        // Between two instants that are tried.
+        (
+            "0.5 + 1e-13/(t - 0.50001)^2",
+            &["at t = 0.50001 s, but must be between 0.001 and 1000"],
+        ),
         (
             "1 - t",
             &["is 0 at t = 1 s, but must be between 0.001 and 1000"],
         ),
         ("1 - 1.2*cos(phi)", &["is -0.2 at t = 0 s, phi = 0 rad"]),
+        // As often as it is tried in a turn, it has the same value there.
+        (
+            "0.5 + 2*sin(62.5*phi)",
+            &["phi = ", "but must be between 0.001 and 1000"],
+        ),
         ("1.2.3", &["\"1.2.3\" is no number"]),
     ];
     let (head, rest) = PRESS.split_once("[[variator.shift]]").unwrap();

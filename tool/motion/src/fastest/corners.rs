@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error, Reducible as _};
-use jred_machine::number::numerics::least;
+use jred_machine::number::numerics::{edge, least};
 
 use super::field::Field;
 
@@ -29,6 +29,7 @@ pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error>
     let turns = field.way.file.machine.domain() == Domain::Turn;
     let mut found: Vec<f64> = edges(field, from);
     found.extend(reversals(field, from, length)?);
+    found.extend(of_tool(field, from)?);
     if turns {
         for x in &mut found {
             *x = x.rem_euclid(TAU);
@@ -56,7 +57,8 @@ pub fn count(field: &Field) -> usize {
 /// # Errors
 /// The mechanism cannot be placed somewhere.
 pub fn changes(field: &Field, from: f64) -> Result<bool, Error> {
-    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 {
+    let tool = field.limits.tool.is_some();
+    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 || tool {
         return Ok(true);
     }
     let torques = field.way.actuator.torques(0.0).map(f64::abs);
@@ -85,6 +87,38 @@ fn edges(field: &Field, from: f64) -> Vec<f64> {
     edges
         .map(|phi| (phi - from) * field.way.direction)
         .collect()
+}
+
+/// The ends of the part in which the tool's speed is limited, and where that limit is the other one of the drive link's speed.
+fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
+    let Some(tool) = &field.limits.tool else {
+        return Ok(Vec::new());
+    };
+    let places: Vec<f64> = tool
+        .places(field.way.file.machine.domain(), PLACES as usize)
+        .collect();
+    let mut found: Vec<f64> = places
+        .first()
+        .into_iter()
+        .chain(places.last())
+        .copied()
+        .collect();
+    let (top, _) = field.top();
+    let inner = places.get(1..places.len() - 1).unwrap_or_default();
+    for pair in inner.windows(2) {
+        let slower = |phi: f64| Ok::<_, Error>(field.tool_speed(phi)? < top);
+        let first = slower(pair[0])?;
+        if first != slower(pair[1])? {
+            found.push(edge(
+                |phi| Ok::<_, Error>(slower(phi)? == first),
+                pair[0],
+                pair[1],
+            )?);
+        }
+    }
+    Ok((found.into_iter())
+        .map(|phi| (phi - from) * field.way.direction)
+        .collect())
 }
 
 /// In the way, or in the first turn of a longer one.

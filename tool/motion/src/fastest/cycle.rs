@@ -183,6 +183,7 @@ fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Li
         Binding::GearboxTorque => limits.gearbox_torque = None,
         Binding::GearboxSpeed => limits.gearbox_speed = None,
         Binding::Speed => limits.speed = None,
+        Binding::ToolSpeed => limits.tool = None,
         Binding::Acceleration => limits.acceleration = None,
         Binding::Deceleration => limits.deceleration = None,
     }

@@ -1,8 +1,10 @@
 //! Which accelerations every limit leaves at a place and speed, and which limit is the nearest.
 
+use jred::Error;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 
+use super::tool_speed::ToolSpeed;
 use crate::way::{Place, Way};
 
 /// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
@@ -10,6 +12,8 @@ use crate::way::{Place, Way};
 pub struct Limits {
     /// Largest speed (rad/s, or m/s).
     pub speed: Option<f64>,
+    /// Largest speed of the tool in a part of the way.
+    pub tool: Option<ToolSpeed>,
     /// Largest acceleration while the speed grows (rad/s², or m/s²).
     pub acceleration: Option<f64>,
     /// Largest while it falls.
@@ -108,6 +112,8 @@ pub enum Binding {
     GearboxSpeed,
     /// The largest speed of the drive link.
     Speed,
+    /// The largest speed of the tool.
+    ToolSpeed,
     /// The largest acceleration.
     Acceleration,
     /// The largest deceleration.
@@ -154,6 +160,16 @@ impl Field<'_, '_> {
         ]
         .into_iter()
         .filter_map(|(speed, which)| Some((speed?, which)))
+    }
+
+    /// The largest speed that the tool leaves the drive link at a position; infinite where it is not limited.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn tool_speed(&self, phi: f64) -> Result<f64, Error> {
+        let mechanism = self.way.file.machine.mechanism();
+        let tool = self.limits.tool.as_ref();
+        tool.map_or(Ok(f64::INFINITY), |tool| tool.at(mechanism, phi))
     }
 
     /// The least of them, and which it is.
@@ -263,7 +279,7 @@ impl Field<'_, '_> {
             _ => 0,
         };
         let back = self.way.backward_stages(place, v, a);
-        limit as u32 | (piece as u32 & 0xff) << 3 | back << 11
+        limit as u32 | (piece as u32 & 0xff) << 4 | back << 12
     }
 }
 

@@ -234,6 +234,7 @@ impl Binding {
             Self::GearboxTorque => "gearbox torque",
             Self::GearboxSpeed => "gearbox speed",
             Self::Speed => "speed limit",
+            Self::ToolSpeed => "tool speed limit",
             Self::Acceleration => "acceleration limit",
             Self::Deceleration => "deceleration limit",
         }

@@ -21,6 +21,15 @@ pub struct Phase {
     pub speed: [f64; 2],
 }
 
+/// Share of z within which a motion is at a limit of its speed.
+const AT: f64 = 1e-6;
+
+/// Whether z is that of the tool's largest speed.
+fn tool_limits(field: &Field, phi: f64, z: f64) -> bool {
+    let tool = field.tool_speed(phi).unwrap_or(f64::INFINITY);
+    z >= 0.5 * tool.powi(2) * (1.0 - AT)
+}
+
 /// The phases of a motion.
 pub(super) fn phases(
     field: &Field,
@@ -42,6 +51,7 @@ pub(super) fn phases(
             match piece.along {
                 Along::Most => field.most_by(&place, z(s)).1,
                 Along::Least => field.least_by(&place, z(s)).1,
+                Along::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
                 Along::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
                     field.most_by(&place, z(s)).1
                 }

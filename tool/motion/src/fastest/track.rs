@@ -130,7 +130,11 @@ impl Track {
         let top = 0.5 * field.top().0.powi(2);
         let at = |x: f64| field.way.place(ends.from + direction * x);
         let cap = |place: &Place| ceiling(field, place, top);
-        let with_cap = |x: f64| at(x).map(|place| (place, cap(&place)));
+        let with_cap = |x: f64| {
+            let place = at(x)?;
+            let tool = 0.5 * field.tool_speed(place.phi)?.powi(2);
+            Ok::<_, Error>((place, cap(&place).min(tool)))
+        };
         let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
         for (k, pair) in nodes.windows(2).enumerate() {
             let &[x, end] = pair else { continue };

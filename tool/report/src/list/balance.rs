@@ -291,25 +291,28 @@ fn json(shown: &Shown) -> Value {
             })
         })
         .collect();
-    let springs: Vec<Value> = (shown.request.springs.iter().zip(springs.iter().zip(efforts)))
-        .map(|(number, (found, efforts))| {
-            let rate =
-                found.and_then(|spring| spring.spring_rate().zip(Some(spring.is_torsional())));
-            let found = rate.map(|([stiffness, free], torsional)| {
-                let name = if torsional {
-                    "free_angle"
-                } else {
-                    "free_length"
-                };
-                {
-                    let [pull, push] = efforts.unwrap_or_default();
-                    json!({ "stiffness": stiffness, name: free, "pull": pull, "push": push })
-                }
-            });
-            let name = shown.file.elements.get(*number).map(|named| &named.name);
-            json!({ "name": name, "found": found })
-        })
-        .collect();
+    let springs: Vec<Value> = (shown
+        .request
+        .springs
+        .iter()
+        .zip(springs.iter().zip(efforts)))
+    .map(|(number, (found, efforts))| {
+        let rate = found.and_then(|spring| spring.spring_rate().zip(Some(spring.is_torsional())));
+        let found = rate.map(|([stiffness, free], torsional)| {
+            let name = if torsional {
+                "free_angle"
+            } else {
+                "free_length"
+            };
+            {
+                let [pull, push] = efforts.unwrap_or_default();
+                json!({ "stiffness": stiffness, name: free, "pull": pull, "push": push })
+            }
+        });
+        let name = shown.file.elements.get(*number).map(|named| &named.name);
+        json!({ "name": name, "found": found })
+    })
+    .collect();
     json!({
         "schema": SCHEMA,
         "title": shown.file.title,

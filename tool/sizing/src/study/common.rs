@@ -65,14 +65,7 @@ impl Study {
     ) -> Result<Self> {
         let name = plain::path(path);
         let files = Box::new(read::folder(path).to_owned());
-        Self::new(
-            name,
-            read::text(path)?,
-            files,
-            catalogue,
-            rules,
-            sampling,
-        )
+        Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }
 
     /// Reads the `text` of a machine file, which must be one that can be sized, and what it names from `files`; `rules` are a set

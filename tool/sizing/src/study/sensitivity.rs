@@ -266,7 +266,11 @@ impl Mover<'_> {
     fn room_by_one(&self, sign: f64, reach: Reach) -> Room {
         let share = |by: f64| sign * by / self.number;
         let most = (reach.most * self.number).floor().max(1.0);
-        let most = if sign < 0.0 { most.min(self.number - 1.0) } else { most };
+        let most = if sign < 0.0 {
+            most.min(self.number - 1.0)
+        } else {
+            most
+        };
         let holds = |tried: &Tried| matches!(tried, Ok(Judged { broken: None, .. }));
         let (mut held, mut step) = (0.0, 1.0f64);
         let mut stopped = loop {

@@ -1,0 +1,125 @@
+//! A limit of the tool's speed in a part of the way.
+
+use jred::Reducible as _;
+use jred::machine::Mechanism as _;
+use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed};
+
+use super::{close, fastest, machine, motor, task};
+
+/// At constant inertia: from rest over the way a to the speed w, the way b at that speed, and over the rest to rest. With the acceleration α driving
+/// and braking the peak before is v² = α·a + w²/2.
+#[test]
+fn a_tool_is_slow_in_a_part_of_its_way() {
+    let file = machine(
+        "title = \"rack\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rack-and-pinion\"\n\
+         pinion = { radius = \"50 mm\", mass = \"1 kg\", inertia = \"2 kg m^2\" }\nrack = { mass = \"3 kg\" }\n",
+    );
+    let inertia = file.machine.bare_reduction(0.0).unwrap().inertia;
+    let alpha = 10.0 / inertia;
+    let slow = 0.8;
+    let mechanism = file.machine.mechanism();
+    let rack = mechanism
+        .link_names()
+        .iter()
+        .position(|name| name == "rack")
+        .unwrap();
+    for [a, b, end] in [[2.0, 3.5, 5.0], [0.9, 1.0, 4.0], [1.0, 6.0, 6.25]] {
+        let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * slow, [a, b]).unwrap();
+        let asked = Task {
+            limits: Limits {
+                tool: limit,
+                ..Limits::default()
+            },
+            ..task(0.0, end)
+        };
+        let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
+        let beside = |way: f64| {
+            let peak = (alpha * way + 0.5 * slow * slow).sqrt();
+            (2.0 * peak - slow) / alpha
+        };
+        close(
+            found.time,
+            beside(a) + (b - a) / slow + beside(end - b),
+            1e-9,
+        );
+        let limits: Vec<Binding> = found.phases.iter().map(|phase| phase.limit).collect();
+        assert_eq!(
+            limits,
+            [
+                Binding::Driving,
+                Binding::Braking,
+                Binding::ToolSpeed,
+                Binding::Driving,
+                Binding::Braking
+            ]
+        );
+    }
+}
+
+/// Through the work of a press, to its dead centre: the slide's speed is that of the limit where it is followed, which takes its way through v; nowhere
+/// in the part is it faster, and beyond the part it is.
+#[test]
+fn a_press_is_slow_through_the_work() {
+    let file = machine(
+        "title = \"press\"\ngravity = [\"9.81 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\nflywheel = \"3 kg m^2\"\n\
+         crank = { length = \"90 mm\", mass = \"10 kg\", inertia = \"0.1 kg m^2\" }\n\
+         rod = { length = \"400 mm\", mass = \"12 kg\", inertia = \"0.2 kg m^2\", com = [\"150 mm\", \"0 mm\"] }\n\
+         slider = { mass = \"40 kg\" }\n",
+    );
+    let mechanism = file.machine.mechanism();
+    let slider = mechanism
+        .link_names()
+        .iter()
+        .position(|name| name == "slider")
+        .unwrap();
+    let degrees = |x: f64| x.to_radians();
+    let between = [degrees(300.0), degrees(360.0)];
+    let speed = 0.06;
+    let limit = ToolSpeed::new(mechanism, (slider, [0.0; 2]), speed, between).unwrap();
+    let asked = |limit| Task {
+        limits: Limits {
+            speed: Some(6.0),
+            tool: limit,
+            ..Limits::default()
+        },
+        ..task(degrees(180.0), degrees(540.0))
+    };
+    let press = motor([400.0; 2], 100.0);
+    let found = fastest(&file, &press, &asked(limit));
+    let free = fastest(&file, &press, &asked(None));
+    let x = |phi: f64| mechanism.frames(phi).unwrap()[slider].x;
+    let mut slow = 0.0;
+    for phase in found
+        .phases
+        .iter()
+        .filter(|phase| phase.limit == Binding::ToolSpeed)
+    {
+        let way = x(phase.phi[1]).value - x(phase.phi[0]).value;
+        close(phase.t[1] - phase.t[0], way.abs() / speed, 1e-7);
+        slow += way.abs();
+    }
+    assert!(
+        slow > 0.8 * (x(between[1]).value - x(between[0]).value),
+        "{slow}"
+    );
+    let (mut inside, mut outside) = (0.0f64, 0.0f64);
+    for node in found.trace.nodes() {
+        let tool = (x(node.phi).d1 * node.omega).abs();
+        let hair = 1e-6;
+        if node.phi > between[0] + hair && node.phi < between[1] - hair {
+            inside = inside.max(tool);
+        } else if node.phi < between[0] - hair || node.phi > between[1] + hair {
+            outside = outside.max(tool);
+        }
+    }
+    assert!(
+        inside <= speed * (1.0 + 1e-8) && outside > 4.0 * speed,
+        "{inside} {outside}"
+    );
+    assert!(
+        found.time > free.time + 0.5 * slow / speed,
+        "{} {}",
+        found.time,
+        free.time
+    );
+}
