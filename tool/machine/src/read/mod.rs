@@ -45,6 +45,7 @@ use jred::Machine;
 use miette::{Report, miette};
 
 use crate::model::machine::{MachineFile, OverRange};
+use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
 use crate::plain;
 use crate::text::file::{self, Files};
@@ -182,6 +183,22 @@ fn gravity(root: &Section) -> Result<[f64; 2]> {
     Ok([-size * sin, -size * cos])
 }
 
+/// The mechanism with its loads, springs and dampers.
+fn loaded(
+    mechanism: AnyMechanism,
+    loads: &[NamedLoad],
+    elements: &[NamedElement],
+) -> std::result::Result<Machine<AnyMechanism>, jred::Error> {
+    let mut machine = Machine::new(mechanism);
+    for named in loads {
+        machine = machine.with_load(named.load)?;
+    }
+    for named in elements {
+        machine = machine.with_element(named.element)?;
+    }
+    Ok(machine)
+}
+
 fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<MachineFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
@@ -224,25 +241,17 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
-    let loaded =
-        (loads.iter()).try_fold(Machine::new(mechanism), |m, named| m.with_load(named.load));
-    let machine = loaded
-        .and_then(|m| (elements.iter()).try_fold(m, |m, named| m.with_element(named.element)))
-        .and_then(|m| m.with_gravity(gravity)?.with_flywheel(flywheel))
+    let machine = loaded(mechanism, &loads, &elements)
+        .and_then(|m| Ok(m.with_gravity(gravity)?.with_flywheel(flywheel)?))
         .map_err(|error| {
             section
                 .problem(error.to_string(), "in this machine")
                 .help(error.cure().to_string())
         })?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
-    let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, motion.as_ref())?;
-    let schedule = schedule::read(
-        &root,
-        (&entries, carriages),
-        &loads,
-        &machine,
-        motion.as_ref(),
-    )?;
+    let moved = motion.as_ref();
+    let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, moved)?;
+    let schedule = schedule::read(&root, (&entries, carriages), &loads, &machine, moved)?;
     let machine = schedule.at_no_time().cloned().unwrap_or(machine);
     let around = simulation::Around {
         drive: drive_link,

@@ -1,6 +1,5 @@
 //! A limit of the tool's speed in a part of the way.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
 use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed};
 

@@ -138,8 +138,8 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
         "value",
         "affects most",
         "% of limit per +1 %",
-        "margin down",
-        "margin up",
+        "may fall",
+        "may rise",
     ];
     let row = |dependence: &Dependence| -> Vec<Cell> {
         let quantity = study.document.quantities().get(dependence.quantity);

@@ -150,6 +150,9 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     Ok(if moved > 0.0 { off / moved } else { off })
 }
 
+/// A time (s), the state of the drive link, and the machine.
+type At<'m> = (f64, State<f64>, Cow<'m, Machine<AnyMechanism>>);
+
 /// A smooth stretch of the motion, over which the machine is one and the same, but for carriages.
 struct Part<'m> {
     carriages: &'m [Carriage],
@@ -177,7 +180,7 @@ impl<'m> Part<'m> {
     }
 
     /// The machine at a time, a hair inside the stretch: at its ends the acceleration of a carriage may jump.
-    fn at(&self, t: f64) -> Result<(f64, State<f64>, Cow<'m, Machine<AnyMechanism>>), Error> {
+    fn at(&self, t: f64) -> Result<At<'m>, Error> {
         let [from, to] = self.span;
         let hair = HAIR * (to - from);
         let state = self.motion.at(t);
