@@ -153,6 +153,37 @@ fn fastest() {
     );
 }
 
+/// A press that is slow through the work, and what is no limit of a tool.
+#[test]
+fn slow_through_the_work() {
+    let desk = Desk::new().with_machines(&["press.toml"]);
+    let turn = [
+        "fastest",
+        "press.toml",
+        "--torque",
+        "500 N m",
+        "--motor-speed",
+        "90 rpm",
+        "--from",
+        "180 deg",
+        "--to",
+        "540 deg",
+        "--max-tool-speed",
+    ];
+    let with = |limit: &'static str| [turn.as_slice(), &[limit]].concat();
+    compare(
+        "fastest-tool-speed",
+        &desk.runs(&[
+            &with("slider, 60 mm/s, 300 deg, 360 deg"),
+            &with("slidr, 60 mm/s, 300 deg, 360 deg"),
+            &with("slider, 60 mm/s, 300 deg"),
+            &with("slider, 60 rpm, 300 deg, 360 deg"),
+            &with("slider, 0 mm/s, 300 deg, 360 deg"),
+            &with("slider, 60 mm/s, 300 deg, 300 deg"),
+        ]),
+    );
+}
+
 #[test]
 fn retime() {
     let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];

@@ -21,6 +21,9 @@ pub struct Phase {
     pub speed: [f64; 2],
 }
 
+/// Share of the whole time below which a phase between two of one limit is none.
+const BLINK: f64 = 1e-6;
+
 /// Share of z within which a motion is at a limit of its speed.
 const AT: f64 = 1e-6;
 
@@ -86,5 +89,23 @@ pub(super) fn phases(
         }
         t += time;
     }
-    phases
+    without_blinks(phases, t)
+}
+
+/// Without what is no phase: at a corner the roundings of the limits on its two sides.
+fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
+    let mut kept: Vec<Phase> = Vec::with_capacity(phases.len());
+    for phase in phases {
+        if let [.., before, blink] = kept.as_mut_slice()
+            && before.limit == phase.limit
+            && blink.t[1] - blink.t[0] <= BLINK * whole
+        {
+            (before.phi[1], before.t[1], before.speed[1]) =
+                (phase.phi[1], phase.t[1], phase.speed[1]);
+            kept.pop();
+        } else {
+            kept.push(phase);
+        }
+    }
+    kept
 }
