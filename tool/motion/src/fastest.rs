@@ -9,11 +9,13 @@
 
 pub mod corners;
 pub mod cycle;
+mod endless;
 pub mod field;
 pub mod leg;
 mod obstacle;
 mod phases;
 pub mod plane;
+mod programme;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
@@ -72,6 +74,8 @@ pub struct Task {
     pub speeds: [f64; 2],
     /// What is kept besides the limits of the motor.
     pub limits: Limits,
+    /// Whether it goes on for ever: its end is its start, with a speed that is sought; `speeds` are not asked for.
+    pub endless: bool,
 }
 
 /// The fastest motion.
@@ -89,6 +93,8 @@ pub struct Fastest {
     pub excess: f64,
     /// Cells of the way.
     pub cells: usize,
+    /// No motion takes less time (s), where it is not known that this one takes the least: the fastest without limits of jerk and torque rate.
+    pub bound: Option<f64>,
 }
 
 /// The fastest motion of a machine with a drive.
@@ -96,7 +102,49 @@ pub struct Fastest {
 /// # Errors
 /// There is none, or none can be computed: where, and what is missing.
 pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fastest, NoMotion> {
+    if task.endless {
+        return endless::solve(file, actuator, task);
+    }
+    if task.limits.has_rates() {
+        return priced(file, actuator, task, 0.0);
+    }
     refine(file, actuator, task, WITHIN)
+}
+
+/// The motion with the least sum of its time and `price` (s/(N²·m²·s)) times the integral of the motor torque's square.
+///
+/// # Errors
+/// Those of [`solve`].
+pub fn priced(
+    file: &MachineFile,
+    actuator: &Actuator,
+    task: &Task,
+    price: f64,
+) -> Result<Fastest, NoMotion> {
+    let free = Task {
+        limits: task.limits.without_rates(),
+        ..*task
+    };
+    let bound = time(file, actuator, &free)?;
+    let way = way(file, actuator, task)?;
+    let field = Field {
+        way: &way,
+        limits: task.limits,
+    };
+    let length = (task.to - task.from).abs();
+    let ends = Ends {
+        from: task.from,
+        length,
+        speeds: task.speeds,
+        corners: corners::corners(&field, task.from, length)?,
+    };
+    let asked = programme::Asked {
+        field: &field,
+        ends: &ends,
+        bound,
+        price,
+    };
+    asked.solve()
 }
 
 /// The time (s) of the fastest motion alone, without a look at what is between its nodes.
@@ -104,6 +152,9 @@ pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fas
 /// # Errors
 /// Those of [`solve`].
 pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64, NoMotion> {
+    if task.endless || task.limits.has_rates() {
+        return solve(file, actuator, task).map(|found| found.time);
+    }
     refine(file, actuator, task, f64::INFINITY).map(|found| found.time)
 }
 
@@ -173,6 +224,7 @@ fn refine(
             trace,
             excess,
             cells: track.cells.len(),
+            bound: None,
         });
     }
     Err(NoMotion::NoWay)
@@ -287,7 +339,6 @@ fn excess(
     let direction = way.direction;
     let mut largest = (0.0_f64, ends.from);
     let mut places = Vec::new();
-    let (top, _) = field.top();
     for (pair, piece) in trace.nodes().windows(2).zip(pieces) {
         let [a, b] = [&pair[0], &pair[1]];
         let cell = &track.cells[piece.cell];
@@ -301,23 +352,7 @@ fn excess(
             let place = way.place(ends.from + direction * x)?;
             let (v, alpha) = (state.omega * direction, state.alpha * direction);
             most = most.max(v / field.tool_speed(place.phi)? - 1.0);
-            // A torque at its limit is measured by that of the motor at rest: the limit itself may be nothing.
-            let limits = field.motor_torques(v);
-            let scale = way.actuator.torques(0.0).map(f64::abs);
-            let torque = way.demand(&place, v, alpha).torque;
-            most = most.max((torque - limits[1]) / scale[1]);
-            most = most.max((limits[0] - torque) / scale[0]);
-            most = most.max(v / top - 1.0);
-            if let Some(limit) = field.limits.gearbox_torque {
-                let torque = way.gearbox_demand(&place, v, alpha).torque;
-                most = most.max(torque.abs() / limit - 1.0);
-            }
-            if let Some(limit) = field.limits.acceleration {
-                most = most.max(alpha / limit - 1.0);
-            }
-            if let Some(limit) = field.limits.deceleration {
-                most = most.max(-alpha / limit - 1.0);
-            }
+            most = most.max(field.excess(&place, v, alpha));
         }
         if most > largest.0 {
             largest = (most, a.phi);

@@ -28,12 +28,12 @@ use crate::way::{Actuator, Way};
 
 mod bound;
 mod cost;
-mod mesh;
+pub(crate) mod mesh;
 mod outcome;
-mod shape;
+pub(crate) mod shape;
 mod solve;
 mod task;
-mod torque;
+pub(crate) mod torque;
 
 /// What is to be least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,10 +72,10 @@ pub struct Travel {
 
 /// The form of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Ends {
-    rest: [bool; 2],
-    ramp: f64,
-    ring: bool,
+pub(crate) struct Ends {
+    pub(crate) rest: [bool; 2],
+    pub(crate) ramp: f64,
+    pub(crate) ring: bool,
 }
 
 impl Travel {

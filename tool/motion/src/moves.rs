@@ -14,6 +14,9 @@ const REST: f64 = 1e-12;
 /// Share of the whole motion below which a pause is a point of rest only.
 const POINT: f64 = 1e-9;
 
+/// Share of the speed by which start and end of an endless motion may differ.
+const CLOSED: f64 = 1e-6;
+
 /// One part of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
@@ -37,7 +40,7 @@ impl Part {
     }
 }
 
-/// A move of the drive link in one direction, at rest at both ends.
+/// A move of the drive link in one direction, at rest at both ends but where it turns for ever.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
     /// Where it begins (rad, or m).
@@ -128,6 +131,18 @@ pub fn parts(motion: &Motion) -> Result<Vec<Part>, NoMoves> {
         rest = after;
     }
     Ok(parts)
+}
+
+/// A motion that turns for ever, as one move of its period; `None`: it rests, or its end is not its start.
+pub fn ring(motion: &Motion) -> Option<Move> {
+    let duration = motion.duration();
+    let [start, end] = [motion.at(0.0), motion.at(duration)];
+    let closed = (end.omega - start.omega).abs() <= CLOSED * start.omega.abs();
+    (motion.cyclic && closed && start.omega != 0.0).then_some(Move {
+        from: start.phi,
+        to: end.phi,
+        duration,
+    })
 }
 
 fn part(motion: &Motion, sign: i8, [from, to]: [f64; 2]) -> Part {

@@ -186,9 +186,6 @@ impl From<Error> for Obstacle {
     }
 }
 
-/// Share of the speed by which start and end of an endless motion may differ.
-const CLOSED: f64 = 1e-6;
-
 /// The motion of a file in the gentlest way, beside the laws.
 ///
 /// # Errors
@@ -202,7 +199,9 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     };
     let parts = match moves::parts(motion) {
         Ok(parts) => parts,
-        Err(why) => vec![ring(motion).ok_or(Obstacle::NoMoves(why))?],
+        Err(why) => vec![Part::Move(
+            moves::ring(motion).ok_or(Obstacle::NoMoves(why))?,
+        )],
     };
     let endless = moves::parts(motion).is_err();
     let asked = Asked {
@@ -280,18 +279,6 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         moves: gentle,
         motion: best,
     })
-}
-
-/// A motion that turns for ever as one move.
-fn ring(motion: &Motion) -> Option<Part> {
-    let duration = motion.duration();
-    let [start, end] = [motion.at(0.0), motion.at(duration)];
-    let closed = (end.omega - start.omega).abs() <= CLOSED * start.omega.abs();
-    (motion.cyclic && closed && start.omega != 0.0).then_some(Part::Move(Move {
-        from: start.phi,
-        to: end.phi,
-        duration,
-    }))
 }
 
 /// The bound of all moves together, with what the pauses cost.

@@ -1,9 +1,12 @@
 //! Minimum time against closed forms, quadratures and a dynamic programme.
 
 mod closed_form;
+mod endless;
+mod jerk;
 mod lengths;
 mod programme;
 mod refusals;
+mod rms;
 mod scales;
 mod tool_speed;
 mod varying;
@@ -48,6 +51,7 @@ fn task(from: f64, to: f64) -> Task {
         to,
         speeds: [0.0; 2],
         limits: Limits::default(),
+        endless: false,
     }
 }
 

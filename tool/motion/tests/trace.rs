@@ -118,7 +118,7 @@ fn a_profile_keeps_the_corners() {
         duration: 0.4,
     };
     let parts = [step(1.0, 2.0), dwell, step(2.0, 1.0)];
-    let made = cycle(&file, &actuator, Limits::default(), &parts).unwrap();
+    let made = cycle(&file, &actuator, Limits::default(), None, &parts).unwrap();
     let file = press_with(&made.trace, "");
     let motion = file.required_motion().unwrap();
     for k in 0..=1000 {

@@ -7,6 +7,7 @@ use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{Done, drive_named, envelope, print};
 use crate::options::fastest::{Asked, Fastest as Options};
+use crate::options::retime::Ends;
 use crate::output;
 use crate::output::print_parts;
 use jred::machine::Mechanism as _;
@@ -19,9 +20,9 @@ use jred_machine::model::variator;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
-use jred_motion::fastest::cycle::{Cycle, cycle, single};
+use jred_motion::fastest::cycle::{Cycle, Rms, cycle, endless, single};
 use jred_motion::fastest::{Limits, NoMotion, Reserve, Task, ToolSpeed};
-use jred_motion::moves::{NoMoves, parts};
+use jred_motion::moves::{NoMoves, parts, ring};
 use jred_motion::way::Actuator;
 use jred_report::list;
 use jred_report::page;
@@ -29,6 +30,7 @@ use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::filter::Filter;
+use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 
 /// What moves the machine, by name, and what its gearbox limits.
@@ -61,12 +63,13 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(Asked::Rules) => Reserve::of(&file.rules),
     };
     let limits = limits(options, &file, chosen.limits)?.with_reserve(reserve);
+    let rms = rms(options, &file, &chosen)?;
     let cycle = match task {
         Some(task) => {
             let task = Task { limits, ..task };
-            single(&file, &chosen.actuator, task).map_err(|why| no_motion(&why, None))?
+            single(&file, &chosen.actuator, task, rms).map_err(|why| no_motion(&why, None))?
         }
-        None => of_motion(&file, &chosen.actuator, limits)?,
+        None => of_motion(&file, &chosen.actuator, limits, rms)?,
     };
     let trace = cycle.trace.of_axis(&file.axis());
     if let Some(path) = &options.profile {
@@ -108,8 +111,23 @@ pub fn fastest(options: &Options) -> Result<Done> {
 }
 
 /// The moves of the file's motion.
-fn of_motion(file: &MachineFile, actuator: &Actuator, limits: Limits) -> Result<Cycle> {
+fn of_motion(
+    file: &MachineFile,
+    actuator: &Actuator,
+    limits: Limits,
+    rms: Option<Rms>,
+) -> Result<Cycle> {
     let motion = file.motion_or("give --from and --to, or ")?;
+    if let Some(step) = ring(motion) {
+        if limits.has_rates() || rms.is_some() {
+            return Err(miette!(
+                help = "leave them out, or give one move with --from and --to",
+                "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+                file.name
+            ));
+        }
+        return endless(file, actuator, limits, &step).map_err(|why| no_motion(&why, None));
+    }
     let parts = parts(motion).map_err(|why| match why {
         NoMoves::Still => miette!(
             help = "give --from and --to, or a [motion] with a move",
@@ -129,7 +147,7 @@ fn of_motion(file: &MachineFile, actuator: &Actuator, limits: Limits) -> Result<
         }
     })?;
     let moves = parts.len();
-    cycle(file, actuator, limits, &parts).map_err(|(index, why)| {
+    cycle(file, actuator, limits, rms, &parts).map_err(|(index, why)| {
         let which = (moves > 1).then_some(index + 1);
         no_motion(&why, which)
     })
@@ -170,6 +188,7 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
             speed("to-speed", &options.to_speed)?,
         ],
         limits: Limits::default(),
+        endless: false,
     }))
 }
 
@@ -208,6 +227,26 @@ fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limi
         &options.max_deceleration,
         read::largest_acceleration,
     )?;
+    let jerk = read("max-jerk", &options.max_jerk, read::largest_jerk)?;
+    let torque_rate = quantity(
+        "max-torque-rate",
+        options.max_torque_rate.as_deref(),
+        read::largest_effort_rate,
+        motor_coordinate(file),
+    )?;
+    let has_rates = jerk.is_some() || torque_rate.is_some();
+    if options.max_tool_speed.is_some() && (has_rates || options.max_rms.is_some()) {
+        return Err(miette!(
+            help = "leave one of them out",
+            "--max-tool-speed goes neither with --max-jerk and --max-torque-rate nor with --max-rms: that motion is not computed"
+        ));
+    }
+    if options.ends == Some(Ends::Zero) && !has_rates {
+        return Err(miette!(
+            help = "give --max-jerk or --max-torque-rate as well",
+            "--ends zero alone has no fastest motion: the faster the acceleration rises from zero, the less time the motion takes"
+        ));
+    }
     Ok(Limits {
         speed: read("max-speed", &options.max_speed, read::largest_speed)?,
         tool: match &options.max_tool_speed {
@@ -216,6 +255,9 @@ fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limi
         },
         acceleration,
         deceleration: deceleration.or(acceleration),
+        jerk,
+        torque_rate,
+        level_ends: has_rates && options.ends != Some(Ends::Free),
         ..gearbox
     })
 }
@@ -274,6 +316,40 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<ToolSpeed> {
     })
 }
 
+/// Whether the motor turns or slides.
+fn motor_coordinate(file: &MachineFile) -> Coordinate {
+    match fit::input_kind(file) {
+        MotorKind::Rotary => Coordinate::Angle,
+        MotorKind::Linear => Coordinate::Length,
+    }
+}
+
+/// The limit of the RMS torque.
+fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<Rms>> {
+    match options.max_rms.as_deref() {
+        None => Ok(None),
+        Some("s1") => {
+            if !chosen.actuator.envelope.continuous_torque(0.0).is_finite() {
+                return Err(miette!(
+                    help = "give the torque: --max-rms \"2 N m\"",
+                    "--max-rms s1 cannot be used: the S1 torque of {} is not known",
+                    chosen.name
+                ));
+            }
+            Ok(Some(Rms::Continuous))
+        }
+        Some(text) => {
+            let torque = quantity(
+                "max-rms",
+                Some(text),
+                read::drive_effort,
+                motor_coordinate(file),
+            )?;
+            Ok(torque.map(Rms::Torque))
+        }
+    }
+}
+
 /// The drive of the command line, or the best one.
 fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
     if let Some(torque) = &options.torque {
@@ -307,11 +383,8 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
 
 /// A motor with the same torque at every speed.
 fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
-    let kind = jred_sizing::select::fit::input_kind(file);
-    let coordinate = match kind {
-        MotorKind::Rotary => Coordinate::Angle,
-        MotorKind::Linear => Coordinate::Length,
-    };
+    let kind = fit::input_kind(file);
+    let coordinate = motor_coordinate(file);
     let effort = quantity("torque", Some(torque), read::drive_effort, coordinate)?;
     let speed = quantity(
         "motor-speed",

@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::{Done, print_parts, warn_of_supply};
-use crate::options::retime::{Ends, Retime};
+use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
@@ -64,10 +64,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
         actuator,
         copper: drive.as_ref().and_then(retime::copper),
         goal: options.objective,
-        ramp: match options.ends {
-            Ends::Free => 0.0,
-            Ends::Zero => options.ramp,
-        },
+        ramp: ramp(options)?,
         steps: options.steps as usize,
     };
     let retimed = retime::retime(&file, motion, &request)
@@ -100,6 +97,18 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let best = &retimed.best;
     let exceeds = best.used.max(best.rms_used) > 1.0;
     Ok(if exceeds { Done::Violated } else { Done::Holds })
+}
+
+/// The share of a move's time in which the acceleration rises.
+fn ramp(options: &Retime) -> Result<f64> {
+    match (options.ends, options.ramp) {
+        (Ends::Zero, given) => Ok(given.unwrap_or(RAMP)),
+        (Ends::Free, None) => Ok(0.0),
+        (Ends::Free, Some(_)) => Err(miette!(
+            help = "give --ends zero as well, or leave --ramp out",
+            "--ramp is the time in which the acceleration rises from zero; with --ends free it begins with a jump"
+        )),
+    }
 }
 
 /// Why there is no motion.
@@ -161,7 +170,7 @@ fn of_move(number: usize, step: &Move, fault: &Fault, file: &MachineFile) -> Rep
             "{place}: nothing that moves has inertia"
         ),
         Fault::NotFound => miette!(
-            help = "try --ends zero, or another --objective",
+            help = "try other --ends, or another --objective",
             "{place}: the search for the gentlest motion did not come to an end"
         ),
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::plan::PlanFile;
+use super::retime::Ends;
 use super::search::SizingOptions;
 use super::word::word;
 use jred_machine::read;
@@ -90,6 +91,19 @@ pub struct Fastest {
     /// Largest deceleration; that of --max-acceleration if not given.
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_deceleration: Option<String>,
+    /// Largest rate of the drive link's acceleration, e.g. "2000 rad/s^3" ("50 m/s^3"): the acceleration has no jumps, and none at the ends.
+    #[arg(long, value_name = "JERK", allow_hyphen_values = true)]
+    pub max_jerk: Option<String>,
+    /// Largest rate of the motor's torque, e.g. "500 N m/s" ("5 kN/s" of a linear motor).
+    #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
+    pub max_torque_rate: Option<String>,
+    /// How the motion begins and ends; zero with --max-jerk or --max-torque-rate, without them free.
+    #[arg(long, value_parser = word::<Ends>())]
+    pub ends: Option<Ends>,
+    /// Largest RMS torque over the motion with its pauses, e.g. "2 N m"; "s1": the motor's S1 torque at the mean speed, without the reserve
+    /// of --reserve rules.
+    #[arg(long, value_name = "TORQUE|s1", allow_hyphen_values = true)]
+    pub max_rms: Option<String>,
     /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]
     pub profile: Option<PathBuf>,

@@ -35,9 +35,9 @@ pub struct Retime {
     /// How a move begins and ends.
     #[arg(long, value_parser = word::<Ends>(), default_value_t)]
     pub ends: Ends,
-    /// With --ends zero: share of a move's time for the acceleration to rise, e.g. "10 %". The motion has so many pieces.
-    #[arg(long, value_name = "SHARE", default_value = "10 %", value_parser = ramp)]
-    pub ramp: f64,
+    /// With --ends zero: share of a move's time for the acceleration to rise, e.g. "5 %"; 10 % if not given. The motion has so many pieces.
+    #[arg(long, value_name = "SHARE", value_parser = ramp)]
+    pub ramp: Option<f64>,
     /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".
     #[arg(long, value_name = "CSV", value_parser = output_file())]
     pub profile: Option<PathBuf>,
@@ -66,6 +66,9 @@ pub struct Retime {
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
 }
+
+/// The ramp where none is given.
+pub const RAMP: f64 = 0.1;
 
 /// A ramp's share of a move.
 fn ramp(text: &str) -> Result<f64, String> {

@@ -147,6 +147,22 @@ fn fastest() {
             ]),
             &with(&[&press, &["--drive", "sgmsh-15b"]]),
             &with(&[&["fastest", "conveyor.toml"], &plain]),
+            &with(&[
+                &["fastest", "conveyor.toml", "--max-jerk", "1e6 rad/s^3"],
+                &plain,
+            ]),
+            &with(&[&["fastest", "press.toml", "--ends", "zero"], &plain, &way]),
+            &with(&[&["fastest", "press.toml", "--max-rms", "s1"], &plain, &way]),
+            &with(&[
+                &["fastest", "press.toml", "--max-rms", "0.5 N m"],
+                &plain,
+                &way,
+            ]),
+            &with(&[
+                &["fastest", "press.toml", "--max-torque-rate", "3 rpm"],
+                &plain,
+                &way,
+            ]),
             &with(&[&["fastest", "variator-press.toml"], &plain]),
             &with(&[&["fastest", "line-shaft.toml"], &plain]),
         ]),

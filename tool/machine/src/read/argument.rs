@@ -7,8 +7,8 @@ use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::units::kind::{
-    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, LENGTH, MASS,
-    SHARE, TORQUE, VELOCITY,
+    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, FORCE_RATE,
+    INERTIA, JERK, Kind, LENGTH, MASS, SHARE, TORQUE, TORQUE_RATE, VELOCITY,
 };
 use crate::units::quantity;
 
@@ -46,6 +46,34 @@ pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> 
 /// A message for the command line.
 pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     above_zero(drive_acceleration(text, coordinate)?)
+}
+
+/// A rate of the acceleration of the drive link greater than zero.
+///
+/// # Errors
+/// A message for the command line.
+pub fn largest_jerk(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    positive(
+        text,
+        match coordinate {
+            Coordinate::Angle => &ANGULAR_JERK,
+            Coordinate::Length => &JERK,
+        },
+    )
+}
+
+/// A rate of a torque greater than zero, such as "500 N m/s", or of a force, "5 kN/s".
+///
+/// # Errors
+/// A message for the command line.
+pub fn largest_effort_rate(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    positive(
+        text,
+        match coordinate {
+            Coordinate::Angle => &TORQUE_RATE,
+            Coordinate::Length => &FORCE_RATE,
+        },
+    )
 }
 
 /// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).

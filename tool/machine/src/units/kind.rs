@@ -96,11 +96,14 @@ kinds! {
     GAIN "a gain (speed per distance)" "20 1/s" "1/s" "1/s" 1e-6 1e6;
 }
 
-// Over the angle of a cam, of a follower that slides or swings; elsewhere such a quantity has no name.
+// Over the angle of a cam, of a follower that slides or swings, and rates of a drive's torque; elsewhere such a quantity has another name,
+// or none.
 kinds! {
     _:
     CAM_VELOCITY "a velocity per angular speed of the cam" "12 mm/rad" "mm/rad" "mm/rad, mm/deg" 1e-9 1e3;
     CAM_ACCELERATION "an acceleration per squared angular speed of the cam" "-30 mm/rad^2" "mm/rad^2" "mm/rad^2, mm/deg^2" 1e-9 1e6;
+    TORQUE_RATE "a torque per time" "500 N m/s" "N m/s" "N m/s, kN m/s" 1e-9 1e12;
+    FORCE_RATE "a force per time" "5 kN/s" "N/s" "N/s, kN/s" 1e-9 1e12;
     CAM_TURNING "an angular acceleration per squared angular speed of the cam" "-0.5 1/rad" "1/rad" "1/rad, 1/deg" 1e-9 1e6;
 }
 

@@ -5,8 +5,8 @@ use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 
 use super::field::{Binding, Limits};
-use super::{Fastest, NoMotion, Task, solve};
-use crate::moves::Part;
+use super::{Fastest, NoMotion, Task, priced, solve};
+use crate::moves::{Move, Part};
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, BothWays, Way};
 
@@ -67,9 +67,37 @@ pub struct MotorLoad {
     pub holding: f64,
     /// S1 torque (N·m) at the mean speed; infinite: not known.
     pub continuous: f64,
-    /// Pause (s) that must be added for the RMS torque to be no larger than that S1 torque; `None`: not even holding is possible.
+    /// What the RMS torque may be (N·m): that S1 torque without what a reserve leaves unused.
+    pub allowed: f64,
+    /// Pause (s) that must be added for the RMS torque to be no larger than that; `None`: not even holding is possible.
     pub pause: Option<f64>,
 }
+
+/// A limit of the RMS torque over a motion with its pauses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rms {
+    /// The S1 torque of the motor at the mean speed, without what the reserve leaves unused.
+    Continuous,
+    /// A torque (N·m).
+    Torque(f64),
+}
+
+impl Rms {
+    fn of(self, load: &MotorLoad) -> f64 {
+        match self {
+            Self::Continuous => load.allowed,
+            Self::Torque(torque) => torque,
+        }
+    }
+}
+
+/// Factor from one price to the next until the RMS torque is small enough, and the most such steps.
+const DEARER: f64 = 4.0;
+const MOST_DEARER: u32 = 20;
+
+/// Steps of the search for the price, and the share by which the RMS torque may lie below its limit at its end.
+const PRICES: u32 = 40;
+const BELOW: f64 = 1e-8;
 
 /// Makes every move of a motion as fast as possible.
 ///
@@ -79,7 +107,74 @@ pub fn cycle(
     file: &MachineFile,
     actuator: &Actuator,
     limits: Limits,
+    rms: Option<Rms>,
     parts: &[Part],
+) -> Result<Cycle, (usize, NoMotion)> {
+    let at = |price: Option<f64>| at_price(file, actuator, limits, parts, price);
+    within(rms, at, |why| (0, why))
+}
+
+/// The motion whose RMS torque is within a limit, from the one of each price (s/(N²·m²·s)) of the torque's square. The sum of time and price
+/// times ∫T² dt is least, so no motion with as little ∫T² takes less time, as far as each of these motions is the best of its price.
+fn within<E>(
+    rms: Option<Rms>,
+    at: impl Fn(Option<f64>) -> Result<Cycle, E>,
+    refuse: impl Fn(NoMotion) -> E,
+) -> Result<Cycle, E> {
+    let free = at(None)?;
+    let Some(rms) = rms else { return Ok(free) };
+    let over = |cycle: &Cycle| cycle.load.rms / rms.of(&cycle.load) - 1.0;
+    if over(&free) <= 0.0 {
+        return Ok(free);
+    }
+    let limit = rms.of(&free.load);
+    let mut price = 0.1 / (limit * limit);
+    let mut cheap = (0.0, over(&free));
+    let mut dear = None;
+    for _ in 0..MOST_DEARER {
+        let found = at(Some(price))?;
+        let own = over(&found);
+        if own <= 0.0 {
+            dear = Some((price, own, found));
+            break;
+        }
+        cheap = (price, own);
+        price *= DEARER;
+    }
+    let Some((mut price, mut own, mut best)) = dear else {
+        return Err(refuse(NoMotion::RmsTooLarge {
+            rms: free.load.rms,
+            allowed: limit,
+        }));
+    };
+    for k in 0..PRICES {
+        if own >= -BELOW {
+            break;
+        }
+        // The secant's place, a little on the dear side; every third time the middle.
+        let secant = cheap.0 + (price - cheap.0) * cheap.1 / (cheap.1 - own);
+        let next = if k % 3 == 2 {
+            cheap.0.midpoint(price)
+        } else {
+            secant + 1e-3 * (price - secant)
+        };
+        let found = at(Some(next))?;
+        let excess = over(&found);
+        if excess <= 0.0 {
+            (price, own, best) = (next, excess, found);
+        } else {
+            cheap = (next, excess);
+        }
+    }
+    Ok(best)
+}
+
+fn at_price(
+    file: &MachineFile,
+    actuator: &Actuator,
+    limits: Limits,
+    parts: &[Part],
+    price: Option<f64>,
 ) -> Result<Cycle, (usize, NoMotion)> {
     let start = parts.first().map_or(0.0, |part| match part {
         Part::Move(step) => step.from,
@@ -101,15 +196,17 @@ pub fn cycle(
                     to: step.to,
                     speeds: [0.0; 2],
                     limits,
+                    endless: false,
                 };
-                let made = make(file, actuator, task, Some(step.duration))
+                let made = make(file, actuator, &task, Some(step.duration), price)
                     .map_err(|why| (moves.len(), why))?;
                 trace.then(made.fastest.trace.nodes());
                 moves.push(made);
             }
         }
     }
-    let load = load(file, actuator, &trace).map_err(|error| (0, error.into()))?;
+    let load =
+        load(file, actuator, &trace, limits.reserve.rms).map_err(|error| (0, error.into()))?;
     Ok(Cycle {
         moves,
         trace,
@@ -123,14 +220,52 @@ pub fn cycle(
 ///
 /// # Errors
 /// It cannot be made.
-pub fn single(file: &MachineFile, actuator: &Actuator, task: Task) -> Result<Cycle, NoMotion> {
-    let made = make(file, actuator, task, None)?;
+pub fn single(
+    file: &MachineFile,
+    actuator: &Actuator,
+    task: Task,
+    rms: Option<Rms>,
+) -> Result<Cycle, NoMotion> {
+    let at = |price: Option<f64>| -> Result<Cycle, NoMotion> {
+        let made = make(file, actuator, &task, None, price)?;
+        let trace = made.fastest.trace.clone();
+        Ok(Cycle {
+            load: load(file, actuator, &trace, task.limits.reserve.rms)?,
+            moves: vec![made],
+            trace,
+            before: None,
+            dwells: 0.0,
+        })
+    };
+    within(rms, at, |why| why)
+}
+
+/// A motion that turns for ever, of the given period, as fast as possible; without limits of rates and of the RMS torque.
+///
+/// # Errors
+/// It cannot be made.
+pub fn endless(
+    file: &MachineFile,
+    actuator: &Actuator,
+    limits: Limits,
+    step: &Move,
+) -> Result<Cycle, NoMotion> {
+    let task = Task {
+        from: step.from,
+        to: step.to,
+        speeds: [0.0; 2],
+        limits,
+        endless: true,
+    };
+    let mut made = make(file, actuator, &task, Some(step.duration), None)?;
     let trace = made.fastest.trace.clone();
+    let speed = trace.nodes().first().map_or(0.0, |node| node.omega.abs());
+    made.task.speeds = [speed; 2];
     Ok(Cycle {
-        load: load(file, actuator, &trace)?,
+        load: load(file, actuator, &trace, limits.reserve.rms)?,
         moves: vec![made],
         trace,
-        before: None,
+        before: Some(step.duration),
         dwells: 0.0,
     })
 }
@@ -138,10 +273,14 @@ pub fn single(file: &MachineFile, actuator: &Actuator, task: Task) -> Result<Cyc
 fn make(
     file: &MachineFile,
     actuator: &Actuator,
-    task: Task,
+    task: &Task,
     before: Option<f64>,
+    price: Option<f64>,
 ) -> Result<Made, NoMotion> {
-    let fastest = solve(file, actuator, &task)?;
+    let fastest = match price {
+        None => solve(file, actuator, task)?,
+        Some(price) => priced(file, actuator, task, price)?,
+    };
     let mut met: Vec<Binding> = Vec::new();
     for phase in &fastest.phases {
         // Driving and braking are one motor.
@@ -153,16 +292,20 @@ fn make(
             met.push(limit);
         }
     }
+    if price.is_some() {
+        // The price of the torque is that of the whole cycle: what another limit costs is not known without it.
+        met.retain(|limit| *limit == Binding::RmsTorque);
+    }
     let cost = |limit: Binding| {
         let (actuator, limits) = without(actuator, task.limits, limit);
-        let eased = Task { limits, ..task };
+        let eased = Task { limits, ..*task };
         // Where no motion is found the limit is not what it costs time.
         let time = super::time(file, &actuator, &eased).ok()?;
         Some(Cost { limit, time })
     };
     Ok(Made {
         costs: met.into_iter().filter_map(cost).collect(),
-        task,
+        task: *task,
         before,
         fastest,
     })
@@ -186,15 +329,25 @@ fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Li
         Binding::ToolSpeed => limits.tool = None,
         Binding::Acceleration => limits.acceleration = None,
         Binding::Deceleration => limits.deceleration = None,
+        Binding::Jerk => limits.jerk = None,
+        Binding::TorqueRate => limits.torque_rate = None,
+        // That of the whole cycle, which no move keeps alone.
+        Binding::RmsTorque => {}
     }
+    limits.level_ends &= limits.has_rates();
     (actuator, limits)
 }
 
-/// What the motor does in a motion.
+/// What the motor does in a motion, of whose S1 torque a share stays unused.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<MotorLoad, Error> {
+pub fn load(
+    file: &MachineFile,
+    actuator: &Actuator,
+    trace: &Trace,
+    reserve: f64,
+) -> Result<MotorLoad, Error> {
     let ways = BothWays::new(file, actuator);
     let forwards = ways.forwards();
     let (mut squares, mut turns) = (0.0, 0.0);
@@ -221,10 +374,13 @@ pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<Mo
     let end = trace.nodes().last().map_or(0.0, |node| node.phi);
     let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
     let mean_speed = forwards.motor_speed(turns) / duration;
-    let continuous = actuator.envelope.continuous_torque(mean_speed);
-    let excess = squares - continuous * continuous * duration;
-    let relief = continuous * continuous - holding * holding;
-    let pause = if excess <= 0.0 || !continuous.is_finite() {
+    // At the largest speed all the time rounding must not step beyond.
+    let continuous =
+        (actuator.envelope).continuous_torque(mean_speed.min(actuator.envelope.max_speed()));
+    let allowed = continuous * (1.0 - reserve);
+    let excess = squares - allowed * allowed * duration;
+    let relief = allowed * allowed - holding * holding;
+    let pause = if excess <= 0.0 || !allowed.is_finite() {
         Some(0.0)
     } else {
         (relief > 0.0).then(|| excess / relief)
@@ -235,6 +391,7 @@ pub fn load(file: &MachineFile, actuator: &Actuator, trace: &Trace) -> Result<Mo
         mean_speed,
         holding,
         continuous,
+        allowed,
         pause,
     })
 }

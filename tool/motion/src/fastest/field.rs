@@ -22,6 +22,12 @@ pub struct Limits {
     pub gearbox_torque: Option<f64>,
     /// Largest speed of the gearbox input (rad/s).
     pub gearbox_speed: Option<f64>,
+    /// Largest rate of the acceleration (rad/s³, or m/s³).
+    pub jerk: Option<f64>,
+    /// Largest rate of the motor's torque (N·m/s).
+    pub torque_rate: Option<f64>,
+    /// Whether the acceleration is zero at both ends; only where jerk or torque rate is limited.
+    pub level_ends: bool,
     /// What is left unused of motor and gearbox.
     pub reserve: Reserve,
 }
@@ -41,6 +47,8 @@ pub struct Reserve {
     pub gearbox_torque: f64,
     /// Of its largest input speed.
     pub gearbox_speed: f64,
+    /// Of the motor's S1 torque, by the RMS torque.
+    pub rms: f64,
 }
 
 impl Reserve {
@@ -51,6 +59,7 @@ impl Reserve {
             speed: share,
             gearbox_torque: 0.0,
             gearbox_speed: 0.0,
+            rms: 0.0,
         }
     }
 
@@ -65,6 +74,7 @@ impl Reserve {
             speed: share(Rule::Speed),
             gearbox_torque: share(Rule::GearboxPeak),
             gearbox_speed: share(Rule::GearboxSpeed),
+            rms: share(Rule::RmsTorque),
         }
     }
 
@@ -84,6 +94,22 @@ impl Reserve {
 }
 
 impl Limits {
+    /// Whether how fast acceleration or torque change is limited.
+    pub const fn has_rates(&self) -> bool {
+        self.jerk.is_some() || self.torque_rate.is_some()
+    }
+
+    /// The same without a limit of how fast acceleration or torque change.
+    #[must_use]
+    pub const fn without_rates(self) -> Self {
+        Self {
+            jerk: None,
+            torque_rate: None,
+            level_ends: false,
+            ..self
+        }
+    }
+
     /// The same limits with a reserve of motor and gearbox.
     #[must_use]
     pub fn with_reserve(self, reserve: Reserve) -> Self {
@@ -118,6 +144,32 @@ pub enum Binding {
     Acceleration,
     /// The largest deceleration.
     Deceleration,
+    /// The largest rate of the acceleration.
+    Jerk,
+    /// The largest rate of the motor's torque.
+    TorqueRate,
+    /// The RMS torque of the motor.
+    RmsTorque,
+}
+
+impl Binding {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Driving => "motor torque (driving)",
+            Self::Braking => "motor torque (braking)",
+            Self::MotorSpeed => "motor speed",
+            Self::GearboxTorque => "gearbox torque",
+            Self::GearboxSpeed => "gearbox speed",
+            Self::Speed => "speed limit",
+            Self::ToolSpeed => "tool speed limit",
+            Self::Acceleration => "acceleration limit",
+            Self::Deceleration => "deceleration limit",
+            Self::Jerk => "jerk limit",
+            Self::TorqueRate => "torque rate limit",
+            Self::RmsTorque => "RMS torque",
+        }
+    }
 }
 
 /// The accelerations that limits leave.
@@ -266,6 +318,29 @@ impl Field<'_, '_> {
     pub fn least_part(&self, place: &Place, z: f64) -> u32 {
         let (a, limit) = self.least_by(place, z);
         self.part(place, z, a, limit, true)
+    }
+
+    /// The largest share by which a state (speed and acceleration along the way) exceeds a limit; negative: none. A torque at its limit is
+    /// measured by that of the motor at rest: the limit itself may be nothing.
+    pub fn excess(&self, place: &Place, v: f64, acceleration: f64) -> f64 {
+        let way = self.way;
+        let limits = self.motor_torques(v);
+        let scale = self.motor_torques(0.0).map(f64::abs);
+        let torque = way.demand(place, v, acceleration).torque;
+        let mut most = (torque - limits[1]) / scale[1];
+        most = most.max((limits[0] - torque) / scale[0]);
+        most = most.max(v / self.top().0 - 1.0);
+        if let Some(limit) = self.limits.gearbox_torque {
+            let torque = way.gearbox_demand(place, v, acceleration).torque;
+            most = most.max(torque.abs() / limit - 1.0);
+        }
+        if let Some(limit) = self.limits.acceleration {
+            most = most.max(acceleration / limit - 1.0);
+        }
+        if let Some(limit) = self.limits.deceleration {
+            most = most.max(-acceleration / limit - 1.0);
+        }
+        most
     }
 
     fn part(&self, place: &Place, z: f64, a: f64, limit: Binding, braking: bool) -> u32 {

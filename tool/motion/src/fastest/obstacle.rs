@@ -20,6 +20,8 @@ pub enum NoMotion {
     NoWay,
     /// The motor's peak torque is not known.
     NoTorqueLimit,
+    /// Nothing limits the speed of a motion that goes on for ever.
+    NoSpeedLimit,
     /// The gearbox does not turn when its output drives.
     SelfLocking,
     /// Even with the largest acceleration the machine stops on the way, or does not start.
@@ -83,6 +85,27 @@ pub enum NoMotion {
         change: f64,
         /// In whose words it is said.
         axis: Axis,
+    },
+    /// A load jumps, where the rate of the torque is limited.
+    LoadJumps {
+        /// Position (rad, or m).
+        phi: f64,
+        /// Torque of the motor before and after (N·m).
+        torques: [f64; 2],
+        /// In whose words it is said.
+        axis: Axis,
+    },
+    /// Even slow motions take more RMS torque than allowed.
+    RmsTooLarge {
+        /// RMS torque (N·m) of the fastest motion.
+        rms: f64,
+        /// What it may be.
+        allowed: f64,
+    },
+    /// No motion within limits of jerk, torque rate or RMS torque was found.
+    NotFound {
+        /// Time (s) of the fastest motion without these limits.
+        bound: f64,
     },
     /// No acceleration is left.
     Empty {
@@ -157,6 +180,7 @@ impl NoMotion {
             Self::NoTorqueLimit => {
                 "take a motor with a peak torque, or give --torque".to_owned()
             }
+            Self::NoSpeedLimit => "give --max-speed".to_owned(),
             Self::SelfLocking => "take another gearbox".to_owned(),
             Self::Stops {
                 limit,
@@ -190,6 +214,15 @@ impl NoMotion {
             Self::TooLong { .. } | Self::NotAccurate { .. } => {
                 "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed)".to_owned()
             }
+            Self::LoadJumps { .. } => {
+                "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
+            }
+            Self::RmsTooLarge { .. } => {
+                "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
+            }
+            Self::NotFound { .. } => {
+                "allow more jerk, torque rate, acceleration or torque".to_owned()
+            }
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
             }
@@ -219,24 +252,41 @@ impl NoMotion {
                     "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
                 )
             }
+            Self::LoadJumps {
+                phi,
+                torques: [before, after],
+                axis,
+            } => write!(
+                f,
+                "the torque rate cannot be limited: at {} a load jumps, and the motor torque at constant speed with it from {} to {} N m",
+                axis.place(*phi),
+                short(*before),
+                short(*after)
+            ),
+            Self::RmsTooLarge { rms, allowed } => write!(
+                f,
+                "the RMS torque exceeds {} N m however slowly the machine moves: the fastest motion takes {} N m, and weight or friction keep it above the limit",
+                short(*allowed),
+                short(*rms)
+            ),
+            Self::NotFound { bound } => write!(
+                f,
+                "no motion within the limits of jerk and torque rate was found; without them the fastest motion takes {} s",
+                short(*bound)
+            ),
+            Self::NoTorqueLimit => write!(
+                f,
+                "the motor's peak torque is not known, so nothing limits the acceleration"
+            ),
+            Self::NoSpeedLimit => write!(
+                f,
+                "nothing limits the speed of a motion that turns for ever: the motor's largest speed is not known"
+            ),
+            Self::SelfLocking => write!(
+                f,
+                "the gearbox is self-locking: its load cannot be braked by the motor, and the motion under it is not determined"
+            ),
             _ => Ok(()),
-        }
-    }
-}
-
-impl Binding {
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Driving => "motor torque (driving)",
-            Self::Braking => "motor torque (braking)",
-            Self::MotorSpeed => "motor speed",
-            Self::GearboxTorque => "gearbox torque",
-            Self::GearboxSpeed => "gearbox speed",
-            Self::Speed => "speed limit",
-            Self::ToolSpeed => "tool speed limit",
-            Self::Acceleration => "acceleration limit",
-            Self::Deceleration => "deceleration limit",
         }
     }
 }
@@ -246,14 +296,6 @@ impl fmt::Display for NoMotion {
         match self {
             Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
             Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
-            Self::NoTorqueLimit => write!(
-                f,
-                "the motor's peak torque is not known, so nothing limits the acceleration"
-            ),
-            Self::SelfLocking => write!(
-                f,
-                "the gearbox is self-locking: its load cannot be braked by the motor, and the motion under it is not determined"
-            ),
             Self::Stops {
                 phi,
                 at_start,
@@ -323,7 +365,14 @@ impl fmt::Display for NoMotion {
                 short(axis.rate(*most)),
                 axis.coordinate.speed_unit()
             ),
-            Self::TooLong { .. } | Self::NotAccurate { .. } => self.not_computed(f),
+            Self::NoTorqueLimit
+            | Self::NoSpeedLimit
+            | Self::SelfLocking
+            | Self::TooLong { .. }
+            | Self::NotAccurate { .. }
+            | Self::LoadJumps { .. }
+            | Self::RmsTooLarge { .. }
+            | Self::NotFound { .. } => self.not_computed(f),
             Self::Empty {
                 phi,
                 speed,

@@ -12,7 +12,7 @@ use crate::skyline::Skyline;
 use crate::way::{Place, Way};
 
 /// Gauss and Legendre's five points in (0, 1), and their weights.
-pub(super) const GAUSS: [[f64; 2]; 5] = [
+pub(crate) const GAUSS: [[f64; 2]; 5] = [
     [0.046_910_077_030_668_004, 0.118_463_442_528_094_54],
     [0.230_765_344_947_158_45, 0.239_314_335_249_683_23],
     [0.5, 0.284_444_444_444_444_44],
@@ -22,7 +22,7 @@ pub(super) const GAUSS: [[f64; 2]; 5] = [
 
 /// A value at an end of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// An unknown.
     Free(usize),
     /// Given.
@@ -64,7 +64,7 @@ pub(super) struct Mesh {
 }
 
 /// What the four values of an element of length h give to w, w′ and w″ at the share z of it.
-pub(super) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
+pub(crate) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
     let z2 = z * z;
     let z3 = z2 * z;
     [

@@ -7,14 +7,14 @@ use super::Ends;
 
 /// g(u) with g(0) = 0 and g(1) = 1, in cubic pieces.
 #[derive(Clone, Debug)]
-pub(super) struct Shape {
+pub(crate) struct Shape {
     /// Where each piece begins, and its Taylor series there.
     pieces: Vec<(f64, [f64; 4])>,
 }
 
 impl Shape {
     /// For ends at rest (or not), with ramps of the acceleration over a share of u (or none).
-    pub(super) fn new(ends: Ends) -> Self {
+    pub(crate) fn new(ends: Ends) -> Self {
         let [starts, stops] = ends.rest;
         let ramp = ends.ramp;
         // The second derivative is a straight line between these.
@@ -66,18 +66,34 @@ impl Shape {
 
     /// [g, g′, g″] at u.
     pub(super) fn at(&self, u: f64) -> [f64; 3] {
-        let index = self.pieces.partition_point(|(from, _)| *from <= u).max(1) - 1;
+        let [g, slope, bend, _] = self.series(u, u);
+        [g, slope, bend]
+    }
+
+    /// [g, g′, g″, g‴] at u in the piece in which `within` lies: g‴ jumps where two meet.
+    pub(crate) fn series(&self, u: f64, within: f64) -> [f64; 4] {
+        let index = self
+            .pieces
+            .partition_point(|(from, _)| *from <= within)
+            .max(1)
+            - 1;
         let (from, [g, slope, bend, jerk]) = self.pieces[index];
         let h = u - from;
         [
             g + h * (slope + h * (bend / 2.0 + h * jerk / 6.0)),
             slope + h * (bend + h * jerk / 2.0),
             bend + h * jerk,
+            jerk,
         ]
     }
 
+    /// Where its pieces meet, between 0 and 1.
+    pub(crate) fn knots(&self) -> impl Iterator<Item = f64> + '_ {
+        self.pieces.iter().skip(1).map(|(from, _)| *from)
+    }
+
     /// Where g has a value between 0 and 1.
-    pub(super) fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..60 {
             let middle = 0.5 * (low + high);

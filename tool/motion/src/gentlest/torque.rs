@@ -3,21 +3,21 @@
 //! The torque rises with the load R at the drive link in straight lines that meet where the power at a stage changes its direction.
 //! Newton's method needs a second derivative there: the torque is averaged over R ± r, which makes each bend a parabola.
 
-use crate::way::{Place, Way};
+use crate::way::{Demand, Place, Way};
 
 /// The torque at a place, a speed and an acceleration.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Torque {
+pub(crate) struct Torque {
     /// T (N·m).
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// ∂T/∂R.
-    pub(super) by_load: f64,
+    pub(crate) by_load: f64,
     /// ∂T/∂a.
-    pub(super) by_acceleration: f64,
+    pub(crate) by_acceleration: f64,
     /// ∂²T/∂R², not negative.
-    pub(super) bend: f64,
+    pub(crate) bend: f64,
     /// What moves a bend: it stays at R + lean·a.
-    pub(super) lean: f64,
+    pub(crate) lean: f64,
 }
 
 /// Shares of the slopes that differ by less are one.
@@ -26,7 +26,18 @@ const STRAIGHT: f64 = 1e-9;
 impl Torque {
     /// Without rounding.
     pub(super) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
-        let demand = way.demand(place, speed, acceleration);
+        Self::of(place, acceleration, |place| {
+            way.demand(place, speed, acceleration)
+        })
+    }
+
+    /// Without rounding, of what a state asks for at any shaft.
+    pub(crate) fn of(
+        place: &Place,
+        acceleration: f64,
+        demand_of: impl Fn(&Place) -> Demand,
+    ) -> Self {
+        let demand = demand_of(place);
         // The same state with another share of the torque in the inertia: what the slope differs by is the load's.
         let bare = Place {
             inertia: 0.0,
@@ -34,7 +45,7 @@ impl Torque {
             ..*place
         };
         let by_load = if place.inertia > 0.0 {
-            let bare = way.demand(&bare, speed, acceleration).per_acceleration;
+            let bare = demand_of(&bare).per_acceleration;
             (demand.per_acceleration - bare) / place.inertia
         } else {
             0.0

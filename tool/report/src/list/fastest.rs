@@ -13,6 +13,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::number::words::counted;
+use jred_machine::units::RPM;
 use jred_motion::fastest::cycle::{Cost, Cycle, MORE, Made};
 use jred_motion::fastest::{Binding, Phase, Reserve};
 use jred_motion::way::{Actuator, BothWays};
@@ -123,51 +124,7 @@ impl Answer<'_> {
             );
         }
         line(&mut text, "duration", &says);
-        let [effort, speed_unit] = self.motor_units();
-        let load = &cycle.load;
-        let continuous = if load.continuous.is_finite() {
-            format!(
-                ", S1 torque {} {effort} at the mean speed",
-                short(load.continuous)
-            )
-        } else {
-            String::new()
-        };
-        line(
-            &mut text,
-            "motor torque",
-            &format!(
-                "RMS {} {effort}{continuous}; peak {} {effort}; {} {effort} to hold the end",
-                short(load.rms),
-                short(load.peaks[0]),
-                shown(load.holding, load.peaks[0])
-            ),
-        );
-        line(
-            &mut text,
-            "motor speed",
-            &format!(
-                "peak {} {speed_unit}, mean {} {speed_unit}",
-                short(load.peaks[1]),
-                short(load.mean_speed)
-            ),
-        );
-        match load.pause {
-            Some(0.0) => {}
-            Some(pause) => line(
-                &mut text,
-                "warning",
-                &format!(
-                    "the RMS torque exceeds the S1 torque: repeated, the motion needs {} s more at rest each time",
-                    short(pause)
-                ),
-            ),
-            None => line(
-                &mut text,
-                "warning",
-                "the RMS torque exceeds the S1 torque, and no pause helps: holding the machine alone takes more than that",
-            ),
-        }
+        self.motor(&mut text);
         line(&mut text, "reserve", &self.reserve());
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
         let error = cycle.moves.iter().map(|made| made.fastest.error);
@@ -178,11 +135,92 @@ impl Answer<'_> {
             "duration within {error:.0e} s; limits satisfied within {worst:.0e} between the nodes"
         );
         line(&mut text, "accuracy", &says);
+        let bounds = cycle.moves.iter().map(|made| made.fastest.bound);
+        if let Some(bounds) = bounds.collect::<Option<Vec<f64>>>() {
+            let least: f64 = bounds.iter().sum();
+            let says = format!(
+                "no motion near it is faster; without limits of jerk, torque rate and RMS torque the moves take {} s, and none takes less",
+                short(least)
+            );
+            line(&mut text, "optimum", &says);
+        }
         for (k, made) in cycle.moves.iter().enumerate() {
             text.push('\n');
             text += &self.one_move(k + 1, made);
         }
         text
+    }
+
+    /// What the motor does, and the pause that it needs.
+    fn motor(&self, text: &mut String) {
+        let [effort, speed_unit] = self.motor_units();
+        // A motor that turns is spoken of in rpm.
+        let (speed_unit, per_speed) = match speed_unit {
+            "rad/s" => ("rpm", RPM),
+            other => (other, 1.0),
+        };
+        let load = &self.cycle.load;
+        let continuous = if load.continuous.is_finite() {
+            format!(
+                ", S1 torque {} {effort} at the mean speed{}",
+                short(load.continuous),
+                if load.allowed < load.continuous {
+                    format!(
+                        ", {} of it with the reserve",
+                        percent(load.allowed / load.continuous)
+                    )
+                } else {
+                    String::new()
+                }
+            )
+        } else {
+            String::new()
+        };
+        line(
+            text,
+            "motor torque",
+            &format!(
+                "RMS {} {effort}{continuous}; peak {} {effort}; {} {effort} to hold the end",
+                short(load.rms),
+                short(load.peaks[0]),
+                shown(load.holding, load.peaks[0])
+            ),
+        );
+        line(
+            text,
+            "motor speed",
+            &format!(
+                "peak {} {speed_unit}, mean {} {speed_unit}",
+                short(load.peaks[1] / per_speed),
+                short(load.mean_speed / per_speed)
+            ),
+        );
+        let what = if load.allowed < load.continuous {
+            format!(
+                "{} of the S1 torque",
+                percent(load.allowed / load.continuous)
+            )
+        } else {
+            "the S1 torque".to_owned()
+        };
+        match load.pause {
+            Some(0.0) => {}
+            Some(pause) => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS torque exceeds {what}: repeated, the motion needs {} s more at rest each time",
+                    short(pause)
+                ),
+            ),
+            None => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS torque exceeds {what}, and no pause helps: holding the machine alone takes more than that"
+                ),
+            ),
+        }
     }
 
     fn reserve(&self) -> String {
@@ -192,6 +230,7 @@ impl Answer<'_> {
                 (reserve.speed, "motor speed"),
                 (reserve.gearbox_torque, "gearbox torque"),
                 (reserve.gearbox_speed, "gearbox speed"),
+                (reserve.rms, "S1 torque"),
             ];
             let given = shares.into_iter().filter(|(share, _)| *share > 0.0);
             let all: Vec<String> = given
@@ -279,6 +318,7 @@ impl Answer<'_> {
                 "speed": reserve.speed,
                 "gearbox_torque": reserve.gearbox_torque,
                 "gearbox_speed": reserve.gearbox_speed,
+                "s1_torque": reserve.rms,
             }),
         );
         let known = Some(load.continuous).filter(|torque| torque.is_finite());
@@ -291,6 +331,7 @@ impl Answer<'_> {
                 "mean_speed": load.mean_speed,
                 "holding_torque": load.holding,
                 "s1_torque": known,
+                "rms_allowed": known.map(|_| load.allowed),
                 "pause_needed": load.pause,
             }),
         );
@@ -344,6 +385,7 @@ fn move_json(made: &Made, axis: &Axis) -> Value {
         "time": made.fastest.time,
         "time_before": made.before,
         "error": made.fastest.error,
+        "bound": made.fastest.bound,
         "excess": made.fastest.excess,
         "phases": phases.collect::<Vec<_>>(),
         "costs": costs.collect::<Vec<_>>(),

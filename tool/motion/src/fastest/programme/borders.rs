@@ -1,0 +1,138 @@
+//! Where pieces meet: at the places at which the limit that is met changes.
+
+use super::interior::Programme as _;
+use super::limits::Margins;
+use super::mesh::{Border, SHARES};
+use super::{Asked, Found, inner};
+use crate::fastest::field::Binding;
+use crate::trace::{Node, Trace};
+
+/// Share of itself within which a limit is met.
+const MET: f64 = 1e-3;
+
+/// Pieces are not cut to less than this share of u: w″ is a difference of second order, whose last digits are those of w by the square of
+/// the length.
+const SHORTEST: f64 = 6e-4;
+
+impl Asked<'_> {
+    /// The limit that is met at each station, and which of its rows: driving and braking are two.
+    pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
+        let mesh = &found.mesh;
+        let mut met = vec![(0.0, None); mesh.stations.len()];
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let problem = self.problem(mesh, &margins);
+        let Some([_, rows]) = problem.at(&found.point.x) else {
+            return vec![None; mesh.stations.len()];
+        };
+        let mut number = 0;
+        let mut station = 0;
+        for (row, multiplier) in rows.iter().zip(&found.point.multipliers) {
+            number = if row.station == station {
+                number + 1
+            } else {
+                0
+            };
+            station = row.station;
+            let force = multiplier / row.weight;
+            let at = &mut met[row.station];
+            if row.value > -MET && force > at.0 {
+                *at = (force, row.limit.map(|limit| (limit, number % 2)));
+            }
+        }
+        met.into_iter().map(|(_, limit)| limit).collect()
+    }
+
+    /// Of each piece: whether the limit that is met changes in it or at its borders, and whether it changes in it.
+    pub(super) fn changes(&self, found: &Found) -> Vec<[bool; 2]> {
+        let met = self.met(found);
+        let all: Vec<_> = met.chunks(SHARES.len()).collect();
+        let changes = |(index, own): (usize, &&[_])| {
+            let inner = &own[1..SHARES.len() - 1];
+            let inside = inner.windows(2).any(|pair| pair[0] != pair[1]);
+            // What happens at a border of two pieces is known to neither.
+            let beside = |other: Option<usize>| {
+                let other = other.and_then(|other| all.get(other));
+                other.is_some_and(|other| other[3] != own[3])
+            };
+            [
+                inside || beside(index.checked_sub(1)) || beside(Some(index + 1)),
+                inside,
+            ]
+        };
+        all.iter().enumerate().map(changes).collect()
+    }
+
+    /// Middles of the pieces in which the limit that is met changes.
+    pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
+        let pieces = found.mesh.elements.iter().zip(self.changes(found));
+        let finer = pieces.filter_map(|(element, [changes, _])| {
+            let [from, to] = element.span;
+            (changes && to - from > 2.0 * SHORTEST).then(|| inner(from.midpoint(to)))
+        });
+        finer.collect()
+    }
+
+    /// The borders with one where the limit that is met changes, in the place of those around it; `None`: it changes at borders only.
+    pub(super) fn moved(
+        &self,
+        borders: &[Border],
+        found: &Found,
+        trace: &Trace,
+    ) -> Option<Vec<Border>> {
+        let met = self.met(found);
+        let count = SHARES.len();
+        let last = count - 1;
+        let nodes = trace.nodes();
+        // The limit that is met all through a piece.
+        let whole: Vec<_> = met
+            .chunks(count)
+            .map(|own| {
+                let inner = &own[1..last];
+                inner.iter().all(|met| *met == inner[0]).then_some(inner[0])
+            })
+            .collect();
+        let mut borders: Vec<Option<Border>> = borders.iter().copied().map(Some).collect();
+        let mut new = Vec::new();
+        let mut left: Option<usize> = None;
+        for (right, own) in whole.iter().enumerate() {
+            if own.is_none() {
+                continue;
+            }
+            if let Some(left) = left.replace(right)
+                && right > left + 1
+                && whole[left] != whole[right]
+            {
+                // Time, acceleration and jerk where the gap begins and ends.
+                let side = |node: usize, other: usize| {
+                    let [a, b] = [node, other].map(|k| &nodes[k]);
+                    let alpha =
+                        |node: &Node, towards: &Node| node.alpha[usize::from(towards.t > node.t)];
+                    (a.t, alpha(a, b), (alpha(b, a) - alpha(a, b)) / (b.t - a.t))
+                };
+                let [from, to] = [(left + 1) * last, right * last];
+                let (t0, a0, j0) = side(from, from - 1);
+                let (t1, a1, j1) = side(to, to + 1);
+                let t = (a1 - a0 + j0 * t0 - j1 * t1) / (j0 - j1);
+                if !(t > t0 && t < t1) {
+                    continue;
+                }
+                let k = nodes
+                    .partition_point(|node| node.t <= t)
+                    .clamp(from + 1, to);
+                let share = (t - nodes[k - 1].t) / (nodes[k].t - nodes[k - 1].t);
+                let u = |k: usize| found.mesh.stations[k / last * count + k % last].u;
+                new.push(Some(inner(u(k - 1) + share * (u(k) - u(k - 1)))));
+                for border in &mut borders[left + 1..=right] {
+                    *border = border.filter(|border| border.stays);
+                }
+            }
+        }
+        if new.is_empty() {
+            return None;
+        }
+        borders.extend(new);
+        let mut borders: Vec<Border> = borders.into_iter().flatten().collect();
+        borders.sort_by(|a, b| a.u.total_cmp(&b.u));
+        Some(borders)
+    }
+}

@@ -1,0 +1,353 @@
+//! Time, heat and limits of a motion w(u), with first and second derivatives by the values of each piece.
+//!
+//! ```text
+//! v = L·g′·√w/t,   a = L·(g″·w + ½·g′·w′)/t²,   da/dt = L·√w·(g‴·w + 3/2·g″·w′ + ½·g′·w″)/t³
+//! ```
+//!
+//! with t the unit of the time. Speed and acceleration limits are straight lines in w and w′; so is the torque, but for viscous friction (√w);
+//! the jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is a share of itself: c ≤ 0, −1 far from it.
+
+use super::interior::{Programme, Term};
+use super::mesh::{Local, Mesh, Station, VALUES, dot};
+use crate::fastest::field::{Binding, Field};
+use crate::gentlest::mesh::Value;
+use crate::gentlest::torque::Torque;
+use crate::way::{Demand, Place};
+
+/// Share of the mean speed over which the slope of a torque-speed curve is taken.
+const NEAR: f64 = 1e-6;
+
+/// A step leaves at least this share of w.
+const LEAVES: f64 = 0.1;
+
+/// By which a limit is kept below itself, as a share, so that it holds between the stations as well.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Margins {
+    /// Of speed, acceleration and torques.
+    pub(super) state: f64,
+    /// Of the jerk.
+    pub(super) jerk: f64,
+    /// Of the rate of the torque.
+    pub(super) rate: f64,
+}
+
+/// A programme on a mesh.
+pub(super) struct Problem<'a> {
+    pub(super) field: &'a Field<'a, 'a>,
+    pub(super) mesh: &'a Mesh,
+    /// Unit of the time (s).
+    pub(super) unit: f64,
+    /// Mean speed (rad/s, or m/s) in that time.
+    pub(super) pace: f64,
+    /// What the square of the motor torque (N²·m²) costs, in seconds a second: 0, time alone.
+    pub(super) price: f64,
+    /// Of each piece.
+    pub(super) margins: &'a [Margins],
+}
+
+/// A torque at a station.
+#[derive(Clone, Copy)]
+struct Effort {
+    value: f64,
+    gradient: Local,
+    /// Factor of the square of w's basis in the second derivatives.
+    bend: f64,
+}
+
+/// A motion at a station.
+pub(super) struct State {
+    pub(super) speed: f64,
+    pub(super) acceleration: f64,
+    w: f64,
+    /// Speed per √w.
+    pace: f64,
+    by: Local,
+}
+
+const NONE: (f64, Local) = (0.0, [0.0; VALUES]);
+
+impl Effort {
+    /// With its derivatives; `rate`: what the torque rises with the speed itself.
+    fn of(station: &Station, state: &State, rate: f64, demand: impl Fn(&Place) -> Demand) -> Self {
+        let place = &station.place;
+        let torque = Torque::of(place, state.acceleration, demand);
+        let friction = torque.by_load * place.viscous + rate;
+        let root = state.w.sqrt();
+        let by_w = torque.by_load * 0.5 * place.inertia_slope * state.pace * state.pace
+            + friction * state.pace / (2.0 * root);
+        Self {
+            value: torque.value,
+            gradient: mix(
+                (by_w, &station.basis[0]),
+                (torque.by_acceleration, &state.by),
+            ),
+            bend: -0.25 * friction * state.pace / (state.w * root),
+        }
+    }
+}
+
+impl Problem<'_> {
+    pub(super) fn state(&self, station: &Station, values: &Local) -> State {
+        let [slope, bend, _] = station.path;
+        let [own, change, _] = &station.basis;
+        let t = self.unit;
+        let w = dot(own, values);
+        let by = mix((bend / (t * t), own), (0.5 * slope / (t * t), change));
+        State {
+            speed: slope / t * w.max(0.0).sqrt(),
+            acceleration: dot(&by, values),
+            w,
+            pace: slope / t,
+            by,
+        }
+    }
+
+    fn motor(&self, station: &Station, state: &State) -> Effort {
+        let way = self.field.way;
+        let rate = way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs();
+        Effort::of(station, state, rate, |place| {
+            way.demand(place, state.speed, state.acceleration)
+        })
+    }
+
+    fn gearbox(&self, station: &Station, state: &State) -> Effort {
+        let way = self.field.way;
+        Effort::of(station, state, 0.0, |place| {
+            way.gearbox_demand(place, state.speed, state.acceleration)
+        })
+    }
+
+    /// −T and T at their limits, which fall with the speed.
+    fn torque_limits(
+        &self,
+        station: &Station,
+        state: &State,
+        torque: &Effort,
+        weight: f64,
+        rows: &mut Vec<Term>,
+    ) {
+        let field = self.field;
+        let margin = self.margins[station.element].state;
+        let scale = field.motor_torques(0.0).map(f64::abs);
+        let limits = field.motor_torques(state.speed);
+        let near = NEAR * self.pace;
+        let beside = [state.speed, state.speed + near].map(|v| field.motor_torques(v));
+        for (k, sign) in [(0, -1.0), (1, 1.0)] {
+            let slope = (beside[1][k] - beside[0][k]) / near;
+            let by_w = -slope * state.pace / (2.0 * state.w.sqrt());
+            let bend = 0.25 * slope * state.pace / (state.w * state.w.sqrt());
+            let size = sign / scale[k];
+            let left = limits[k] * (1.0 - margin);
+            let limit = if k == 0 {
+                Binding::Braking
+            } else {
+                Binding::Driving
+            };
+            rows.push(Term {
+                limit: Some(limit),
+                value: (torque.value - left) * size,
+                gradient: mix((size, &torque.gradient), (size * by_w, &station.basis[0])),
+                bends: [(size * (torque.bend + bend), station.basis[0]), NONE],
+                ..Term::straight(station.element, weight)
+            });
+        }
+    }
+
+    /// Limits at a station.
+    fn limits(
+        &self,
+        station: &Station,
+        values: &Local,
+        state: &State,
+        torque: &Effort,
+        rows: &mut Vec<Term>,
+    ) {
+        let field = self.field;
+        let limits = &field.limits;
+        let weight = station.weight;
+        let straight = |limit: Binding, value: f64, gradient: Local| Term {
+            limit: Some(limit),
+            value,
+            gradient,
+            ..Term::straight(station.element, weight)
+        };
+        let margins = self.margins[station.element];
+        let margin = 1.0 + margins.state;
+        let (top, which) = field.top();
+        if top.is_finite() {
+            let factor = (margin * state.pace / top).powi(2);
+            let by = station.basis[0].map(|basis| factor * basis);
+            rows.push(straight(which, factor * state.w - 1.0, by));
+        }
+        self.torque_limits(station, state, torque, weight, rows);
+        if let Some(limit) = limits.gearbox_torque {
+            let torque = self.gearbox(station, state);
+            for sign in [1.0, -1.0] {
+                let size = margin * sign / limit;
+                rows.push(Term {
+                    bends: [(size * torque.bend, station.basis[0]), NONE],
+                    ..straight(
+                        Binding::GearboxTorque,
+                        size * torque.value - 1.0,
+                        torque.gradient.map(|g| size * g),
+                    )
+                });
+            }
+        }
+        for (sign, limit, which) in [
+            (1.0, limits.acceleration, Binding::Acceleration),
+            (-1.0, limits.deceleration, Binding::Deceleration),
+        ] {
+            if let Some(limit) = limit {
+                let size = margin * sign / limit;
+                rows.push(straight(
+                    which,
+                    size * state.acceleration - 1.0,
+                    state.by.map(|by| size * by),
+                ));
+            }
+        }
+        if let Some(limit) = limits.jerk {
+            let [slope, bend, third] = station.path;
+            let [own, change, curve] = &station.basis;
+            let scale = (1.0 + margins.jerk) / (limit * self.unit.powi(3));
+            let mut by = mix((third * scale, own), (1.5 * bend * scale, change));
+            for (by, curve) in by.iter_mut().zip(curve) {
+                *by += 0.5 * slope * scale * curve;
+            }
+            let root = state.w.sqrt();
+            let rise = 0.5 / (state.w * root);
+            for sign in [1.0, -1.0] {
+                rows.push(Term {
+                    bends: [(-1.5 * rise / state.w, *own), NONE],
+                    ..straight(
+                        Binding::Jerk,
+                        sign * dot(&by, values) - 1.0 / root,
+                        mix((sign, &by), (rise, own)),
+                    )
+                });
+            }
+        }
+    }
+
+    /// How fast the torque changes from one station of a piece to the next.
+    fn rates(&self, pair: [(&Station, &State, &Effort); 2], limit: f64, rows: &mut Vec<Term>) {
+        let [(a, state_a, torque_a), (b, state_b, torque_b)] = pair;
+        let weight = a.weight.max(b.weight);
+        let half = 0.5 * (b.u - a.u) * self.unit;
+        let scale = (1.0 + self.margins[a.element].rate) / (limit * (b.u - a.u) * self.unit);
+        let time = half / ((b.u - a.u) * self.unit);
+        let roots = [state_a, state_b].map(|state| state.w.sqrt());
+        for sign in [1.0, -1.0] {
+            let size = sign * scale;
+            let each = |torque: &Effort, station: &Station, w: f64, root: f64, size: f64| {
+                let by = mix(
+                    (size, &torque.gradient),
+                    (0.5 * time / (w * root), &station.basis[0]),
+                );
+                let bend = size * torque.bend - 0.75 * time / (w * w * root);
+                (by, (bend, station.basis[0]))
+            };
+            let (by_a, bend_a) = each(torque_a, a, state_a.w, roots[0], -size);
+            let (by_b, bend_b) = each(torque_b, b, state_b.w, roots[1], size);
+            rows.push(Term {
+                limit: Some(Binding::TorqueRate),
+                value: size * (torque_b.value - torque_a.value)
+                    - time * (1.0 / roots[0] + 1.0 / roots[1]),
+                gradient: mix((1.0, &by_a), (1.0, &by_b)),
+                bends: [bend_a, bend_b],
+                ..Term::straight(a.element, weight)
+            });
+        }
+    }
+
+    /// Time and heat of a station.
+    fn cost(&self, station: &Station, state: &State, torque: &Effort) -> Term {
+        let w = state.w;
+        let root = w.sqrt();
+        let t = torque.value;
+        let weight = station.weight;
+        let price = self.price;
+        let whole = 1.0 + price * t * t;
+        let own = &station.basis[0];
+        // Of T²/√w: one square, and what is left of w's own.
+        let lean = mix((1.0, &torque.gradient), (-0.5 * t / w, own));
+        let bend =
+            (0.75 + 0.25 * price * t * t) / (w * w * root) + 2.0 * price * t * torque.bend / root;
+        Term {
+            value: weight * whole / root,
+            gradient: mix(
+                (weight * 2.0 * price * t / root, &torque.gradient),
+                (-0.5 * weight * whole / (w * root), own),
+            ),
+            bends: [
+                (weight * 2.0 * price / root, lean),
+                (weight * bend.max(0.1 / (w * w * root)), *own),
+            ],
+            ..Term::straight(station.element, weight)
+        }
+    }
+}
+
+impl Programme for Problem<'_> {
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]> {
+        let stations = &self.mesh.stations;
+        let mut costs = Vec::with_capacity(stations.len());
+        let mut rows = Vec::with_capacity(stations.len() * 8);
+        let mut before: Option<(&Station, State, Effort)> = None;
+        for (index, station) in stations.iter().enumerate() {
+            let values = self.mesh.values(x, station.element);
+            let state = self.state(station, &values);
+            if !(state.w > 0.0 && state.w.is_finite()) {
+                return None;
+            }
+            let torque = self.motor(station, &state);
+            if !torque.value.is_finite() {
+                return None;
+            }
+            costs.push(self.cost(station, &state, &torque));
+            let first = rows.len();
+            self.limits(station, &values, &state, &torque, &mut rows);
+            if let Some(limit) = self.field.limits.torque_rate {
+                if let Some((a, state_a, torque_a)) = &before
+                    && a.element == station.element
+                {
+                    let pair = [(*a, state_a, torque_a), (station, &state, &torque)];
+                    self.rates(pair, limit, &mut rows);
+                }
+                before = Some((station, state, torque));
+            }
+            for row in &mut rows[first..] {
+                row.station = index;
+            }
+        }
+        Some([costs, rows])
+    }
+
+    fn reach(&self, x: &[f64], step: &[f64]) -> f64 {
+        let mut share = 1.0_f64;
+        for station in &self.mesh.stations {
+            let values = self.mesh.values(x, station.element);
+            let steps = self.mesh.elements[station.element]
+                .values
+                .map(|value| match value {
+                    Value::Free(index) => step[index],
+                    Value::Fixed(_) => 0.0,
+                });
+            let [w, change] = [&values, &steps].map(|values| dot(&station.basis[0], values));
+            if change < 0.0 {
+                share = share.min((1.0 - LEAVES) * w / -change);
+            }
+        }
+        share
+    }
+}
+
+/// p·a + q·b
+fn mix((p, a): (f64, &Local), (q, b): (f64, &Local)) -> Local {
+    std::array::from_fn(|k| p * a[k] + q * b[k])
+}

@@ -1,0 +1,279 @@
+//! The square of the pace in pieces of fifth degree, and the places at which limits are looked at.
+//!
+//! Along the path s = L·g(u) of [`Shape`](crate::gentlest::shape::Shape) the pace is w = (du/dτ)², τ the time in units of the programme's
+//! own. w and w′ are continuous, so the acceleration is; w″ and with it the jerk may jump where two pieces meet. Fifth degree leaves w″
+//! a cubic in each piece, which follows an arc of constant jerk or of constant torque with an error of order 4.
+
+use jred::Error;
+
+use crate::gentlest::mesh::{Value, hermite};
+use crate::gentlest::shape::Shape;
+use crate::skyline::Skyline;
+use crate::way::{Place, Way};
+
+/// Values of a piece: w and w′ at its start, two that vanish with their slopes at both ends, w and w′ at its end.
+pub(super) const VALUES: usize = 6;
+
+/// Coefficients of the values of one piece.
+pub(super) type Local = [f64; VALUES];
+
+/// Share of a piece by which a place at its end lies inside it: what jumps there has the value of its own side.
+const INSIDE: f64 = 1e-9;
+
+/// How the ends of the motion are, and what may jump on the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Form {
+    /// Whether each end is at rest.
+    pub(super) rest: [bool; 2],
+    /// w at an end that moves.
+    pub(super) pace: [f64; 2],
+    /// Whether the acceleration is zero at the ends.
+    pub(super) level: bool,
+    /// Whether it is continuous on the way.
+    pub(super) smooth: bool,
+}
+
+/// Where two pieces meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Border {
+    pub(super) u: f64,
+    /// Whether the machine is not smooth there.
+    pub(super) is_corner: bool,
+    /// Whether it stays where it is: a corner, or where the path's own pieces meet.
+    pub(super) stays: bool,
+    /// Whether the piece that begins here is a cubic: one in which the limit that is met changes, where a higher degree would swing.
+    pub(super) is_plain: bool,
+}
+
+/// A piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    pub(super) span: [f64; 2],
+    pub(super) values: [Value; VALUES],
+}
+
+/// A place at which limits are looked at, and a point of the quadrature.
+#[derive(Clone, Debug)]
+pub(super) struct Station {
+    pub(super) element: usize,
+    pub(super) u: f64,
+    pub(super) weight: f64,
+    pub(super) place: Place,
+    /// L·g′, L·g″, L·g‴.
+    pub(super) path: [f64; 3],
+    /// What the values of the piece give to w, w′, w″.
+    pub(super) basis: [Local; 3],
+}
+
+/// Shares of a piece at which its stations lie, and their weights: Lobatto's seven points, which include both ends. Exact to degree 11.
+pub(super) const SHARES: [[f64; 2]; 7] = [
+    [0.0, 1.0 / 42.0],
+    [0.084_888_051_860_716_54, 0.138_413_023_680_782_97],
+    [0.265_575_603_264_642_9, 0.215_872_690_604_931_3],
+    [0.5, 128.0 / 525.0],
+    [0.734_424_396_735_357_1, 0.215_872_690_604_931_3],
+    [0.915_111_948_139_283_5, 0.138_413_023_680_782_97],
+    [1.0, 1.0 / 42.0],
+];
+
+/// The pieces of a way.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    pub(super) elements: Vec<Element>,
+    pub(super) stations: Vec<Station>,
+    pub(super) unknowns: usize,
+}
+
+/// What the six values give to w, w′ and w″ at the share z of a piece of length h.
+pub(super) fn basis(z: f64, h: f64) -> [Local; 3] {
+    let cubic = hermite(z, h);
+    // 16·z²·(1 − z)² and the same times (2z − 1), with their derivatives.
+    let q = 16.0;
+    let even = [
+        q * z * z * (1.0 - z) * (1.0 - z),
+        q * 2.0 * z * (1.0 - z) * (1.0 - 2.0 * z) / h,
+        q * (2.0 - 12.0 * z + 12.0 * z * z) / (h * h),
+    ];
+    let lean = 2.0 * z - 1.0;
+    let odd = [
+        even[0] * lean,
+        even[1] * lean + 2.0 * even[0] / h,
+        even[2] * lean + 4.0 * even[1] / h,
+    ];
+    [0, 1, 2].map(|k| {
+        let [a, b, c, d] = cubic[k];
+        [a, b, even[k], odd[k], c, d]
+    })
+}
+
+impl Mesh {
+    /// Pieces between borders, the first of which is 0 and the last 1; at corners the acceleration may jump if it need not be continuous.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub(super) fn new(
+        way: &Way,
+        course: [f64; 2],
+        shape: &Shape,
+        form: Form,
+        borders: &[Border],
+    ) -> Result<Self, Error> {
+        let (elements, unknowns) = elements(shape, form, borders);
+        let [start, distance] = course;
+        let mut stations = Vec::with_capacity(elements.len() * SHARES.len());
+        for (index, element) in elements.iter().enumerate() {
+            let [from, to] = element.span;
+            let h = to - from;
+            for [z, weight] in SHARES {
+                let u = from + z * h;
+                let inside = from + z.clamp(INSIDE, 1.0 - INSIDE) * h;
+                let [_, slope, bend, jerk] = shape.series(u, from.midpoint(to));
+                let [g, ..] = shape.series(inside, inside);
+                let place = way.place(start + distance * g)?;
+                stations.push(Station {
+                    element: index,
+                    u,
+                    weight: weight * h,
+                    place,
+                    path: [slope, bend, jerk].map(|derivative| derivative * distance.abs()),
+                    basis: basis(z, h),
+                });
+            }
+        }
+        Ok(Self {
+            elements,
+            stations,
+            unknowns,
+        })
+    }
+
+    /// The values of a piece.
+    pub(super) fn values(&self, x: &[f64], element: usize) -> Local {
+        self.elements[element].values.map(|value| match value {
+            Value::Free(index) => x[index],
+            Value::Fixed(value) => value,
+        })
+    }
+
+    /// w, w′, w″ at a share of a piece.
+    pub(super) fn pace(&self, x: &[f64], element: usize, z: f64) -> [f64; 3] {
+        let [from, to] = self.elements[element].span;
+        let values = self.values(x, element);
+        basis(z, to - from).map(|basis| dot(&basis, &values))
+    }
+
+    /// The unknowns that make the motion of another mesh, as closely as these pieces can.
+    pub(super) fn refined(&self, other: &Self, x: &[f64]) -> Vec<f64> {
+        let mut fine = vec![0.0; self.unknowns];
+        for element in &self.elements {
+            let [from, to] = element.span;
+            let h = to - from;
+            let middle = from.midpoint(to);
+            let pace = |u: f64| {
+                let within = u + INSIDE * (middle - u);
+                let at = other.elements.partition_point(|e| e.span[1] <= within);
+                let at = at.min(other.elements.len() - 1);
+                let [start, end] = other.elements[at].span;
+                other.pace(x, at, (u - start) / (end - start))
+            };
+            let [[w0, s0, _], [w1, s1, _]] = [pace(from), pace(to)];
+            // What is left of the cubic at two places gives the other two values.
+            let left = |z: f64| {
+                let [b, ..] = basis(z, h);
+                pace(from + z * h)[0] - dot(&b, &[w0, s0, 0.0, 0.0, w1, s1])
+            };
+            let [p, q] = [0.25, 0.75].map(left);
+            let bump = 16.0 * (0.25f64 * 0.75).powi(2);
+            let all = [w0, s0, 0.5 * (p + q) / bump, (q - p) / bump, w1, s1];
+            for (value, own) in element.values.iter().zip(all) {
+                if let Value::Free(index) = value {
+                    fine[*index] = own;
+                }
+            }
+        }
+        fine
+    }
+
+    /// The unknowns of an even pace.
+    pub(super) fn even(&self, w: f64) -> Vec<f64> {
+        let mut x = vec![0.0; self.unknowns];
+        for element in &self.elements {
+            for k in [0, 4] {
+                if let Value::Free(index) = element.values[k] {
+                    x[index] = w;
+                }
+            }
+        }
+        x
+    }
+
+    /// The matrix of the unknowns.
+    pub(super) fn matrix(&self) -> Skyline {
+        let mut first: Vec<usize> = (0..self.unknowns).collect();
+        for element in &self.elements {
+            let free = element.values.iter().filter_map(|value| match value {
+                Value::Free(index) => Some(*index),
+                Value::Fixed(_) => None,
+            });
+            let free: Vec<usize> = free.collect();
+            let least = free.iter().copied().min().unwrap_or(0);
+            for index in free {
+                first[index] = first[index].min(least);
+            }
+        }
+        Skyline::new(first)
+    }
+}
+
+pub(super) fn dot(a: &Local, b: &Local) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn elements(shape: &Shape, form: Form, borders: &[Border]) -> (Vec<Element>, usize) {
+    let mut unknowns = 0;
+    let mut next = || {
+        unknowns += 1;
+        Value::Free(unknowns - 1)
+    };
+    let last = borders.len() - 1;
+    // w and w′ at the start of a piece.
+    let mut before = [Value::Fixed(0.0); 2];
+    let mut elements: Vec<Element> = Vec::with_capacity(last);
+    for (k, border) in borders.iter().enumerate() {
+        let u = border.u;
+        let inner = if k > 0 && !borders[k - 1].is_plain {
+            [next(), next()]
+        } else {
+            [Value::Fixed(0.0); 2]
+        };
+        let end = match k {
+            0 => Some(0),
+            _ if k == last => Some(1),
+            _ => None,
+        };
+        let at = match end.filter(|end| !form.rest[*end]) {
+            Some(end) => {
+                let [_, slope, bend, _] = shape.series(u, u);
+                let w = form.pace[end];
+                let change = if form.level {
+                    Value::Fixed(-2.0 * bend * w / slope)
+                } else {
+                    next()
+                };
+                [Value::Fixed(w), change]
+            }
+            None => [next(), next()],
+        };
+        if k > 0 {
+            let [w0, s0] = before;
+            let [w1, s1] = at;
+            elements.push(Element {
+                span: [borders[k - 1].u, u],
+                values: [w0, s0, inner[0], inner[1], w1, s1],
+            });
+        }
+        let jumps = border.is_corner && !form.smooth && k > 0 && k < last;
+        before = if jumps { [at[0], next()] } else { at };
+    }
+    (elements, unknowns)
+}

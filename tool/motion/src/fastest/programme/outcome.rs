@@ -1,0 +1,174 @@
+//! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
+
+use super::limits::Margins;
+use super::mesh::SHARES;
+use super::{Asked, Found, WITHIN};
+use crate::fastest::field::Binding;
+use crate::fastest::{LOOKS, NoMotion, Phase};
+use crate::gentlest::mesh::GAUSS;
+use crate::gentlest::shape::Shape;
+use crate::trace::{Node, Trace};
+
+impl Asked<'_> {
+    /// The motion over the time.
+    pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
+        let direction = self.field.way.direction;
+        let problem = self.problem(&found.mesh, &[]);
+        let mut nodes: Vec<Node> = Vec::new();
+        let mut t = 0.0;
+        let count = SHARES.len();
+        for (index, stations) in found.mesh.stations.chunks(count).enumerate() {
+            let [from, to] = found.mesh.elements[index].span;
+            let values = found.mesh.values(&found.point.x, index);
+            for (k, station) in stations.iter().enumerate() {
+                let state = problem.state(station, &values);
+                let alpha = direction * state.acceleration;
+                if k == 0
+                    && let Some(node) = nodes.last_mut()
+                {
+                    node.alpha[1] = alpha;
+                    continue;
+                }
+                let step = if k == 0 {
+                    0.0
+                } else {
+                    self.step(found, index, [k - 1, k])
+                };
+                t += step;
+                let [g, ..] = shape.series(station.u, from.midpoint(to));
+                nodes.push(Node {
+                    t,
+                    step,
+                    phi: self.ends.from + direction * self.ends.length * g,
+                    omega: direction * state.speed,
+                    alpha: [alpha; 2],
+                });
+            }
+        }
+        if let Some(first) = nodes.first_mut() {
+            first.alpha[0] = 0.0;
+        }
+        if let Some(last) = nodes.last_mut() {
+            last.alpha[1] = 0.0;
+            last.phi = self.ends.from + direction * self.ends.length;
+        }
+        Trace::new(self.field.way.coordinate(), nodes)
+    }
+
+    /// The time (s) from one station of a piece to another.
+    pub(super) fn step(&self, found: &Found, element: usize, stations: [usize; 2]) -> f64 {
+        let [from, to] = stations.map(|k| SHARES[k][0]);
+        let [start, end] = found.mesh.elements[element].span;
+        let each = GAUSS.into_iter().map(|[z, weight]| {
+            let [w, ..] = found
+                .mesh
+                .pace(&found.point.x, element, from + z * (to - from));
+            weight / w.sqrt()
+        });
+        self.bound * (end - start) * (to - from) * each.sum::<f64>()
+    }
+
+    /// The largest share by which a limit is exceeded, and where; the margins of pieces in which one is are widened.
+    pub(super) fn widen(
+        &self,
+        trace: &Trace,
+        margins: &mut [Margins],
+    ) -> Result<(f64, f64), NoMotion> {
+        let way = self.field.way;
+        let direction = way.direction;
+        let limits = self.limits();
+        let mut most = (f64::NEG_INFINITY, self.ends.from);
+        let near = self.ends.inside(0.0);
+        let distance = |phi: f64| (phi - self.ends.from) * direction;
+        let mut own: Vec<[f64; 3]> = vec![[0.0; 3]; margins.len()];
+        for (index, pair) in trace.nodes().windows(2).enumerate() {
+            let [a, b] = [&pair[0], &pair[1]];
+            if b.step <= 0.0 {
+                continue;
+            }
+            let piece = index / (SHARES.len() - 1);
+            let mut look = |kind: usize, excess: f64| {
+                let all = &mut own[piece][kind];
+                *all = all.max(excess);
+                if excess > most.0 {
+                    most = (excess, a.phi);
+                }
+            };
+            let [first, last] = [a, b].map(|node| distance(node.phi));
+            for share in LOOKS {
+                let state = b.after(a, share);
+                let x = distance(state.phi).min(last - near).max(first + near);
+                let place = way.place(self.ends.from + direction * x)?;
+                let (v, alpha) = (state.omega * direction, state.alpha * direction);
+                look(0, self.field.excess(&place, v, alpha));
+            }
+            if let Some(limit) = limits.torque_rate {
+                // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
+                let torque = |share: f64| -> Result<f64, NoMotion> {
+                    let state = b.after(a, share);
+                    let place = way.place(state.phi)?;
+                    let (v, alpha) = (state.omega * direction, state.alpha * direction);
+                    Ok(way.demand(&place, v, alpha).torque)
+                };
+                let torques = [torque(0.0)?, torque(0.5)?, torque(1.0)?];
+                for pair in torques.windows(2) {
+                    look(2, (pair[1] - pair[0]).abs() / (0.5 * b.step * limit) - 1.0);
+                }
+            }
+            if let Some(limit) = limits.jerk {
+                for share in [0.0, 0.5, 1.0] {
+                    look(1, b.jerk_after(a, share).abs() / limit - 1.0);
+                }
+            }
+        }
+        for (margins, own) in margins.iter_mut().zip(own) {
+            let [state, jerk, rate] = own.map(|excess| {
+                if excess > 0.5 * WITHIN {
+                    1.1 * excess + 1e-9
+                } else {
+                    0.0
+                }
+            });
+            margins.state += state;
+            margins.jerk += jerk;
+            margins.rate += rate;
+        }
+        Ok(most)
+    }
+
+    /// Which limit is met, from where to where.
+    pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
+        let met = self.met(found);
+        let count = SHARES.len();
+        let mut phases: Vec<Phase> = Vec::new();
+        let nodes = trace.nodes();
+        let idle = if self.price > 0.0 {
+            Some(Binding::RmsTorque)
+        } else {
+            None
+        };
+        for (index, pair) in nodes.windows(2).enumerate() {
+            let [a, b] = [&pair[0], &pair[1]];
+            let piece = index / (count - 1);
+            let first = piece * count + index % (count - 1);
+            let limit = [1, 0].into_iter().find_map(|k| met[first + k]);
+            let limit = limit.map(|(limit, _)| limit).or(idle);
+            let end = |node: &Node| (node.phi, node.t, node.omega.abs());
+            let (phi, t, speed) = end(b);
+            let limit = limit.or(phases.last().map(|phase| phase.limit));
+            let Some(limit) = limit else { continue };
+            if let Some(phase) = phases.last_mut().filter(|phase| phase.limit == limit) {
+                (phase.phi[1], phase.t[1], phase.speed[1]) = (phi, t, speed);
+                continue;
+            }
+            let (from, start, begin) = end(a);
+            phases.push(Phase {
+                limit,
+                phi: [from, phi],
+                t: [start, t],
+                speed: [begin, speed],
+            });
+        }
+        phases
+    }
+}

@@ -1,0 +1,84 @@
+//! Motions that go on for ever.
+
+use std::f64::consts::TAU;
+
+use jred_motion::fastest::{Binding, Limits, Task, solve};
+use jred_motion::way::Way;
+
+use super::{close, fastest, machine, motor, table, task};
+
+fn turn(from: f64) -> Task {
+    Task {
+        endless: true,
+        ..task(from, from + TAU)
+    }
+}
+
+/// Of a constant inertia it is the largest speed that friction leaves: P − S·v/V = C + b·v.
+#[test]
+fn a_constant_inertia_turns_evenly() {
+    let found = solve(&table(2.0, ""), &motor([10.0; 2], 7.0), &turn(0.3)).unwrap();
+    close(found.time, TAU / 7.0, 1e-9);
+    let limits: Vec<Binding> = found.phases.iter().map(|phase| phase.limit).collect();
+    assert_eq!(limits, [Binding::MotorSpeed]);
+    let file = table(
+        0.5,
+        "[[load]]\non = \"table\"\nopposing_moment = \"2 N m\"\n\
+         [[load]]\non = \"table\"\nviscous_moment = \"0.3 N m s/rad\"\n",
+    );
+    let found = solve(&file, &motor([10.0, 1.0], 20.0), &turn(0.0)).unwrap();
+    close(found.time, TAU / (8.0 / (9.0 / 20.0 + 0.3)), 1e-8);
+}
+
+const CRANK: &str = "title = \"crank\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
+    [mechanism.crank]\nlength = \"50 mm\"\nmass = \"1 kg\"\ninertia = \"0.002 kg m^2\"\ncom = [\"0 mm\", \"0 mm\"]\n\
+    [mechanism.rod]\nlength = \"200 mm\"\nmass = \"0.1 kg\"\ninertia = \"0.0005 kg m^2\"\ncom = [\"100 mm\", \"0 mm\"]\n\
+    [mechanism.slider]\nmass = \"2 kg\"\n";
+
+/// It comes round with the speed that it began with, wherever the turn is cut; it keeps its limits, and no start is faster.
+#[test]
+fn a_crank_comes_round_with_its_speed() {
+    let file = machine(CRANK);
+    let motor = motor([3.0; 2], 60.0);
+    let times: Vec<f64> = [0.0, 0.7, 2.0, 4.5]
+        .into_iter()
+        .map(|from| {
+            let found = solve(&file, &motor, &turn(from)).unwrap();
+            assert!(found.excess <= 1e-9, "{:e}", found.excess);
+            let nodes = found.trace.nodes();
+            let [first, last] = [nodes[0], nodes[nodes.len() - 1]];
+            close(last.omega, first.omega, 1e-8);
+            let faster = Task {
+                speeds: [first.omega * 1.0001; 2],
+                ..task(from, from + TAU)
+            };
+            let at_top = first.omega > 60.0 * (1.0 - 1e-9);
+            assert!(at_top || solve(&file, &motor, &faster).is_err());
+            let way = Way::new(&file, motor.clone(), 1.0);
+            let place = way.place(first.phi).unwrap();
+            assert!(place.inertia > 0.0);
+            found.time
+        })
+        .collect();
+    for time in &times {
+        close(*time, times[0], 1e-7);
+    }
+    // Slower than the largest speed all the time, faster than a turn from rest to rest.
+    assert!(times[0] > TAU / 60.0 * 1.001, "{times:?}");
+    assert!(times[0] < fastest(&file, &motor, &task(0.0, TAU)).time);
+}
+
+/// With no speed limit of its own that matters, a torque limit alone lets a machine without friction be as fast as its motor turns.
+#[test]
+fn limits_of_the_drive_link_hold() {
+    let limits = Limits {
+        speed: Some(5.0),
+        ..Limits::default()
+    };
+    let asked = Task {
+        limits,
+        ..turn(1.0)
+    };
+    let found = solve(&table(2.0, ""), &motor([10.0; 2], 7.0), &asked).unwrap();
+    close(found.time, TAU / 5.0, 1e-9);
+}

@@ -1,0 +1,305 @@
+//! Limited jerk and torque rate.
+
+use jred_motion::fastest::{Binding, Fastest, Limits, NoMotion, Task, solve};
+
+use jred_motion::trace::Node;
+use jred_motion::way::Way;
+
+use super::{close, motor, table, task};
+use crate::support::press_file;
+
+/// What is left of the time where pieces meet the switching points.
+const NEAR: f64 = 1e-6;
+
+/// Limits hold between the nodes.
+const WITHIN: f64 = 1e-6;
+
+/// The duration from rest to rest of seven segments: v = j·t₁·(t₁ + t₂), d = v·(2·t₁ + t₂ + t₃).
+fn seven(distance: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
+    let t1 = (speed / jerk).sqrt().min(acceleration / jerk);
+    let rise = t1 + speed / (jerk * t1);
+    if speed * rise <= distance {
+        return rise + distance / speed;
+    }
+    // The speed is not reached; a·(t₁ + t₂)·(2·t₁ + t₂) = d.
+    let t1 = acceleration / jerk;
+    if 2.0 * acceleration * t1 * t1 <= distance {
+        let t2 = -1.5 * t1 + (0.25 * t1 * t1 + distance / acceleration).sqrt();
+        return 4.0 * t1 + 2.0 * t2;
+    }
+    4.0 * (distance / (2.0 * jerk)).cbrt()
+}
+
+fn limited(speed: f64, acceleration: f64, jerk: f64) -> Limits {
+    Limits {
+        speed: Some(speed),
+        acceleration: Some(acceleration),
+        deceleration: Some(acceleration),
+        jerk: Some(jerk),
+        level_ends: true,
+        ..Limits::default()
+    }
+}
+
+fn smooth(
+    file: &jred_machine::model::machine::MachineFile,
+    motor: &jred_motion::way::Actuator,
+    asked: &Task,
+) -> Fastest {
+    let found = solve(file, motor, asked).unwrap_or_else(|why| panic!("{why}"));
+    assert!(found.excess <= WITHIN, "exceeded by {:e}", found.excess);
+    let nodes = found.trace.nodes();
+    let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+    for (node, speed) in [(first, asked.speeds[0]), (last, asked.speeds[1])] {
+        assert!(
+            (node.omega.abs() - speed).abs() <= 1e-9 * (1.0 + speed),
+            "{node:?}"
+        );
+    }
+    let bound = found.bound.unwrap();
+    assert!(
+        found.time >= bound * (1.0 - 1e-9),
+        "{} below {bound}",
+        found.time
+    );
+    // The acceleration has no jumps, and its mean slope is within the limit.
+    let jerk = asked.limits.jerk.unwrap_or(f64::INFINITY);
+    for pair in nodes.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        assert!(
+            (a.alpha[1] - a.alpha[0]).abs() <= 1e-6 * asked_acceleration(&found),
+            "{a:?}"
+        );
+        let slope = (b.alpha[0] - a.alpha[1]) / b.step;
+        assert!(
+            slope.abs() <= jerk * (1.0 + 2.0 * WITHIN),
+            "{slope} at {}",
+            a.t
+        );
+    }
+    found
+}
+
+fn asked_acceleration(found: &Fastest) -> f64 {
+    let nodes = found.trace.nodes().iter();
+    nodes.fold(0.0, |most: f64, node| most.max(node.alpha[0].abs()))
+}
+
+#[test]
+fn seven_segments() {
+    let file = table(2.0, "");
+    for (length, jerk) in [
+        (3.0, 20.0),
+        (0.8, 20.0),
+        (0.1, 20.0),
+        (3.0, 5.0),
+        (30.0, 200.0),
+        (1e-4, 50.0),
+    ] {
+        let asked = Task {
+            limits: limited(2.0, 4.0, jerk),
+            ..task(0.5, 0.5 + length)
+        };
+        let found = smooth(&file, &motor([10.0; 2], 100.0), &asked);
+        close(found.time, seven(length, 2.0, 4.0, jerk), NEAR);
+    }
+    let asked = Task {
+        limits: limited(2.0, 4.0, 20.0),
+        ..task(3.5, 0.5)
+    };
+    let found = smooth(&file, &motor([10.0; 2], 100.0), &asked);
+    let limits: Vec<Binding> = found.phases.iter().map(|phase| phase.limit).collect();
+    let ramp = [Binding::Jerk, Binding::Acceleration, Binding::Jerk];
+    let brake = [Binding::Jerk, Binding::Deceleration, Binding::Jerk];
+    assert_eq!(limits, [&ramp[..], &[Binding::Speed], &brake].concat());
+    close(found.phases[1].t[0], 0.2, 1e-2);
+}
+
+/// Of a constant inertia the torque is the acceleration: the same profile from the torque and its rate, without the limits of the drive link.
+#[test]
+fn a_torque_rate_is_a_jerk() {
+    let file = table(2.0, "");
+    let limits = Limits {
+        torque_rate: Some(40.0),
+        level_ends: true,
+        ..Limits::default()
+    };
+    for length in [3.0, 0.8] {
+        let asked = Task {
+            limits,
+            ..task(0.0, length)
+        };
+        let found = smooth(&file, &motor([8.0; 2], 2.0), &asked);
+        close(found.time, seven(length, 2.0, 4.0, 20.0), NEAR);
+    }
+}
+
+/// Between two speeds without acceleration at the ends: a rise or a fall by Δv takes Δv/a + a/j.
+#[test]
+fn from_one_speed_to_another() {
+    let file = table(2.0, "");
+    let [rise, fall] = [1.5, 0.5].map(|change| change / 4.0 + 4.0 / 40.0);
+    let steady = (2.0 - 1.25 * rise - 1.75 * fall) / 2.0;
+    let asked = Task {
+        speeds: [0.5, 1.5],
+        limits: limited(2.0, 4.0, 40.0),
+        ..task(0.0, 2.0)
+    };
+    let found = smooth(&file, &motor([100.0; 2], 100.0), &asked);
+    close(found.time, rise + steady + fall, NEAR);
+}
+
+/// A lift: the torque that is left to drive and to brake is 40 and 120 N·m of 80, so the accelerations differ; the jerk is the same.
+/// v = a·(t − a/j), t = v/a + a/j for each half, and d = v·(t₁ + t₂)/2.
+#[test]
+fn a_weight_leaves_different_accelerations() {
+    let text = "title = \"lift\"\ngravity = [\"0 m/s^2\", \"-10 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n\
+        [mechanism.drum]\nmass = \"10 kg\"\ninertia = \"0.5 kg m^2\"\n[mechanism.load]\nradius = \"100 mm\"\nmass = \"40 kg\"\n";
+    let file = super::machine(text);
+    let inertia = 0.5 + 40.0 * 0.01;
+    let [up, down] = [40.0 / inertia, 120.0 / inertia];
+    let jerk = 1500.0;
+    let asked = Task {
+        limits: Limits {
+            jerk: Some(jerk),
+            level_ends: true,
+            ..Limits::default()
+        },
+        ..task(0.0, 20.0)
+    };
+    let found = smooth(&file, &motor([80.0; 2], 1e3), &asked);
+    let way = |v: f64| 0.5 * v * (v / up + up / jerk + v / down + down / jerk);
+    let (mut low, mut high) = (0.0, 1e3);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if way(middle) < 20.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    close(found.time, 2.0 * 20.0 / low, NEAR);
+}
+
+/// The more jerk, the nearer to the motion without a limit, from above.
+#[test]
+fn a_press_comes_near_the_motion_without_a_limit() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let motor = motor([60.0, 40.0], 90.0);
+    let mut last = f64::INFINITY;
+    for jerk in [1e3, 1e4, 1e5, 1e6] {
+        let asked = Task {
+            limits: Limits {
+                jerk: Some(jerk),
+                level_ends: true,
+                ..Limits::default()
+            },
+            ..task(3.2, 7.0)
+        };
+        let found = smooth(&file, &motor, &asked);
+        assert!(found.time < last);
+        last = found.time;
+    }
+    let bound = solve(&file, &motor, &task(3.2, 7.0)).unwrap().time;
+    assert!(last < 1.01 * bound, "{last}, {bound}");
+}
+
+/// The torque of the press changes as fast as allowed, from above, and never as fast as without a limit.
+#[test]
+fn a_press_with_a_torque_rate() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let limits = Limits {
+        torque_rate: Some(1e3),
+        level_ends: true,
+        ..Limits::default()
+    };
+    let motor = motor([60.0, 40.0], 90.0);
+    let found = smooth(
+        &file,
+        &motor,
+        &Task {
+            limits,
+            ..task(3.2, 9.0)
+        },
+    );
+    assert!(found.time > 1.01 * found.bound.unwrap());
+    let way = Way::new(&file, motor, 1.0);
+    let torque = |node: &Node, alpha: f64| {
+        let place = way.place(node.phi).unwrap();
+        way.demand(&place, node.omega, alpha).torque
+    };
+    for pair in found.trace.nodes().windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let change = torque(b, b.alpha[0]) - torque(a, a.alpha[1]);
+        assert!(
+            change.abs() <= 1e3 * b.step * (1.0 + 1e-5) + 1e-6,
+            "{change} in {}",
+            b.step
+        );
+    }
+}
+
+/// Where two parabolas of a cam meet the torque jumps; a limited jerk bears it.
+#[test]
+fn a_load_that_jumps_has_no_torque_rate() {
+    let text =
+        std::fs::read_to_string(press_file().with_file_name("cam-translating.toml")).unwrap();
+    let file = super::machine(&text.replace("modified-sine", "parabola"));
+    let limits = Limits {
+        torque_rate: Some(1e3),
+        level_ends: true,
+        ..Limits::default()
+    };
+    let motor = motor([40.0; 2], 90.0);
+    let refused = solve(
+        &file,
+        &motor,
+        &Task {
+            limits,
+            ..task(0.0, 3.0)
+        },
+    );
+    assert!(
+        matches!(refused, Err(NoMotion::LoadJumps { .. })),
+        "{refused:?}"
+    );
+    let limits = Limits {
+        jerk: Some(1e4),
+        level_ends: true,
+        ..Limits::default()
+    };
+    smooth(
+        &file,
+        &motor,
+        &Task {
+            limits,
+            ..task(0.0, 3.0)
+        },
+    );
+}
+
+/// Masses, lengths and times in other units: the time of the move is the same number of its unit.
+#[test]
+fn other_units_of_a_limited_jerk() {
+    let expected = seven(3.0, 2.0, 4.0, 20.0);
+    for angle in [1e-6, 1e3] {
+        for time in [1e-3, 1e2] {
+            let limits = limited(
+                2.0 * angle / time,
+                4.0 * angle / (time * time),
+                20.0 * angle / time.powi(3),
+            );
+            let torque = 10.0 * angle / (time * time);
+            let asked = Task {
+                limits,
+                ..task(0.0, 3.0 * angle)
+            };
+            let found = smooth(
+                &table(2.0, ""),
+                &motor([torque; 2], 100.0 * angle / time),
+                &asked,
+            );
+            close(found.time / time, expected, NEAR);
+        }
+    }
+}

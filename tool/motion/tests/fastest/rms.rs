@@ -1,0 +1,154 @@
+//! The RMS torque as a limit.
+
+use jred_motion::fastest::cycle::{Rms, cycle, single};
+use jred_motion::fastest::{Limits, NoMotion, Task};
+use jred_motion::moves::{Move, Part};
+
+use super::{close, motor, table, task};
+
+/// Of a constant inertia without friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls in a straight line.
+#[test]
+fn a_torque_that_falls_in_a_straight_line() {
+    let file = table(2.0, "");
+    let (inertia, way, dwell) = (2.0, 3.0, 0.4);
+    for limit in [3.0, 2.0, 0.5] {
+        let found = single(
+            &file,
+            &motor([100.0; 2], 1e3),
+            task(0.0, way),
+            Some(Rms::Torque(limit)),
+        )
+        .unwrap();
+        // 12·J²·D²/t³ = limit²·t
+        let time = (12.0_f64 * (inertia * way / limit).powi(2)).powf(0.25);
+        close(found.trace.duration(), time, 1e-6);
+        let load = found.load;
+        assert!(
+            load.rms <= limit && load.rms > limit * (1.0 - 1e-6),
+            "{}",
+            load.rms
+        );
+        close(load.peaks[0], 6.0 * inertia * way / (time * time), 1e-3);
+    }
+    // With a pause in the cycle more torque is left.
+    let parts = [
+        Part::Move(Move {
+            from: 0.0,
+            to: way,
+            duration: 2.0,
+        }),
+        Part::Dwell {
+            at: way,
+            duration: dwell,
+        },
+    ];
+    let found = cycle(
+        &file,
+        &motor([100.0; 2], 1e3),
+        Limits::default(),
+        Some(Rms::Torque(2.0)),
+        &parts,
+    )
+    .unwrap();
+    let excess = |t: f64| 12.0 * (inertia * way).powi(2) / t.powi(3) - 4.0 * (t + dwell);
+    let (mut low, mut high) = (1e-3, 1e3);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    close(found.trace.duration() - dwell, low, 1e-6);
+}
+
+/// With a torque limit: constant torque, a straight line, constant torque. Of the line from +P to −P in the share s of the time t:
+/// ∫T² = P²·t·(1 − 2·s/3), D = P·t²/J·(1/4 − s²/12).
+#[test]
+fn a_torque_limit_cuts_the_line() {
+    let file = table(2.0, "");
+    let (inertia, way, peak, limit) = (2.0, 3.0, 5.0, 4.4);
+    let s = 1.5 * (1.0 - (limit / peak) * (limit / peak));
+    let time = (way * inertia / peak / (0.25 - s * s / 12.0_f64)).sqrt();
+    let found = single(
+        &file,
+        &motor([peak; 2], 1e3),
+        task(0.0, way),
+        Some(Rms::Torque(limit)),
+    )
+    .unwrap();
+    close(found.trace.duration(), time, 1e-6);
+    assert!(found.moves[0].fastest.excess <= 1e-6);
+}
+
+/// Two moves share what the cycle allows: the same price of the torque in both. Of constant inertia ∫T²ᵢ = 12·J²·Dᵢ²/tᵢ³, and the sum
+/// of the times is least where Dᵢ²/tᵢ⁴ is the same: tᵢ ∝ √Dᵢ.
+#[test]
+fn moves_share_the_heat() {
+    let file = table(2.0, "");
+    let parts = [(0.0, 4.0), (4.0, 3.0)].map(|(from, to)| {
+        Part::Move(Move {
+            from,
+            to,
+            duration: 1.0,
+        })
+    });
+    let found = cycle(
+        &file,
+        &motor([100.0; 2], 1e3),
+        Limits::default(),
+        Some(Rms::Torque(2.0)),
+        &parts,
+    )
+    .unwrap();
+    let times: Vec<f64> = found.moves.iter().map(|made| made.fastest.time).collect();
+    close(times[0] / times[1], 2.0, 1e-5);
+    // Σ 12·J²·D²/t³ = limit²·Σt with t₁ = 2·t₂, D₁ = 4, D₂ = 1.
+    let second = (12.0_f64 * 4.0 * (16.0 / 8.0 + 1.0) / (4.0 * 3.0)).powf(0.25);
+    close(times[1], second, 1e-5);
+}
+
+/// Friction above the limit: no motion is slow enough; and a limit that does not bind changes nothing.
+#[test]
+fn friction_above_the_limit_is_refused() {
+    let file = table(
+        2.0,
+        "[[load]]\non = \"table\"\nopposing_moment = \"2 N m\"\n",
+    );
+    let motor = motor([10.0; 2], 100.0);
+    let refused = single(&file, &motor, task(0.0, 3.0), Some(Rms::Torque(1.9)));
+    assert!(
+        matches!(refused, Err(NoMotion::RmsTooLarge { .. })),
+        "{refused:?}"
+    );
+    let free = single(&file, &motor, task(0.0, 3.0), None).unwrap();
+    let same = single(&file, &motor, task(0.0, 3.0), Some(Rms::Torque(10.0))).unwrap();
+    assert_eq!(free.trace, same.trace);
+}
+
+/// With a jerk limit as well: the RMS torque is at its limit, and the motion takes longer than with either alone.
+#[test]
+fn with_a_limited_jerk() {
+    let file = table(2.0, "");
+    let limits = Limits {
+        jerk: Some(20.0),
+        level_ends: true,
+        ..Limits::default()
+    };
+    let asked = Task {
+        limits,
+        ..task(0.0, 3.0)
+    };
+    let motor = motor([8.0; 2], 1e3);
+    let jerk = single(&file, &motor, asked, None).unwrap();
+    let limit = 0.9 * jerk.load.rms;
+    let both = single(&file, &motor, asked, Some(Rms::Torque(limit))).unwrap();
+    let rms = single(&file, &motor, task(0.0, 3.0), Some(Rms::Torque(limit))).unwrap();
+    assert!(both.load.rms <= limit && both.load.rms > limit * (1.0 - 1e-6));
+    let [both, jerk, rms] = [both, jerk, rms].map(|cycle| cycle.trace.duration());
+    assert!(
+        both > 1.001 * jerk && both > 1.001 * rms,
+        "{both} {jerk} {rms}"
+    );
+}
