@@ -64,7 +64,7 @@ pub enum Command {
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
     Steady(Steady),
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
-    Fastest(fastest::Fastest),
+    Fastest(Box<fastest::Fastest>),
     /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, beside all motion laws.
     Retime(retime::Retime),
     /// Find counterweights and springs that make the torque of the drive, or the fluctuation of the reduced inertia, least.

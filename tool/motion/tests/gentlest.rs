@@ -16,6 +16,7 @@ use jred_sizing::study::common::named;
 use crate::support::near;
 
 mod polynomials;
+mod slow;
 
 /// A disc that turns freely, with an opposing moment if there is one.
 fn table(inertia: f64, friction: f64) -> MachineFile {

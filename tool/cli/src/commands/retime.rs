@@ -170,7 +170,7 @@ fn of_move(number: usize, step: &Move, fault: &Fault, file: &MachineFile) -> Rep
             "{place}: nothing that moves has inertia"
         ),
         Fault::NotFound => miette!(
-            help = "try other --ends, or another --objective",
+            help = "shorten it: in a long time the machine would all but stand still somewhere, which is not found; write that as a pause between moves. Or try other --ends, or another --objective",
             "{place}: the search for the gentlest motion did not come to an end"
         ),
     }

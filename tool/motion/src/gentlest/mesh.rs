@@ -177,6 +177,30 @@ impl Mesh {
         })
     }
 
+    /// Whether w is greater than zero between all stations as well, and nowhere less.
+    pub(super) fn moves(&self, x: &[f64]) -> bool {
+        let mut elements = self.elements.iter().enumerate();
+        elements.all(|(index, element)| {
+            let [from, to] = element.span;
+            let [start, slope, end, last] = self.values(x, index);
+            let (slope, last) = (slope * (to - from), last * (to - from));
+            // w = start + slope·z + c₂·z² + c₃·z³, and where its slope is zero.
+            let c2 = 3.0 * (end - start) - 2.0 * slope - last;
+            let c3 = 2.0 * (start - end) + slope + last;
+            let root = c2 * c2 - 3.0 * c3 * slope;
+            let pivot = -(c2 + root.max(0.0).sqrt().copysign(c2));
+            let bottoms = [pivot / (3.0 * c3), slope / pivot];
+            let is_free = |z: f64| start + z * (slope + z * (c2 + z * c3)) > 0.0;
+            start >= 0.0
+                && end >= 0.0
+                && (root < 0.0
+                    || bottoms
+                        .into_iter()
+                        .filter(|z| *z > 0.0 && *z < 1.0)
+                        .all(is_free))
+        })
+    }
+
     /// The unknowns of a function of u with its slope.
     pub(super) fn sample(&self, f: impl Fn(usize, f64) -> [f64; 2]) -> Vec<f64> {
         let mut x = vec![0.0; self.unknowns];

@@ -117,32 +117,83 @@ impl Solved<'_> {
     }
 }
 
-/// The motion as polynomials of fifth degree, one for each cell.
+/// How far a polynomial may be off halfway, in positions as a share of the way and in speeds as a share of the mean speed.
+const OFF: f64 = 1e-8;
+
+/// How often a cell is halved at most.
+const HALVINGS: u32 = 16;
+
+/// The motion as polynomials of fifth degree, one for each cell; more where the machine slows down so much in a cell that one is none.
 fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
-    let mut phases = Vec::with_capacity(mesh.cells.len());
-    for &(index, [from, to]) in &mesh.cells {
-        let h = to - from;
-        let time: f64 = GAUSS
-            .iter()
-            .map(|[z, weight]| {
-                let [w, ..] = solve::pace_at(mesh, x, index, from + z * h);
-                weight * h / w.sqrt()
-            })
-            .sum();
-        let state = |u: f64| {
-            let [g, slope, bend] = mesh.shape.at(u);
-            let [w, change, _] = solve::pace_at(mesh, x, index, u);
-            let speed = distance * slope * w.sqrt() / duration;
-            let acceleration = distance * (bend * w + 0.5 * slope * change) / (duration * duration);
-            (distance * g, End::new(speed, acceleration))
-        };
-        let (start, first) = state(from);
-        let (end, last) = state(to);
-        let span = time * duration;
-        phases.push(Phase {
+    let mut parts = Vec::with_capacity(mesh.cells.len());
+    for &(index, ends) in &mesh.cells {
+        let mut open = vec![(ends, 0)];
+        while let Some(([from, to], depth)) = open.pop() {
+            let part = Part::new(mesh, x, index, [from, to]);
+            let middle = from.midpoint(to);
+            let halves = [[from, middle], [middle, to]];
+            if depth < HALVINGS && !part.meets(halves.map(|ends| Part::new(mesh, x, index, ends))) {
+                let [first, second] = halves;
+                open.extend([(second, depth + 1), (first, depth + 1)]);
+            } else {
+                parts.push(part);
+            }
+        }
+    }
+    // With smaller parts the integral of the time is another.
+    let time: f64 = parts.iter().map(|part| part.time).sum();
+    let phase = |part: &Part| {
+        let [first, last] = part.states.map(|[_, speed, acceleration]| {
+            let pace = time / duration;
+            End::new(
+                distance * speed * pace,
+                distance * acceleration * pace * pace,
+            )
+        });
+        let [start, end] = part.states.map(|[place, ..]| distance * place);
+        let span = part.time / time * duration;
+        Phase {
             duration: span,
             polynomial: Polynomial::between(end - start, span, first, last),
+        }
+    };
+    parts.iter().map(phase).collect()
+}
+
+/// A cell or a part of it: shares of the way and of the time.
+struct Part {
+    time: f64,
+    /// Position, speed and acceleration at both ends.
+    states: [[f64; 3]; 2],
+}
+
+impl Part {
+    fn new(mesh: &Mesh, x: &[f64], cell: usize, [from, to]: [f64; 2]) -> Self {
+        let h = to - from;
+        let time = GAUSS.iter().map(|[z, weight]| {
+            let [w, ..] = solve::pace_at(mesh, x, cell, from + z * h);
+            weight * h / w.sqrt()
         });
+        let state = |u: f64| {
+            let [g, slope, bend] = mesh.shape.at(u);
+            let [w, change, _] = solve::pace_at(mesh, x, cell, u);
+            [g, slope * w.sqrt(), bend * w + 0.5 * slope * change]
+        };
+        Self {
+            time: time.sum(),
+            states: [state(from), state(to)],
+        }
     }
-    phases
+
+    /// Whether the polynomial from end to end goes where its halves do.
+    fn meets(&self, [first, second]: [Self; 2]) -> bool {
+        let [[start, v, a], [end, w, b]] = self.states;
+        let polynomial =
+            Polynomial::between(end - start, self.time, End::new(v, a), End::new(w, b));
+        let [way, speed, ..] = polynomial.at(first.time);
+        let [middle, exact, _] = first.states[1];
+        (first.time + second.time - self.time).abs() <= OFF
+            && (start + way - middle).abs() <= OFF
+            && (speed - exact).abs() <= OFF
+    }
 }

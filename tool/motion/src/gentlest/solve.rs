@@ -203,8 +203,11 @@ impl Problem<'_> {
             .any(|e| e.values.iter().any(fixed))
     }
 
-    /// Σ weight/√w
+    /// Σ weight/√w. `None`: w is not greater than zero somewhere.
     pub(super) fn time(&self, x: &[f64]) -> Option<f64> {
+        if !self.mesh.moves(x) {
+            return None;
+        }
         let mut time = 0.0;
         for station in &self.mesh.stations {
             let [w, _] = self.mesh.pace(x, station);

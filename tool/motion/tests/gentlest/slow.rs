@@ -1,0 +1,52 @@
+//! Motions in a long time, in which the machine all but stands still somewhere.
+
+use jred_motion::gentlest::Fault;
+use jred_motion::retime::{Goal, Obstacle, retime};
+
+use super::{example, request};
+
+/// The largest share of the range by which positions differ from the speeds between them.
+fn contradiction(nodes: &[jred_motion::trace::Node]) -> f64 {
+    let places = nodes.iter().map(|node| node.phi);
+    let range =
+        places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min);
+    let off = nodes.windows(2).map(|pair| {
+        let [a, b] = [pair[0], pair[1]];
+        let t = b.t - a.t;
+        // The cubic through speeds and accelerations of both.
+        let way = 0.5 * t * (a.omega + b.omega) + t * t / 12.0 * (a.alpha[1] - b.alpha[0]);
+        (way - (b.phi - a.phi)).abs() / range
+    });
+    off.fold(0.0, f64::max)
+}
+
+/// Positions, speeds and accelerations of what is found are those of one motion, that takes the time asked for and is no worse than the file's own; or
+/// nothing is found, and nothing is written.
+#[test]
+fn a_slow_motion_does_not_contradict_itself() {
+    let (mut found, mut refused) = (0, 0);
+    for name in [
+        "linkage-four-bar",
+        "shaper",
+        "whitworth",
+        "excavator-bucket",
+        "load-table",
+        "press",
+    ] {
+        let file = example(name, &[]);
+        let motion = file.motion.as_ref().unwrap();
+        match retime(&file, motion, &request(Goal::Rms, 0.0)) {
+            Ok(retimed) => {
+                found += 1;
+                let off = contradiction(retimed.trace.nodes());
+                assert!(off <= 1e-6, "{name}: {off}");
+                let time = retimed.trace.duration() / motion.duration() - 1.0;
+                assert!(time.abs() <= 1e-9, "{name}: {time}");
+                assert!(retimed.best.rms <= retimed.own.rms, "{name}");
+            }
+            Err(Obstacle::Move(_, _, Fault::NotFound)) => refused += 1,
+            Err(why) => panic!("{name}: {why:?}"),
+        }
+    }
+    assert!(found >= 3 && found + refused == 6, "{found} {refused}");
+}
