@@ -299,8 +299,8 @@ fn what_has_no_branch_to_keep_is_refused() {
         |lengths, side, domain| spoken(kept(lengths, 0.0, side, domain, links()).unwrap_err());
     assert_eq!(
         refused([0.08, 0.25, 0.18, 0.3], Side::Left, Domain::Turn),
-        "there is no change point to pass: shortest and longest link together are 0.380000 m, the other two 0.430000 m; keep no \
-         branch: this linkage does not leave the one that it is assembled on"
+        "there is no change point to pass: shortest and longest link together are 0.380000 m, the other two 0.430000 m; do not \
+         guide it through change points: this linkage stays on the branch on which it is assembled"
     );
     assert_eq!(
         refused([0.1, 0.2, 0.3, 0.4], Side::Left, Domain::Turn),
