@@ -50,7 +50,7 @@ pub enum Stage {
     Running,
     /// On its way, with the rate 0.
     Held,
-    /// At its end, where it stays: if the plan ends with a speed, something else must go on.
+    /// At its end, where it stays: if the plan ends with a speed, which the set-point still has, at the last rate, something else must go on.
     Done,
 }
 
@@ -183,13 +183,13 @@ impl<'a, N: Number> Follower<'a, N> {
         } else {
             0
         };
-        if moves {
+        if self.started {
             state.speed = share(state.speed, before.cast_signed());
             state.acceleration = share(
                 share(state.acceleration, before.cast_signed()),
                 before.cast_signed(),
             );
-        } else if !ended {
+        } else {
             state.speed = 0;
             state.acceleration = 0;
         }

@@ -29,6 +29,9 @@ pub const fn image_len(knots: usize) -> usize {
 /// 2³²
 const RANGE: f64 = 4_294_967_296.0;
 
+/// A plan is shorter (s), so that 2⁻⁴⁰ s count it in 64 bits.
+const LONGEST: f64 = 8_388_608.0;
+
 /// Least exponent of a unit.
 const LEAST: i32 = -64;
 
@@ -69,7 +72,7 @@ pub fn encode<'b>(
     let short = ImageError::BufferTooShort { needed, given };
     let image = buffer.get_mut(..needed).ok_or(short)?;
     let last = knots.last().map_or(0.0, |knot| knot.t);
-    let lasts = last > 0.0 && last.is_finite();
+    let lasts = last > 0.0 && last < LONGEST;
     if !lasts || !(2..=MOST_ROWS).contains(&knots.len()) {
         return Err(PlanError::Order(0));
     }

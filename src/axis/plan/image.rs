@@ -102,6 +102,11 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
     if rows.len() != count as usize || !(2..=MOST_ROWS).contains(&rows.len()) {
         return Err(refused(4));
     }
+    // Times in units of 2⁻⁴⁰ s have 64 bits.
+    let latest = rows.last().map_or(0, |row| Row::read(row).start);
+    if latest.leading_zeros() + 32 < TIME_BITS - units.time {
+        return Err(refused(3));
+    }
     let last = check_rows(rows, units, domain)?;
     let [speed, acceleration, in_position, in_speed, in_acceleration] = figures;
     let header = Header {

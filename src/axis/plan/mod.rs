@@ -288,6 +288,12 @@ impl<'a, N: Number> Plan<'a, N> {
     pub(super) fn place(&self, state: State) -> Outcome<Place<N>> {
         let omega = N::of_count(state.speed, &self.speed);
         let alpha = N::of_count(state.acceleration, &self.acceleration);
+        let beyond = match self.header.domain {
+            Domain::Turn => false,
+            Domain::Stroke { .. } => {
+                !(-NEAR.cast_signed()..=(1 << 32) + NEAR.cast_signed()).contains(&state.position)
+            }
+        };
         let (phase, turns) = match self.header.domain {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
             // The position is that of the rows, and between them may be some units off: within the stroke.
@@ -303,7 +309,7 @@ impl<'a, N: Number> Plan<'a, N> {
                 },
                 turns,
             },
-            saturated: omega.saturated || alpha.saturated,
+            saturated: omega.saturated || alpha.saturated || beyond,
         }
     }
 }

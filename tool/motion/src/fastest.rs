@@ -350,7 +350,13 @@ fn excess(
             let x = (state.phi - ends.from) * direction;
             let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
             let place = way.place(ends.from + direction * x)?;
-            let (v, alpha) = (state.omega * direction, state.alpha * direction);
+            let mut alpha = state.alpha;
+            // Of a step so short that rounding of the speeds makes another acceleration, the sweep's own counts.
+            let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
+            if rounding > 1e-3 * within.min(1.0) * (a.alpha[1].abs() + b.alpha[0].abs()) {
+                alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
+            }
+            let (v, alpha) = (state.omega * direction, alpha * direction);
             most = most.max(v / field.tool_speed(place.phi)? - 1.0);
             most = most.max(field.excess(&place, v, alpha));
         }

@@ -258,7 +258,7 @@ fn measure(words: &[u32], trace: &Trace, domain: Domain) -> Result<(Errors, [f32
             }
         }
     }
-    let [position, speed, acceleration] = errors.map(|error| error as f32);
+    let [position, speed, acceleration] = errors.map(|error| (error as f32).next_up());
     let errors = Errors {
         position,
         speed,

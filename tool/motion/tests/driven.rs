@@ -212,10 +212,9 @@ fn the_torque_of_each_row_is_that_of_the_way() {
     assert!(error.abs() > following.error.abs(), "{error}");
 }
 
-/// A motor that stalls heats up by a constant loss: C·θ′ = P·(1 + g·θ) − θ/R.
-#[test]
-fn a_stalled_motor_heats_up_as_the_closed_form_says() {
-    let motor = Motor {
+/// One whose winding and housing are one body that warms up.
+fn warm_motor() -> Motor {
+    Motor {
         winding: Winding {
             commutation: Commutation::Block,
             torque_constant: Some(0.5),
@@ -230,7 +229,37 @@ fn a_stalled_motor_heats_up_as_the_closed_form_says() {
         },
         rated_torque: Some(4.0),
         ..motor()
+    }
+}
+
+/// A brake stops the machine, and the motor, which is off, cools: θ falls as e^(−t/(R·C)).
+#[test]
+fn a_brake_does_not_heat_the_motor() {
+    let motor = warm_motor();
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
     };
+    let text = "start_angle = \"30 deg\"\nstop = { time = \"20 s\", brake_torque = \"50 N m\" }\n[surroundings]\nambient = \"20 degC\"\n";
+    let rows = columns(&run(&table(1.0, 60.0, text), drive));
+    let warm = rows.get("t [s]").into_iter().zip(rows.get("motor [degC]"));
+    let rises: Vec<(f64, f64)> = warm.map(|(t, motor)| (t, motor - 20.0)).collect();
+    let (off, hot) = *rises.iter().find(|(t, _)| *t >= 20.0).unwrap();
+    assert!(hot > 1.0, "{hot}");
+    let mut cooled = 0;
+    for (t, rise) in rises.into_iter().filter(|(t, _)| *t > off) {
+        let expected = hot * (-(t - off) / 90.0).exp();
+        within("cools", rise, expected, budget::CLOSED_MOTION * 155.0);
+        cooled += 1;
+    }
+    assert!(cooled > 10);
+}
+
+/// A motor that stalls heats up by a constant loss: C·θ′ = P·(1 + g·θ) − θ/R.
+#[test]
+fn a_stalled_motor_heats_up_as_the_closed_form_says() {
+    let motor = warm_motor();
     let drive = Drive {
         motor: &motor,
         gearbox: None,

@@ -19,6 +19,13 @@ use jred_report::list;
 pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     let file = read::read(&options.file)?;
     variator::refuse(&file, "balance")?;
+    if let Some(carriage) = file.carriages().next() {
+        return Err(miette!(
+            help =
+                "remove the [[carriage]], or fix it where it is most of the time with a [[mass]]",
+            "{carriage}, and `jred balance` does not know where it is over the range"
+        ));
+    }
     let all = options.counterweight.iter();
     let counterweights = all.map(|text| counterweight(text, &file));
     let mut request = Request {

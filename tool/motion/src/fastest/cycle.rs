@@ -131,6 +131,7 @@ fn within<E>(
     let mut price = 0.1 / (limit * limit);
     let mut cheap = (0.0, over(&free));
     let mut dear = None;
+    let mut least = free.load.rms;
     for _ in 0..MOST_DEARER {
         let found = at(Some(price))?;
         let own = over(&found);
@@ -139,11 +140,12 @@ fn within<E>(
             break;
         }
         cheap = (price, own);
+        least = found.load.rms;
         price *= DEARER;
     }
     let Some((mut price, mut own, mut best)) = dear else {
         return Err(refuse(NoMotion::RmsTooLarge {
-            rms: free.load.rms,
+            rms: least,
             allowed: limit,
         }));
     };

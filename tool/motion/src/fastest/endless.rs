@@ -11,11 +11,16 @@ use super::{Fastest, NoMotion, Task, WITHIN, refine, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
-/// Most turns until the speed repeats itself.
-const TURNS: u32 = 2000;
+/// Most turns until the speed repeats itself: first those that the machine makes one after another, then halvings between speeds that are too fast and
+/// not.
+const TURNS: u32 = 200;
+const FALLS: u32 = 12;
 
 /// Share of the speed that is left between two turns at the end.
 const SAME: f64 = 1e-10;
+
+/// Shares of the speed by which finer cells may make the turn slower.
+const FINER: [f64; 4] = [1e-10, 1e-9, 1e-8, 1e-7];
 
 /// The fastest motion of a task whose end is its start.
 ///
@@ -37,21 +42,45 @@ pub(super) fn solve(
         endless: false,
         ..*task
     };
-    let mut speed = top;
-    for _ in 0..TURNS {
-        let next = match refine(file, actuator, &at(speed), f64::INFINITY) {
-            Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => most,
-            Err(why) => return Err(why),
-            Ok(_) => break,
-        };
-        let is_same = speed - next <= SAME * speed;
-        // What is left is rounding, from above.
-        speed = if is_same { next * (1.0 - SAME) } else { next };
-        if is_same {
+    // A speed at which it cannot come round, above the one sought, and one at which it does, or cannot go on.
+    let (mut high, mut low) = (top, 0.0);
+    let mut stopped = None;
+    for turn in 0..TURNS {
+        if high - low <= SAME * high {
             break;
         }
+        let speed = if turn < FALLS {
+            high
+        } else {
+            high.midpoint(low)
+        };
+        match refine(file, actuator, &at(speed), f64::INFINITY) {
+            Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => {
+                high = most.min(speed);
+                // The next turn is the same but for rounding.
+                if speed - high <= SAME * speed && turn < FALLS {
+                    (low, stopped) = (high * (1.0 - SAME), None);
+                }
+            }
+            Err(why) if turn == 0 => return Err(why),
+            Err(why) => (low, stopped) = (speed, Some(why)),
+            Ok(_) => (low, stopped) = (speed, None),
+        }
     }
-    let found = refine(file, actuator, &at(speed), WITHIN)?;
+    if let Some(why) = stopped {
+        return Err(why);
+    }
+    // With finer cells it may come round a little more slowly.
+    let mut speed = low;
+    let mut found = refine(file, actuator, &at(speed), WITHIN);
+    for share in FINER {
+        let Err(NoMotion::StartTooFast { .. } | NoMotion::EndTooFast { .. }) = found else {
+            break;
+        };
+        speed = low * (1.0 - share);
+        found = refine(file, actuator, &at(speed), WITHIN);
+    }
+    let found = found?;
     let mut nodes = found.trace.nodes().to_vec();
     if let [first, .., last] = nodes.as_mut_slice() {
         first.alpha[0] = last.alpha[0];

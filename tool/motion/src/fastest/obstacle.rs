@@ -221,7 +221,7 @@ impl NoMotion {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
             Self::NotFound { .. } => {
-                "allow more jerk, torque rate, acceleration or torque".to_owned()
+                "choose another limit of the jerk, the torque rate or the RMS torque: a larger or a smaller one may be found".to_owned()
             }
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
@@ -265,13 +265,13 @@ impl NoMotion {
             ),
             Self::RmsTooLarge { rms, allowed } => write!(
                 f,
-                "the RMS torque exceeds {} N m however slowly the machine moves: the fastest motion takes {} N m, and weight or friction keep it above the limit",
+                "no motion with an RMS torque of {} N m was found: the one with the least heat has {} N m. Where weight or friction keep it above the limit, a slower one may have less, but is not sought",
                 short(*allowed),
                 short(*rms)
             ),
             Self::NotFound { bound } => write!(
                 f,
-                "no motion within the limits of jerk and torque rate was found; without them the fastest motion takes {} s",
+                "no motion within the limits of jerk, torque rate or RMS torque was found; without them the fastest motion takes {} s",
                 short(*bound)
             ),
             Self::NoTorqueLimit => write!(

@@ -54,6 +54,7 @@ impl Plane {
             let place = way.place(phi)?;
             let z = |v: f64| 0.5 * v * v;
             let open = |v: f64| field.least(&place, z(v)) <= field.most(&place, z(v));
+            let top = top.min(field.tool_speed(phi)?);
             let closed = if field.may_be_empty() {
                 first(highest, |v| !open(v))
             } else {

@@ -155,12 +155,7 @@ impl Asked<'_> {
             }
         }
         if excess > super::MOST_EXCESS {
-            return Err(NoMotion::NotAccurate {
-                excess,
-                phi: place,
-                change,
-                axis: self.field.way.file.axis(),
-            });
+            return Err(NoMotion::NotFound { bound: self.bound });
         }
         let time = trace.duration();
         Ok(Fastest {

@@ -1,7 +1,9 @@
 //! Motions that go on for ever.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
+use jred_machine::read;
 use jred_motion::fastest::{Binding, Limits, Task, solve};
 use jred_motion::way::Way;
 
@@ -81,4 +83,39 @@ fn limits_of_the_drive_link_hold() {
     };
     let found = solve(&table(2.0, ""), &motor([10.0; 2], 7.0), &asked).unwrap();
     close(found.time, TAU / 5.0, 1e-9);
+}
+
+/// However heavy the machine is, and however many turns it would take to come to the speed that repeats itself: M = b·ω.
+#[test]
+fn a_heavy_table_turns_as_a_light_one() {
+    for inertia in [1.0, 60.0, 600.0] {
+        let file = table(
+            inertia,
+            "[[load]]\non = \"table\"\nviscous_moment = \"0.1 N m s/rad\"\n",
+        );
+        let found = solve(&file, &motor([1.0; 2], 100.0), &turn(0.0)).unwrap();
+        // A turn changes the speed by a ten-thousandth of what it is off.
+        close(found.time, TAU / 10.0, 1e-5);
+    }
+}
+
+/// Machines that come with jred: steps so short that rounding makes another acceleration are no excess.
+#[test]
+fn machines_go_on_for_ever() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    for (name, torque) in [
+        ("eccentric-press", 13.2),
+        ("eccentric-press", 60.0),
+        ("cam-translating", 60.0),
+        ("flying-shear", 60.0),
+        ("scotch-yoke", 60.0),
+        ("shaking-feeder", 60.0),
+    ] {
+        let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
+        let file = read::parse(name, &text, folder.as_path()).unwrap();
+        let found = solve(&file, &motor([torque; 2], 157.0), &turn(0.5)).unwrap();
+        assert!(found.excess <= 1e-7, "{name}: {:e}", found.excess);
+        let nodes = found.trace.nodes();
+        close(nodes[nodes.len() - 1].omega, nodes[0].omega, 1e-6);
+    }
 }

@@ -218,7 +218,7 @@ impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
     fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
         let [torque, asked, _] = self.torque(direction, t, y)?;
         let link = [y[0], y[1]];
-        let working = self.plant.working(direction, link, [torque, asked])?;
+        let working = (self.plant).working_at(t, direction, link, [torque, asked])?;
         let on = self.simulation.halt.is_none_or(|halt| t < halt.time);
         Ok(Some(Working {
             error: on.then(|| self.reference(t).phi - y[0]),

@@ -78,7 +78,7 @@ impl<M: Motor> run::Plant<5> for Plant<'_, M> {
 
     fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
         let torque = self.torque(t, direction, y[1]);
-        let working = self.working(direction, [y[0], y[1]], [torque; 2])?;
+        let working = self.working_at(t, direction, [y[0], y[1]], [torque; 2])?;
         Ok(Some(working))
     }
 

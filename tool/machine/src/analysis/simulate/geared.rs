@@ -11,6 +11,7 @@
 use jred::{Domain, Error, Reducible as _, Reduction};
 
 use super::SimulationError;
+use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{Shaft, Simulation};
 
@@ -85,9 +86,14 @@ impl<'a> Together<'a> {
                 title: file.title.clone(),
                 why,
             };
-            if simulation.at == Shaft::DriveLink && !self.first.drive_train.stages().is_empty() {
+            if simulation.at == Shaft::DriveLink {
                 return Err(refused(
-                    "the motor of the first machine acts at its drive link, behind its drive train",
+                    "the motor of the first machine acts at its drive link: write at = \"motor\"",
+                ));
+            }
+            if slides(self.first) != slides(file) {
+                return Err(refused(
+                    "one drive train begins at a motor that turns, the other at one that slides",
                 ));
             }
             if file.variator.is_some() || self.first.variator.is_some() {
@@ -117,4 +123,10 @@ impl<'a> Together<'a> {
     pub fn all(&self) -> impl Iterator<Item = Geared<'a>> + '_ {
         std::iter::once(Geared::first(self.first)).chain(self.beside.iter().copied())
     }
+}
+
+/// Whether the drive train begins at a slide: a drive link that slides, without stages in front of it.
+fn slides(file: &MachineFile) -> bool {
+    let coordinate = file.machine.mechanism().coordinate();
+    coordinate == Coordinate::Length && file.drive_train.stages().is_empty()
 }

@@ -307,8 +307,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         })
     }
 
-    /// What the motor does at a state under its torque; `asked` is what a controller asks for.
-    pub(super) fn working(
+    /// What the motor does at a state under a torque at its shaft; `asked` is what a controller asks for.
+    fn working(
         &self,
         direction: f64,
         [phi, omega]: [f64; 2],
@@ -328,6 +328,23 @@ impl<'a, M: Motor> Plant<'a, M> {
             // Held at rest, friction takes any share of it.
             input_torque: now.map_or(torque * self.motor.ratio(), |now| now.input_torque),
             error: None,
+        })
+    }
+
+    /// The same at a time: behind the switching off the torque is the brake's, and the motor has none.
+    pub(super) fn working_at(
+        &self,
+        t: f64,
+        direction: f64,
+        link: [f64; 2],
+        torques: [f64; 2],
+    ) -> Result<Working, Error> {
+        let working = self.working(direction, link, torques)?;
+        let is_off = self.simulation.halt.is_some_and(|halt| t >= halt.time);
+        Ok(Working {
+            torque: if is_off { 0.0 } else { working.torque },
+            asked: if is_off { 0.0 } else { working.asked },
+            ..working
         })
     }
 

@@ -1,6 +1,6 @@
 //! The square of the pace in pieces of fifth degree, and the places at which limits are looked at.
 //!
-//! Along the path s = L·g(u) of [`Shape`](crate::gentlest::shape::Shape) the pace is w = (du/dτ)², τ the time in units of the programme's
+//! Along the path s = L·g(u) of [`Shape`] the pace is w = (du/dτ)², τ the time in units of the programme's
 //! own. w and w′ are continuous, so the acceleration is; w″ and with it the jerk may jump where two pieces meet. Fifth degree leaves w″
 //! a cubic in each piece, which follows an arc of constant jerk or of constant torque with an error of order 4.
 
