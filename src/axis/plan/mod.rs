@@ -1,6 +1,6 @@
 //! A motion that was planned on a host, as a table over the time that a tick follows.
 //!
-//! [`Plan`] reads an image that `jred fastest --plan` or `jred retime --plan` wrote; [`encode`] writes one. The layout is documented word by
+//! [`Plan`] reads an image that `jred fastest --plan` or `jred retime --plan` wrote; [`encode()`] writes one. The layout is documented word by
 //! word in `docs/table-image.md`.
 
 mod encode;

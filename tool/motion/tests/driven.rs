@@ -245,7 +245,8 @@ fn a_brake_does_not_heat_the_motor() {
     let rows = columns(&run(&table(1.0, 60.0, text), drive));
     let warm = rows.get("t [s]").into_iter().zip(rows.get("motor [degC]"));
     let rises: Vec<(f64, f64)> = warm.map(|(t, motor)| (t, motor - 20.0)).collect();
-    let (off, hot) = *rises.iter().find(|(t, _)| *t >= 20.0).unwrap();
+    // It stands after three seconds; until then its own friction heats it.
+    let (off, hot) = *rises.iter().find(|(t, _)| *t >= 25.0).unwrap();
     assert!(hot > 1.0, "{hot}");
     let mut cooled = 0;
     for (t, rise) in rises.into_iter().filter(|(t, _)| *t > off) {

@@ -140,9 +140,15 @@ fn what_no_plan_holds_is_refused() {
         Plan::new(&still, Domain::Turn, 0, SHARE),
         Err(PlanError::Order(0))
     );
-    let far = motion(10, 1e8, |t| [t, 1.0, 0.0]);
+    let far = motion(10, 1e6, |t| [100.0 * t, 100.0, 0.0]);
     assert!(matches!(
         Plan::new(&far, Domain::Turn, 0, SHARE),
         Err(PlanError::Number(_))
     ));
+    // 97 days and more are not counted.
+    let long = motion(10, 1e7, |t| [t, 1.0, 0.0]);
+    assert_eq!(
+        Plan::new(&long, Domain::Turn, 0, SHARE),
+        Err(PlanError::Order(0))
+    );
 }

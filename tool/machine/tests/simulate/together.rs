@@ -157,17 +157,3 @@ fn a_machine_with_a_stroke_is_the_first_or_none() {
     let why = with.err().unwrap().to_string();
     assert!(why.contains("has a stroke"), "{why}");
 }
-
-#[test]
-fn machines_at_a_slide_and_at_a_shaft_do_not_go_together() {
-    let slide = parse(
-        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"linear-axis\"\nstroke = [\"0 mm\", \"500 mm\"]\n[mechanism.carriage]\nmass = \"5 kg\"\n\
-         [simulation]\ntorque = \"1 N\"\nduration = \"1 s\"\nstart_position = \"0 mm\"\n",
-    )
-    .unwrap();
-    let turns = table(1.0, 40, 0.0);
-    let simulation = slide.simulation.as_ref().unwrap();
-    let with = Together::alone(&slide).with([(&turns, 0.0)], simulation);
-    let why = with.err().unwrap().to_string();
-    assert!(why.contains("one that slides"), "{why}");
-}

@@ -142,14 +142,13 @@ impl Asked<'_> {
         let mut margins = vec![Margins::default(); borders.len() - 1];
         let mut trace = self.trace(&shape, &found);
         let mut excess = f64::INFINITY;
-        let mut place = self.ends.from;
         for _ in 0..WIDENED {
             let Some(next) = self.next(&shape, &borders, &found, &margins, LAST)? else {
                 break;
             };
             found = next;
             trace = self.trace(&shape, &found);
-            (excess, place) = self.widen(&trace, &mut margins)?;
+            excess = self.widen(&trace, &mut margins)?;
             if excess <= WITHIN {
                 break;
             }

@@ -68,16 +68,12 @@ impl Asked<'_> {
         self.bound * (end - start) * (to - from) * each.sum::<f64>()
     }
 
-    /// The largest share by which a limit is exceeded, and where; the margins of pieces in which one is are widened.
-    pub(super) fn widen(
-        &self,
-        trace: &Trace,
-        margins: &mut [Margins],
-    ) -> Result<(f64, f64), NoMotion> {
+    /// The largest share by which a limit is exceeded; the margins of pieces in which one is are widened.
+    pub(super) fn widen(&self, trace: &Trace, margins: &mut [Margins]) -> Result<f64, NoMotion> {
         let way = self.field.way;
         let direction = way.direction;
         let limits = self.limits();
-        let mut most = (f64::NEG_INFINITY, self.ends.from);
+        let mut most = f64::NEG_INFINITY;
         let near = self.ends.inside(0.0);
         let distance = |phi: f64| (phi - self.ends.from) * direction;
         let mut own: Vec<[f64; 3]> = vec![[0.0; 3]; margins.len()];
@@ -90,9 +86,7 @@ impl Asked<'_> {
             let mut look = |kind: usize, excess: f64| {
                 let all = &mut own[piece][kind];
                 *all = all.max(excess);
-                if excess > most.0 {
-                    most = (excess, a.phi);
-                }
+                most = most.max(excess);
             };
             let [first, last] = [a, b].map(|node| distance(node.phi));
             for share in LOOKS {
