@@ -51,18 +51,23 @@ fn basis(s: f64, derivative: u32) -> [f64; 6] {
     })
 }
 
-/// Position, speed and acceleration between two knots.
-fn between(a: &Knot, b: &Knot, t: f64) -> [f64; 3] {
-    let h = b.t - a.t;
-    let s = (t - a.t) / h;
-    let of = [
+/// What Hermite's basis is weighed with over the time h between two knots.
+fn ends(a: &Knot, b: &Knot, h: f64) -> [f64; 6] {
+    [
         a.position,
         a.omega * h,
         a.alpha[1] * h * h,
         b.alpha[0] * h * h,
         b.omega * h,
         b.position,
-    ];
+    ]
+}
+
+/// Position, speed and acceleration between two knots.
+fn between(a: &Knot, b: &Knot, t: f64) -> [f64; 3] {
+    let h = b.t - a.t;
+    let s = (t - a.t) / h;
+    let of = ends(a, b, h);
     [0, 1, 2].map(|derivative| {
         let sum: f64 = basis(s, derivative)
             .iter()
@@ -133,14 +138,7 @@ fn any_knots() -> impl Strategy<Value = Vec<Knot>> {
 fn terms(a: &Knot, b: &Knot) -> [f64; 3] {
     let h = b.t - a.t;
     let window = 2f64.powf(h.log2().floor() + 1.0);
-    let of = [
-        a.position,
-        a.omega * h,
-        a.alpha[1] * h * h,
-        b.alpha[0] * h * h,
-        b.omega * h,
-        b.position,
-    ];
+    let of = ends(a, b, h);
     // The derivatives at the start are the coefficients.
     let coefficient = |power: u32| -> f64 {
         let sum: f64 = basis(0.0, power).iter().zip(of).map(|(w, x)| w * x).sum();

@@ -21,7 +21,7 @@ const FAITHFUL: f64 = 1.5;
 /// Times of rows are closer than this share of the whole only where the motion ends: twice what a plan resolves.
 const CLOSE: f64 = 1.0 / 536_870_912.0;
 
-/// Steps of the motion that are shorter than so many of these are not looked at: the time of a row is rounded by as much.
+/// A step of the motion shorter than 8 times `CLOSE` is not looked at: the time of a row is rounded by as much.
 const LOOKED: f64 = 8.0;
 
 /// Places in a step of the motion at which a plan is looked at.

@@ -13,6 +13,7 @@ mod limits;
 mod mesh;
 mod outcome;
 
+use crate::gentlest::mesh::dot;
 use crate::gentlest::shape::Shape;
 use crate::gentlest::{self};
 
@@ -278,7 +279,7 @@ impl Asked<'_> {
     fn time(&self, mesh: &Mesh, x: &[f64]) -> f64 {
         let each = mesh.stations.iter().map(|station| {
             let values = mesh.values(x, station.element);
-            station.weight / mesh::dot(&station.basis[0], &values).sqrt()
+            station.weight / dot(&station.basis[0], &values).sqrt()
         });
         self.bound * each.sum::<f64>()
     }

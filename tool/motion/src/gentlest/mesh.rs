@@ -29,6 +29,39 @@ pub(crate) enum Value {
     Fixed(f64),
 }
 
+impl Value {
+    /// With these unknowns.
+    pub(crate) fn of(self, x: &[f64]) -> f64 {
+        match self {
+            Self::Free(index) => x[index],
+            Self::Fixed(value) => value,
+        }
+    }
+
+    const fn unknown(self) -> Option<usize> {
+        match self {
+            Self::Free(index) => Some(index),
+            Self::Fixed(_) => None,
+        }
+    }
+}
+
+/// The column in which each row of a matrix of so many unknowns begins, where those of one element meet each other.
+pub(crate) fn first_columns<'v>(
+    unknowns: usize,
+    elements: impl Iterator<Item = &'v [Value]>,
+) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..unknowns).collect();
+    for values in elements {
+        let free = || values.iter().filter_map(|value| value.unknown());
+        let least = free().min().unwrap_or(0);
+        for index in free() {
+            first[index] = first[index].min(least);
+        }
+    }
+    first
+}
+
 /// A piece of the path: w, w′ at its start, w, w′ at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
@@ -171,10 +204,7 @@ impl Mesh {
 
     /// The four values of an element.
     pub(super) fn values(&self, x: &[f64], element: usize) -> [f64; 4] {
-        self.elements[element].values.map(|value| match value {
-            Value::Free(index) => x[index],
-            Value::Fixed(value) => value,
-        })
+        self.elements[element].values.map(|value| value.of(x))
     }
 
     /// Whether w is greater than zero between all stations as well, and nowhere less.
@@ -218,24 +248,14 @@ impl Mesh {
 
     /// The matrix of the unknowns, bordered by one row for the time.
     pub(super) fn matrix(&self) -> Skyline {
-        let mut first: Vec<usize> = (0..self.unknowns).collect();
-        for element in &self.elements {
-            let free = element.values.iter().filter_map(|value| match value {
-                Value::Free(index) => Some(*index),
-                Value::Fixed(_) => None,
-            });
-            let free: Vec<usize> = free.collect();
-            let least = free.iter().copied().min().unwrap_or(0);
-            for index in free {
-                first[index] = first[index].min(least);
-            }
-        }
+        let elements = self.elements.iter();
+        let mut first = first_columns(self.unknowns, elements.map(|element| &element.values[..]));
         first.push(0);
         Skyline::new(first)
     }
 }
 
-pub(super) fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

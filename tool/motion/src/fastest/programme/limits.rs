@@ -8,9 +8,10 @@
 //! the jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is a share of itself: c ≤ 0, −1 far from it.
 
 use super::interior::{Programme, Term};
-use super::mesh::{Local, Mesh, Station, VALUES, dot};
+use super::mesh::{Local, Mesh, Station, VALUES};
 use crate::fastest::field::{Binding, Field};
 use crate::gentlest::mesh::Value;
+use crate::gentlest::mesh::dot;
 use crate::gentlest::torque::Torque;
 use crate::way::{Demand, Place};
 

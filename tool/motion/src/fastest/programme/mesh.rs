@@ -6,7 +6,7 @@
 
 use jred::Error;
 
-use crate::gentlest::mesh::{Value, hermite};
+use crate::gentlest::mesh::{Value, dot, first_columns, hermite};
 use crate::gentlest::shape::Shape;
 use crate::skyline::Skyline;
 use crate::way::{Place, Way};
@@ -149,10 +149,7 @@ impl Mesh {
 
     /// The values of a piece.
     pub(super) fn values(&self, x: &[f64], element: usize) -> Local {
-        self.elements[element].values.map(|value| match value {
-            Value::Free(index) => x[index],
-            Value::Fixed(value) => value,
-        })
+        self.elements[element].values.map(|value| value.of(x))
     }
 
     /// w, w′, w″ at a share of a piece.
@@ -209,24 +206,10 @@ impl Mesh {
 
     /// The matrix of the unknowns.
     pub(super) fn matrix(&self) -> Skyline {
-        let mut first: Vec<usize> = (0..self.unknowns).collect();
-        for element in &self.elements {
-            let free = element.values.iter().filter_map(|value| match value {
-                Value::Free(index) => Some(*index),
-                Value::Fixed(_) => None,
-            });
-            let free: Vec<usize> = free.collect();
-            let least = free.iter().copied().min().unwrap_or(0);
-            for index in free {
-                first[index] = first[index].min(least);
-            }
-        }
+        let elements = self.elements.iter();
+        let first = first_columns(self.unknowns, elements.map(|element| &element.values[..]));
         Skyline::new(first)
     }
-}
-
-pub(super) fn dot(a: &Local, b: &Local) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn elements(shape: &Shape, form: Form, borders: &[Border]) -> (Vec<Element>, usize) {
