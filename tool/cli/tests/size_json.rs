@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::schema::faults;
-use crate::support::{Folder, edited_press, jred, press_file};
+use crate::support::{Folder, edited_press, jred, jred_with, press_file};
 use serde_json::{Value, json};
 
 fn docs(name: &str) -> String {
@@ -42,12 +42,16 @@ fn answers_follow_the_schema() {
     crate::support::within("shares", shares.sum(), 1.0, crate::support::budget::CELLS);
     assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
     assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
-    for name in ["hoist.toml", "ball-screw.toml", "geneva.toml"] {
+    for (name, motors) in [
+        ("hoist.toml", "sgmsh-*"),
+        ("ball-screw.toml", "sgmph-*"),
+        ("geneva.toml", "sgmuh-*"),
+    ] {
         let run = jred([
             &"size",
             &machine(name),
             &"--motor",
-            &"sgm?h-*",
+            &motors,
             &"--all",
             &"--format",
             &"json",
@@ -174,12 +178,17 @@ fn a_drive_can_be_named() {
 /// The motor of the next smaller rated power, with the rules that it violates: no refused motor lies between.
 #[test]
 fn the_next_smaller_motor_says_why_not() {
-    let text = jred([&"size", &press_file()]).ends(0).out;
+    let press = press_file();
+    let size = |more: &[&str]| {
+        let some = ["size", press.to_str().unwrap(), "--motor", "sgm*"];
+        jred_with(&[&some[..], more].concat()).ends(0)
+    };
+    let text = size(&[]).out;
     let (_, rest) = text.split_once("next smaller motor, ").unwrap();
     let line = rest.lines().next().unwrap();
     let (power, reason) = line.split_once(" kW: ").unwrap();
     let power: f64 = power.parse().unwrap();
-    let all = jred([&"size", &press_file(), &"--all", &"--format", &"json"]).json();
+    let all = size(&["--all", "--format", "json"]).json();
     let powers = |list: &str| {
         let drives = all[list].as_array().unwrap().iter();
         drives
@@ -191,7 +200,7 @@ fn the_next_smaller_motor_says_why_not() {
     let next = below.fold(0.0, f64::max);
     crate::support::within("power", power * 1e3, next, 5e-3 * next);
     let (name, reasons) = reason.split_once(" is refused: ").unwrap();
-    let refused = jred([&"size", &press_file(), &"--refused"]).ends(0).out;
+    let refused = size(&["--refused"]).out;
     assert!(
         refused.contains(&format!("{name}: {reasons}")),
         "{name}: {reasons}"
@@ -208,17 +217,21 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
         "axis.toml",
         format!("{axis}\n[supply]\nmains_voltage = \"400 V\"\n"),
     );
-    let all = jred([&"size", &file, &"--all", &"--format", &"json"]).json();
+    // Motors of every class.
+    let some = ["size", file.to_str().unwrap()];
+    let motors = [
+        "--motor", "fxm7*", "--motor", "sgmuh*", "--motor", "mc20-1*",
+    ];
+    let size = |more: &[&str]| jred_with(&[&some, &motors[..], more].concat()).ends(0);
+    let all = size(&["--all", "--format", "json"]).json();
     check(&all);
     let fit = all["fit"].as_array().unwrap();
     let classes = all["certainties"].as_array().unwrap();
     let power = |drive: &Value| drive["rated power [W]"].as_f64().unwrap();
     let words = ["makers-figures", "other-figures", "voltage-unknown"];
     assert_eq!(classes.len(), 3);
-    let text = jred([&"size", &file]).ends(0).out;
-    let csv = jred([&"size", &file, &"--top", &"1", &"--format", &"csv"])
-        .ends(0)
-        .out;
+    let text = size(&[]).out;
+    let csv = size(&["--top", "1", "--format", "csv"]).out;
     let mut least = f64::INFINITY;
     for (class, word) in classes.iter().zip(words) {
         assert_eq!(class["certainty"], word);
@@ -265,7 +278,7 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
         assert!(!gap["cure"].as_str().unwrap().is_empty());
     }
     let report = folder.path("report.html");
-    jred([&"size", &file, &"--report", &report]).ends(0);
+    size(&["--report", report.to_str().unwrap()]);
     let page = std::fs::read_to_string(report).unwrap();
     for class in classes {
         let motor = class["first"]["motor"].as_str().unwrap();
