@@ -3,6 +3,7 @@
 mod drive;
 mod encoder;
 mod feed_forward;
+mod follower;
 mod governor;
 mod limits;
 mod look_ahead;
@@ -10,5 +11,6 @@ mod machine;
 mod messages;
 mod motion;
 mod plan;
+mod plan_refused;
 mod stop;
 mod tracker;

@@ -77,6 +77,11 @@ impl Number for Q15 {
     }
 
     #[inline(always)]
+    fn of_counts(counts: [(i32, &Factor); 2]) -> Outcome<Self> {
+        Q31::of_counts(counts).into()
+    }
+
+    #[inline(always)]
     fn to_count(self, factor: &Factor) -> i32 {
         Q31::from(self).to_count(factor)
     }

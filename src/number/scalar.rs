@@ -96,6 +96,17 @@ pub trait Number:
     /// `count` times the factor; limited and flagged in fixed point.
     #[doc(hidden)]
     fn of_count(count: i32, factor: &Factor) -> Outcome<Self>;
+    /// The sum of two counts, each times its factor, rounded once; limited and flagged in fixed point.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn of_counts(counts: [(i32, &Factor); 2]) -> Outcome<Self> {
+        let [a, b] = counts.map(|(count, factor)| Self::of_count(count, factor));
+        let sum = a.value.plus(b.value);
+        Outcome {
+            value: sum.value,
+            saturated: a.saturated || b.saturated || sum.saturated,
+        }
+    }
     /// The number times the factor, as a count; limited, and 0 for what is no number.
     #[doc(hidden)]
     fn to_count(self, factor: &Factor) -> i32;

@@ -1,6 +1,6 @@
 //! Writing a plan: on a host, or in firmware with double precision.
 
-use super::image::{HEADER_WORDS, MAGIC, MOST_ROWS, STROKE, TURN, VERSION, fits};
+use super::image::{HEADER_WORDS, MAGIC, MOST_ROWS, STROKE, TURN, VERSION, check_rows, fits};
 use super::row::{ROW_WORDS, Row, TIME_BITS, Units, Window, Words};
 use super::{Errors, PlanError};
 use crate::Domain;
@@ -59,7 +59,7 @@ struct Count {
 /// none; `errors` is what the plan will be off by, to be written into its header.
 ///
 /// # Errors
-/// Knots that are not finite, out of order or out of the stroke; 65,535 at most; a buffer shorter than [`image_len`].
+/// Knots that are not finite, out of order or out of the stroke, or 65,536 of them and more; a polynomial between two of them that leaves the stroke; a buffer shorter than [`image_len`].
 pub fn encode<'b>(
     knots: &[Knot],
     domain: Domain,
@@ -94,10 +94,15 @@ pub fn encode<'b>(
                 *most = most.max(math::abs(rate));
             }
         }
-        let [gained, raised] = segment.sums();
+        let [gained, _] = segment.sums();
         let faster = math::abs(from.omega) + window * gained;
         let faster = exponent(faster.max(math::abs(to.omega)));
         units.speed = units.speed.max(faster - 29);
+    }
+    // What rounding a speed leaves is in the other coefficients: of a long row at constant speed nothing else.
+    for (k, pair) in pairs(knots, domain, units) {
+        let (_, exact) = from_rounded(k, pair?, units)?;
+        let [_, raised] = exact.sums();
         units.acceleration = units.acceleration.max(exponent(raised) - 29);
     }
     let (header, rest) = image.split_at_mut(HEADER_WORDS.min(needed));
@@ -121,6 +126,7 @@ pub fn encode<'b>(
         }
         .words();
     }
+    check_rows(rows, units, domain.to())?;
     let (range, from, to) = match domain.to::<f32>() {
         Domain::Turn => (TURN, 0.0, 0.0),
         Domain::Stroke { from, to } => (STROKE, from, to),
@@ -261,31 +267,30 @@ impl Segment {
     }
 }
 
-/// A row in whole numbers: what rounding the first of them leaves goes into those behind.
-fn quantised(k: u32, pair: [Count; 2], units: Units) -> Result<Row, PlanError> {
+/// The speed of a row in whole numbers, and the polynomial that begins with it.
+fn from_rounded(k: u32, pair: [Count; 2], units: Units) -> Result<(i32, Segment), PlanError> {
     let [from, _] = pair;
     let (length, window) = window(k, pair, units)?;
     let of_speed = power_of_two(units.speed);
     let speed = rounded(k, from.omega / of_speed)?;
-    let exact = segment(
-        pair,
-        length,
-        window,
-        f64::from(speed) * of_speed,
-        0.5 * from.alpha[1],
-    );
+    let begins = f64::from(speed) * of_speed;
+    Ok((
+        speed,
+        segment(pair, length, window, begins, 0.5 * from.alpha[1]),
+    ))
+}
+
+/// A row in whole numbers: what rounding the first of them leaves goes into those behind.
+fn quantised(k: u32, pair: [Count; 2], units: Units) -> Result<Row, PlanError> {
+    let [from, _] = pair;
+    let (length, window) = window(k, pair, units)?;
+    let (speed, exact) = from_rounded(k, pair, units)?;
     // As fine as the greatest of its sums allows.
     let [_, raised] = exact.sums();
     let finer = (29 + units.acceleration - exponent(raised)).clamp(0, 31);
     let unit = power_of_two(units.acceleration - finer);
     let half = rounded(k, 0.5 * from.alpha[1] / unit)?;
-    let rest = segment(
-        pair,
-        length,
-        window,
-        f64::from(speed) * of_speed,
-        f64::from(half) * unit,
-    );
+    let rest = segment(pair, length, window, exact.speed, f64::from(half) * unit);
     let mut coefficients = [half; 4];
     for (slot, exact) in coefficients.iter_mut().zip(rest.coefficients).skip(1) {
         *slot = rounded(k, exact / unit)?;

@@ -23,6 +23,8 @@ pub enum PlanError {
     Number(u32),
     /// The row does not end with the position and speed with which the next one begins.
     Gap(u32),
+    /// The row leaves the stroke between its ends.
+    Stroke(u32),
     /// The end is not where the start is, with its speed: it cannot be repeated.
     Open,
     /// A figure beside the plan.
@@ -51,6 +53,10 @@ impl fmt::Display for PlanError {
                 f,
                 "row {row} of the plan does not end where the next begins"
             ),
+            Self::Stroke(row) => write!(
+                f,
+                "row {row} of the plan leaves the stroke between its ends"
+            ),
             Self::Open => {
                 f.write_str("the plan does not end as it begins, so it cannot be repeated")
             }
@@ -74,6 +80,9 @@ impl Curable for PlanError {
                 "give finite numbers, rows of less than 8 million turns, and the position within the stroke",
             ),
             Self::Gap(_) => f.write_str("write the plan again"),
+            Self::Stroke(_) => {
+                f.write_str("give the motion with more knots where it turns near an end of the stroke")
+            }
             Self::Open => f.write_str(
                 "give a plan whose end is its start, whole turns on, with the same speed, or follow it once",
             ),

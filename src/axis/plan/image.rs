@@ -1,5 +1,6 @@
 //! The image of a plan: its header, and what is checked before it is followed.
 
+use super::inside::stays_inside;
 use super::row::{Row, TIME_BITS, Units, Window, Words};
 use super::{Errors, PlanError};
 use crate::Domain;
@@ -125,18 +126,20 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
     Ok((header, rows))
 }
 
-/// That every row follows the one before, fits, and ends where the next begins; when the last one begins.
-fn check_rows(rows: &[Words], units: Units, domain: Domain<f32>) -> Result<u32, PlanError> {
+/// That every row follows the one before, fits, ends where the next begins and stays within the stroke; when the last one begins.
+pub(super) fn check_rows(
+    rows: &[Words],
+    units: Units,
+    domain: Domain<f32>,
+) -> Result<u32, PlanError> {
     let all = || rows.iter().map(Row::read);
+    let on_stroke = matches!(domain, Domain::Stroke { .. });
     let mut last = 0;
     for ((k, row), next) in (0..).zip(all()).zip(all().skip(1).map(Some).chain([None])) {
         if k == 0 && row.start != 0 || next.is_some_and(|next| next.start <= row.start) {
             return Err(PlanError::Order(k));
         }
-        let within = match domain {
-            Domain::Turn => true,
-            Domain::Stroke { .. } => (0..=1 << 32).contains(&row.position),
-        };
+        let within = !on_stroke || (0..=1 << 32).contains(&row.position);
         if !within || row.finer > 31 {
             return Err(PlanError::Number(k));
         }
@@ -157,6 +160,11 @@ fn check_rows(rows: &[Words], units: Units, domain: Domain<f32>) -> Result<u32, 
         let most = 8 + 16 * slack(to_position) + slack(moved + 32);
         if position > most || u64::from(speed) > 8 + 16 * slack(to_speed) {
             return Err(PlanError::Gap(k));
+        }
+        // Half a unit of each coefficient, of the speed, and of the position.
+        let rounding = 8 + 2 * slack(to_position) + slack(moved + 32);
+        if on_stroke && !stays_inside(&row, length, units, rounding) {
+            return Err(PlanError::Stroke(k));
         }
     }
     Ok(last)

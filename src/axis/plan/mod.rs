@@ -6,6 +6,7 @@
 mod encode;
 mod error;
 mod image;
+mod inside;
 mod row;
 
 use core::marker::PhantomData;
@@ -18,6 +19,7 @@ use super::{AxisError, Motion};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
 use crate::{Domain, MachineUnits, Outcome, Phase};
 use image::Header;
+pub(super) use row::shifted;
 use row::{Row, State, TIME_BITS, Words};
 
 /// Units that a rounded position or speed may be off by.
@@ -116,7 +118,6 @@ impl<'a, N: Number> Plan<'a, N> {
         if domain != header.domain {
             return Err(PlanError::Range);
         }
-        let span = domain.span().to_f32();
         let factor = |what, most: f32, base: f32, exponent: i32| {
             if N::FIXED && most > base {
                 return Err(AxisError::BeyondBase {
@@ -125,7 +126,7 @@ impl<'a, N: Number> Plan<'a, N> {
                     base,
                 });
             }
-            let factor = Factor::of_count(span * UNIT * power_of_two(exponent) / base);
+            let factor = Factor::of_count(unit(domain, exponent) / base);
             factor.ok_or(AxisError::OutOfRange {
                 what,
                 value: most,
@@ -242,7 +243,9 @@ impl<'a, N: Number> Plan<'a, N> {
     #[inline]
     #[must_use]
     pub fn at(&self, time: u64) -> Outcome<Place<N>> {
-        self.place(self.state(time))
+        let state = self.state(time);
+        let alpha = N::of_count(state.acceleration, &self.acceleration);
+        self.place(state, alpha)
     }
 
     /// The same in units of the plan.
@@ -277,26 +280,24 @@ impl<'a, N: Number> Plan<'a, N> {
         }
     }
 
-    /// A speed in units of the plan, in machine units.
-    #[inline]
-    pub(super) fn gained(&self, speed: i32) -> N::Speed {
-        N::Speed::of(N::of_count(speed, &self.speed).value)
+    /// The unit of its speeds (rad/s, or m/s).
+    pub(super) fn speed_unit(&self) -> f32 {
+        unit(self.header.domain, self.header.units.speed)
     }
 
-    /// In machine units.
+    /// From accelerations in units of the plan to machine units.
     #[inline]
-    pub(super) fn place(&self, state: State) -> Outcome<Place<N>> {
+    pub(super) const fn to_acceleration(&self) -> &Factor {
+        &self.acceleration
+    }
+
+    /// In machine units, with this acceleration.
+    #[inline]
+    pub(super) fn place(&self, state: State, alpha: Outcome<N>) -> Outcome<Place<N>> {
         let omega = N::of_count(state.speed, &self.speed);
-        let alpha = N::of_count(state.acceleration, &self.acceleration);
-        let beyond = match self.header.domain {
-            Domain::Turn => false,
-            Domain::Stroke { .. } => {
-                !(-NEAR.cast_signed()..=(1 << 32) + NEAR.cast_signed()).contains(&state.position)
-            }
-        };
         let (phase, turns) = match self.header.domain {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
-            // The position is that of the rows, and between them may be some units off: within the stroke.
+            // Every row has been shown to stay within the stroke, to some units.
             Domain::Stroke { .. } if state.position < 0 => (0, 0),
             Domain::Stroke { .. } => (u32::try_from(state.position).unwrap_or(u32::MAX), 0),
         };
@@ -309,12 +310,17 @@ impl<'a, N: Number> Plan<'a, N> {
                 },
                 turns,
             },
-            saturated: omega.saturated || alpha.saturated || beyond,
+            saturated: omega.saturated || alpha.saturated,
         }
     }
 }
 
+/// 2ⁿ·2⁻³² of a range.
+fn unit(domain: Domain<f32>, n: i32) -> f32 {
+    domain.span().to_f32() * UNIT * power_of_two(n)
+}
+
 /// 2ⁿ, −126 ≤ n ≤ 127
-fn power_of_two(n: i32) -> f32 {
+pub(super) fn power_of_two(n: i32) -> f32 {
     f32::from_bits(((n + 127) as u32 & 0xff) << 23)
 }

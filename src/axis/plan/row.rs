@@ -34,7 +34,7 @@ pub(crate) struct State {
 
 /// x·2ⁿ, rounded down.
 #[inline(always)]
-pub(super) const fn shifted(x: i64, n: i32) -> i64 {
+pub(in crate::axis) const fn shifted(x: i64, n: i32) -> i64 {
     if n >= 0 {
         x << (n & 63)
     } else {
@@ -42,7 +42,7 @@ pub(super) const fn shifted(x: i64, n: i32) -> i64 {
     }
 }
 
-/// x·u/2³², up to two units too small.
+/// x·u/2³² of an even u, up to two units too small; of an odd one as of the even one before it.
 #[inline(always)]
 fn times(x: i32, u: u32) -> i32 {
     high(x, (u >> 1).cast_signed()) << 1

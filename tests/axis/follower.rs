@@ -1,0 +1,252 @@
+//! A follower of a plan: its time, its rate, and the motion that both make.
+
+use core::f64::consts::TAU;
+
+use jred::axis::plan::{Knot, Place, PlanError};
+use jred::axis::{Follower, Plan, Rate, Stage};
+use jred::number::{Number, Quantity as _};
+use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
+
+use super::machine::in_units;
+use super::plan::{evenly, exact, found, image, trapezoid};
+use crate::support::scale_of;
+
+/// Each tick is where the plan is at that time, whatever the tick: 2⁻⁴⁰ s a tick off.
+#[test]
+fn a_follower_is_on_time() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let words = image(&trapezoid(), Domain::Turn);
+    let plan = Plan::new(&words, &model).unwrap();
+    for period in [0.000_25_f32, 0.000_062_5, 0.001, 0.003_7] {
+        let mut follower = Follower::new(plan, period, 0.5, &model).unwrap();
+        for _ in 0..3 {
+            let planned = follower.next(Rate::FULL);
+            assert_eq!(planned.stage, Stage::Waiting);
+            assert_eq!((planned.motion.omega, planned.motion.alpha), (0.0, 0.0));
+        }
+        follower.start();
+        let mut ticks = 0_u32;
+        loop {
+            let planned = follower.next(Rate::FULL);
+            if planned.stage == Stage::Done {
+                break;
+            }
+            assert_eq!(planned.stage, Stage::Running);
+            let place = Place {
+                motion: planned.motion,
+                turns: planned.turns,
+            };
+            let [position, omega, _] = found(&place, &model);
+            let [at, v, _] = exact(f64::from(ticks) * f64::from(period));
+            assert!((position - at).abs() < 1.5e-7, "{ticks}: {position} {at}");
+            assert!((omega - v).abs() < 3e-7, "{ticks}: {omega} {v}");
+            ticks += 1;
+        }
+        let all = (5.5 / f64::from(period)).ceil();
+        assert!(
+            (f64::from(ticks) - all).abs() <= 1.0,
+            "{period}: {ticks} {all}"
+        );
+        let end = follower.next(Rate::FULL);
+        assert_eq!((end.stage, end.motion.omega), (Stage::Done, 0.0));
+        follower.reset();
+        assert_eq!(follower.next(Rate::FULL).stage, Stage::Waiting);
+    }
+}
+
+/// With a rate that changes all the time the speed is the derivative of the position, and the acceleration that of the speed.
+#[test]
+fn an_override_is_a_motion() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let words = image(&trapezoid(), Domain::Turn);
+    let plan = Plan::new(&words, &model).unwrap();
+    let period = 0.000_5;
+    let mut follower = Follower::new(plan, period as f32, 0.4, &model).unwrap();
+    follower.start();
+    let rate = |k: u32| {
+        Rate::percent(match k {
+            1000..3000 => 40,
+            3000..4000 => 0,
+            4000..6000 => 70,
+            _ => 100,
+        })
+    };
+    let mut rows: Vec<([f64; 3], Stage)> = Vec::new();
+    for k in 0..20_000 {
+        let planned = follower.next(rate(k));
+        let place = Place {
+            motion: planned.motion,
+            turns: planned.turns,
+        };
+        rows.push((found(&place, &model), planned.stage));
+        if planned.stage == Stage::Done {
+            break;
+        }
+    }
+    let mut corners = 0;
+    for pair in rows.windows(2) {
+        let [[x0, v0, a0], [x1, v1, a1]] = [pair[0].0, pair[1].0];
+        // Small corners, where a ramp ends within a tick, are between both.
+        if (a1 - a0).abs() > 0.03 {
+            corners += 1;
+            continue;
+        }
+        assert!(
+            (x1 - x0 - period * 0.5 * (v0 + v1)).abs() < 5e-8,
+            "{pair:?}"
+        );
+        let mean = (v1 - v0) / period;
+        assert!(
+            mean > a0.min(a1) - 4e-4 && mean < a0.max(a1) + 4e-4,
+            "{pair:?}"
+        );
+    }
+    // Three of the plan, and two or three of each ramp, which ends within a tick.
+    assert!((11..=15).contains(&corners), "{corners}");
+    let held = rows.iter().filter(|row| row.1 == Stage::Held).count();
+    // A thousand ticks less the 320 of the ramp from 40 % to 0.
+    assert!((679..=681).contains(&held), "{held}");
+    assert_eq!(rows.last().unwrap().1, Stage::Done);
+    // At 40 % in the first part, φ = 0.5 + s²: the speed of the plan times 0.4, its acceleration times 0.16.
+    let ([position, omega, alpha], _) = rows[2900];
+    let time = (position - 0.5).sqrt();
+    assert!((omega - 0.4 * 2.0 * time).abs() < 2e-7, "{omega} {time}");
+    assert!((alpha - 0.16 * 2.0).abs() < 1e-6, "{alpha}");
+}
+
+/// A plan that ends where it begins goes on without a pause; another is refused.
+#[test]
+fn a_closed_plan_is_repeated() {
+    let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
+    let words = image(&trapezoid(), Domain::Turn);
+    let open = Follower::new(Plan::new(&words, &model).unwrap(), 0.001, 0.0, &model).unwrap();
+    assert_eq!(open.repeating().map(|_| ()), Err(PlanError::Open));
+    // One turn a second, evenly.
+    let knot = |t, position| Knot {
+        t,
+        position,
+        omega: TAU,
+        alpha: [0.0; 2],
+    };
+    let words = image(&[knot(0.0, 1.0), knot(1.0, 1.0 + TAU)], Domain::Turn);
+    let plan = Plan::new(&words, &model).unwrap();
+    let mut follower = Follower::new(plan, 0.001, 0.0, &model)
+        .unwrap()
+        .repeating()
+        .unwrap();
+    follower.start();
+    for k in 0..5000 {
+        let planned = follower.next(Rate::FULL);
+        assert_eq!(planned.stage, Stage::Running);
+        assert!((f64::from(planned.motion.omega) - TAU).abs() < 1e-5);
+        let turns = 1.0 / TAU + f64::from(k) * f64::from(0.001_f32);
+        let phase = f64::from(planned.motion.phase.to_bits()) / 2f64.powi(32);
+        let apart = phase - turns;
+        assert!((apart - apart.round()).abs() < 1e-8, "{k}: {phase} {turns}");
+    }
+    for (period, ramp) in [(2.0, 0.0), (0.0, 0.0), (0.001, -1.0), (0.001, f32::NAN)] {
+        assert!(matches!(
+            Follower::new(plan, period, ramp, &model),
+            Err(PlanError::Axis(_))
+        ));
+    }
+}
+
+/// A ramp of minutes at ticks of microseconds, of which each changes the rate by less than a 2²⁵th, is neither faster nor slower than it is asked for: its speed, its acceleration
+/// and the way are those of the closed form.
+#[test]
+fn a_long_ramp_takes_its_time() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let words = evenly(16.0);
+    let plan = Plan::new(&words, &model).unwrap();
+    for (period, ramp) in [
+        (0.000_025_f32, 1000.0_f32),
+        (0.000_062_5, 700.0),
+        (0.000_003, 30.0),
+    ] {
+        let mut follower = Follower::new(plan, period, ramp, &model).unwrap();
+        follower.start();
+        // The first tick takes the rate that is commanded.
+        let first = follower.next(Rate::percent(1));
+        let per_tick = f64::from(period) / f64::from(ramp);
+        let began = first.motion.omega / 2.0;
+        assert!((began - 0.01).abs() < 1e-7, "{began}");
+        let mut last = first;
+        let ticks = 200_000;
+        for _ in 0..ticks {
+            last = follower.next(Rate::FULL);
+        }
+        // This tick's rate is that which the ticks before have reached.
+        let changes = f64::from(ticks) - 1.0;
+        let rate = began + changes * per_tick;
+        let speed = last.motion.omega / 2.0;
+        // Single precision of period over ramp, and of the factor of speeds.
+        let allowed = 2f64.powi(-22) * changes * per_tick + 2f64.powi(-24) * rate;
+        assert!((speed - rate).abs() < allowed, "{period}: {speed} {rate}");
+        let alpha = 2.0 / f64::from(ramp);
+        let found_alpha = last.motion.alpha;
+        assert!(
+            (found_alpha - alpha).abs() < 2f64.powi(-22) * alpha,
+            "{period}: {found_alpha} {alpha}"
+        );
+        // One tick at the first rate, then the mean of both ends of each. The place in a row of 16 s is known to 32 s·2⁻³².
+        let time = f64::from(period) * (began + changes * 0.5 * (began + rate));
+        let place = Place {
+            motion: last.motion,
+            turns: last.turns,
+        };
+        let [position, ..] = found(&place, &model);
+        assert!(
+            (position - 2.0 * time).abs() < 2f64.powi(-22) * 2.0 * time + 2e-8,
+            "{period}: {position} {}",
+            2.0 * time
+        );
+    }
+}
+
+/// The acceleration of a ramp, ω·dr/dt, to the last digit of the number type and the single precision of a factor: also of 16 bits at a short tick, where the speed that a tick
+/// gains is a small part of a digit of speeds.
+#[test]
+fn a_ramp_is_as_fine_as_its_numbers() {
+    fn check<N: Number>(model: &impl MachineUnits<Number = N>, digit: f64) {
+        let words = evenly(100.0);
+        let plan = Plan::new(&words, model).unwrap();
+        let base = f64::from(model.scale().acceleration());
+        let mut worst = 0.0_f64;
+        for (period, ramp) in [
+            (0.000_5_f32, 0.1_f32),
+            (0.000_5, 0.037),
+            (0.000_062_5, 0.9),
+            (0.000_025, 7.3),
+        ] {
+            let mut follower = Follower::new(plan, period, ramp, model).unwrap();
+            follower.start();
+            follower.next(Rate::percent(90));
+            for (commanded, sign) in [(Rate::FULL, 1.0), (Rate::percent(50), -1.0)] {
+                follower.next(commanded);
+                let planned = follower.next(commanded);
+                assert!(!planned.limited);
+                let alpha = planned.motion.alpha.number().to_f64() * base;
+                let exact = sign * 2.0 / f64::from(ramp);
+                let error = (alpha - exact).abs();
+                let allowed = digit * base + 2f64.powi(-22) * exact.abs();
+                assert!(error < allowed, "{ramp}: {alpha} {exact}");
+                worst = worst.max(error / (digit * base));
+            }
+        }
+        // No slack: a fifth of a digit would be too little.
+        assert!(digit == 0.0 || worst > 0.2, "{worst}");
+    }
+    let scale = scale_of(100.0, 10.0, 0.5);
+    check(&in_units::<Spline<f64>>(Domain::Turn, Scale::SI), 0.0);
+    check(&in_units::<Spline<f32>>(Domain::Turn, Scale::SI), 0.0);
+    // A factor gives a whole number of four digits, rounded down; a Q15 is rounded down as well.
+    check(
+        &in_units::<Spline<Q31>>(Domain::Turn, scale),
+        10.0 * 2f64.powi(-31),
+    );
+    check(
+        &in_units::<Rows16>(Domain::Turn, scale),
+        1.0001 * 2f64.powi(-15),
+    );
+}
