@@ -7,7 +7,7 @@ mod follower;
 mod governor;
 mod limits;
 mod look_ahead;
-mod machine;
+pub(crate) mod machine;
 mod messages;
 mod motion;
 mod plan;

@@ -4,6 +4,7 @@
 //! Exact is the tick's formula in double precision, of the words that the table has and the place that the tick reads.
 
 mod f32;
+mod plan;
 mod q15;
 mod q31;
 

@@ -87,7 +87,8 @@ pub struct Planned<N: Number> {
 /// Accuracy: the period counts as a whole number of 2⁻⁴⁰ s, which one of 8 µs and more in single precision is, and no fraction of the plan's time is lost from tick to tick
 /// (test `a_follower_is_on_time`). The rate is summed up in units of 2⁻⁵⁶ and used in units of 2⁻³¹: a change of the rate takes its time to a tick and 2⁻²² of it, however
 /// long it is and however short the tick (test `a_long_ramp_takes_its_time`). Its acceleration is off by 2⁻²⁸ of the greatest that it may have, and by the single precision of a
-/// factor; the sum with that of the plan is rounded once (test `a_ramp_is_as_fine_as_its_numbers`).
+/// factor; the sum with that of the plan is rounded once (test `a_ramp_is_as_fine_as_its_numbers`). A speed times the rate is a unit too small at most, an acceleration times its
+/// square two (`tests/proofs/plan.g`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follower<'a, N> {
     plan: Plan<'a, N>,

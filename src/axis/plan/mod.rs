@@ -40,9 +40,13 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// A tick finds its row by bisection, and computes with integers alone, whatever the numbers of the model are: the same bits on every processor.
 /// The image is checked once; then no read can fail.
 ///
+/// On a stroke a row that leaves it between its ends is refused, too.
+///
 /// Accuracy: beside the motion that it was made of, what its header says ([`errors`](Self::errors)). The arithmetic is off by 2⁻²⁶ of the greatest sum of the
-/// polynomials' terms in the plan at most, of a position in its row, and positions of rows are rounded to 2⁻³² of the range (test `a_plan_follows_its_polynomials`);
-/// the factors to machine units have single precision.
+/// polynomials' terms in the plan at most, of a position in its row; positions of rows are rounded to 2⁻³² of the range, and the time in a row to 2⁻³¹ of H (tests
+/// `a_plan_follows_its_polynomials`, `a_long_row_is_exact`). Beside the row's own words that is −10 … 0 units of the coefficients in the position, −8 … 0 in the speed and −7 … 0 units in the acceleration, as Gappa
+/// proves (`tests/proofs/plan.g`, test `a_plan_keeps_the_proven_bounds`), and a unit of the positions or speeds themselves for each shift. The factors to machine units have single
+/// precision.
 ///
 /// ```
 /// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
