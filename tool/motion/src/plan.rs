@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::axis::Plan as Read;
 use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len};
+use jred::machine::motion::{End, Polynomial, State};
 use jred::table::{Constants, Shape};
 use jred::{Domain, Model, Scale, Spline, Table, curves};
 
@@ -27,6 +28,12 @@ const LOOKED: f64 = 8.0;
 /// Places in a step of the motion at which a plan is looked at.
 const LOOKS: [f64; 5] = [0.02, 0.25, 0.5, 0.75, 0.98];
 
+/// Share of the range by which a row that is looked at may be beyond an end of the stroke: rounding.
+const BEYOND: f64 = 1e-9;
+
+/// Rows that are halved, because they leave the stroke between two looks, before that is an error.
+const HALVED: usize = 256;
+
 /// Units of the time that a plan is asked for, in a second.
 const UNITS: f64 = 1_099_511_627_776.0;
 
@@ -44,8 +51,39 @@ pub struct Plan {
     pub errors: Errors,
     /// The greatest speed and acceleration.
     pub most: [f32; 2],
-    /// Whether it is off by no more than was asked. Otherwise position, speed and acceleration of the motion contradict each other between two nodes.
-    pub faithful: bool,
+    /// Where it is off by more than was asked, if it is: position, speed and acceleration of the motion contradict each other between two nodes.
+    pub excess: Option<Excess>,
+}
+
+/// A quantity by which a plan is off more than it may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// Which one.
+    pub quantity: Quantity,
+    /// By how much it is off, and how much it may be (rad, or m, and s).
+    pub error: f64,
+    /// As `error`.
+    pub allowed: f64,
+    /// When it is off the most (s).
+    pub t: f64,
+}
+
+/// What a plan gives at an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// φ, or s.
+    Position,
+    /// ω, or v.
+    Speed,
+    /// α, or a.
+    Acceleration,
+}
+
+/// What a plan is off by, and when that is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst {
+    error: f64,
+    t: f64,
 }
 
 impl Plan {
@@ -55,19 +93,36 @@ impl Plan {
     /// # Errors
     /// A motion that is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
-        let knots = knots(trace.nodes(), share);
-        let mut words = vec![0; image_len(knots.len())];
-        encode(&knots, domain, machine, Errors::default(), &mut words)?;
-        let (errors, most) = measure(&words, trace, domain)?;
-        encode(&knots, domain, machine, errors, &mut words)?;
-        let [_, speed, acceleration] = bounds(trace.nodes(), share);
-        let within = |error: f32, bound: f64| f64::from(error) <= FAITHFUL * bound;
+        let nodes = apart(trace.nodes());
+        let bounds = bounds(&nodes, share);
+        let mut knots = knots(&nodes, bounds, domain);
+        let write = |knots: &[Knot], errors| {
+            let mut words = vec![0; image_len(knots.len())];
+            encode(knots, domain, machine, errors, &mut words).map(<[u32]>::to_vec)
+        };
+        let mut halved = 0;
+        let draft = loop {
+            match write(&knots, Errors::default()) {
+                Err(PlanError::Stroke(row)) if halved < HALVED => {
+                    halve(&mut knots, &nodes, row as usize);
+                    halved += 1;
+                }
+                other => break other?,
+            }
+        };
+        let (worst, most) = measure(&draft, trace, domain)?;
+        let [position, speed, acceleration] = worst.map(|worst| (worst.error as f32).next_up());
+        let errors = Errors {
+            position,
+            speed,
+            acceleration,
+        };
         Ok(Self {
-            faithful: within(errors.speed, speed) && within(errors.acceleration, acceleration),
             rows: knots.len(),
-            words,
+            words: write(&knots, errors)?,
             errors,
             most,
+            excess: excess(worst, bounds),
         })
     }
 
@@ -89,17 +144,29 @@ fn knot(node: &Node) -> Knot {
     }
 }
 
-/// The knots of the plan: from each one as far as the polynomial through both keeps to the motion.
-fn knots(nodes: &[Node], share: f64) -> Vec<Knot> {
-    let nodes = apart(nodes);
-    let bounds = bounds(&nodes, share);
+/// The first quantity that is off by more than its bound.
+fn excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
+    let quantities = [Quantity::Position, Quantity::Speed, Quantity::Acceleration];
+    let all = quantities.into_iter().zip(worst).zip(bounds);
+    let mut beyond = all.filter(|((_, worst), bound)| worst.error > FAITHFUL * bound);
+    let ((quantity, Worst { error, t }), allowed) = beyond.next()?;
+    Some(Excess {
+        quantity,
+        error,
+        allowed,
+        t,
+    })
+}
+
+/// The knots of the plan: from each one as far as the polynomial through both keeps to the motion, and to the stroke.
+fn knots(nodes: &[Node], bounds: [f64; 3], domain: Domain) -> Vec<Knot> {
     let Some(last) = nodes.len().checked_sub(1) else {
         return Vec::new();
     };
     let mut from = 0;
     let mut kept = vec![knot(&nodes[0])];
     while from < last {
-        let fits = |to: usize| to == from + 1 || keeps(&nodes[from..=to], bounds);
+        let fits = |to: usize| to == from + 1 || keeps(&nodes[from..=to], bounds, domain);
         // Twice as far each time, then the last place between.
         let (mut reached, mut reach) = (from + 1, 2);
         while from + reach <= last && fits(from + reach) {
@@ -120,13 +187,51 @@ fn knots(nodes: &[Node], share: f64) -> Vec<Knot> {
     kept
 }
 
-/// By how much position, speed and acceleration may be off.
+/// Makes two rows of one: at its middle node, or halfway between the two that it has.
+fn halve(knots: &mut Vec<Knot>, nodes: &[Node], row: usize) {
+    let (Some(from), Some(to)) = (knots.get(row), knots.get(row + 1)) else {
+        return;
+    };
+    let first = nodes.partition_point(|node| node.t <= from.t);
+    let behind = nodes.partition_point(|node| node.t < to.t);
+    let middle = match nodes.get(first..behind) {
+        Some(inner) if !inner.is_empty() => knot(&inner[inner.len() / 2]),
+        _ => {
+            let node = |knot: &Knot, step: f64| Node {
+                t: knot.t,
+                step,
+                phi: knot.position,
+                omega: knot.omega,
+                alpha: knot.alpha,
+            };
+            let step = to.t - from.t;
+            let State { phi, omega, alpha } = node(to, step).after(&node(from, 0.0), 0.5);
+            Knot {
+                t: from.t + 0.5 * step,
+                position: phi,
+                omega,
+                alpha: [alpha; 2],
+            }
+        }
+    };
+    knots.insert(row + 1, middle);
+}
+
+/// By how much position, speed and acceleration may be off: shares of the greatest that there are, and at least of the mean speed, and of what takes the greatest speed in the time of the
+/// motion: at constant speed an acceleration is nothing but rounding.
 fn bounds(nodes: &[Node], share: f64) -> [f64; 3] {
     let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let way = most(|node| node.phi) + most(|node| -node.phi);
+    let time = nodes
+        .last()
+        .map_or(0.0, |node| node.t)
+        .max(f64::MIN_POSITIVE);
+    let speed = most(|node| node.omega.abs()).max(way / time);
+    let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
     [
-        OF_WAY * share * (most(|node| node.phi) + most(|node| -node.phi)),
-        share * most(|node| node.omega.abs()),
-        share * most(|node| node.alpha[0].abs().max(node.alpha[1].abs())),
+        OF_WAY * share * way,
+        share * speed,
+        share * acceleration.max(speed / time),
     ]
 }
 
@@ -154,15 +259,28 @@ fn apart(nodes: &[Node]) -> Vec<Node> {
     kept
 }
 
-/// Whether the polynomial from the first node to the last keeps to the nodes between, and to the middles of their steps.
-fn keeps(nodes: &[Node], [position, speed, acceleration]: [f64; 3]) -> bool {
+/// Whether the polynomial of the fifth degree from the first node to the last keeps to the nodes between, and to the middles of their steps.
+fn keeps(nodes: &[Node], [position, speed, acceleration]: [f64; 3], domain: Domain) -> bool {
     let [first, inner @ .., last] = nodes else {
         return true;
     };
-    let through = Quintic::of(first, last);
+    let through = Polynomial::between(
+        last.phi - first.phi,
+        last.t - first.t,
+        End::new(first.omega, first.alpha[1]),
+        End::new(last.omega, last.alpha[0]),
+    );
+    let range = match domain {
+        Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
+        Domain::Stroke { from, to } => {
+            let beyond = BEYOND * (to - from);
+            from - beyond..=to + beyond
+        }
+    };
     let near = |t: f64, phi: f64, omega: f64, alpha: f64| {
-        let [x, v, a] = through.at(t - first.t);
-        (first.phi + x - phi).abs() <= position
+        let [x, v, a, _] = through.at(t - first.t);
+        range.contains(&(first.phi + x))
+            && (first.phi + x - phi).abs() <= position
             && (v - omega).abs() <= speed
             && (a - alpha).abs() <= acceleration
     };
@@ -180,47 +298,12 @@ fn keeps(nodes: &[Node], [position, speed, acceleration]: [f64; 3]) -> bool {
         })
 }
 
-/// The polynomial of the fifth degree through two states.
-struct Quintic {
-    length: f64,
-    omega: f64,
-    /// Coefficients of s² to s⁵ of the position (rad, or m).
-    coefficients: [f64; 4],
-}
-
-impl Quintic {
-    fn of(from: &Node, to: &Node) -> Self {
-        let length = to.t - from.t;
-        let (omega, half) = (from.omega, 0.5 * from.alpha[1] * length * length);
-        let way = to.phi - from.phi - omega * length - half;
-        let gained = (to.omega - omega) * length - 2.0 * half;
-        let raised = to.alpha[0] * length * length - 2.0 * half;
-        Self {
-            length,
-            omega,
-            coefficients: [
-                half,
-                10.0 * way - 4.0 * gained + 0.5 * raised,
-                -15.0 * way + 7.0 * gained - raised,
-                6.0 * way - 3.0 * gained + 0.5 * raised,
-            ],
-        }
-    }
-
-    /// The way, speed and acceleration.
-    fn at(&self, t: f64) -> [f64; 3] {
-        let [a, b, c, d] = self.coefficients;
-        let s = t / self.length;
-        [
-            self.omega * t + s * s * (a + s * (b + s * (c + s * d))),
-            self.omega + s * (2.0 * a + s * (3.0 * b + s * (4.0 * c + s * 5.0 * d))) / self.length,
-            (2.0 * a + s * (6.0 * b + s * (12.0 * c + s * 20.0 * d))) / (self.length * self.length),
-        ]
-    }
-}
-
 /// What the image gives beside the motion, as firmware with numbers of double precision reads it; and its greatest speed and acceleration.
-fn measure(words: &[u32], trace: &Trace, domain: Domain) -> Result<(Errors, [f32; 2]), PlanError> {
+fn measure(
+    words: &[u32],
+    trace: &Trace,
+    domain: Domain,
+) -> Result<([Worst; 3], [f32; 2]), PlanError> {
     // A machine with this range, whatever its inertia: a plan takes range and units of it.
     let table = [1.0 / 6.0; 7];
     let shape = Shape::<Spline<f64>> {
@@ -237,7 +320,7 @@ fn measure(words: &[u32], trace: &Trace, domain: Domain) -> Result<(Errors, [f32
         Domain::Turn => (0.0, TAU),
         Domain::Stroke { from, to } => (from, to - from),
     };
-    let mut errors = [0.0_f64; 3];
+    let mut all = [Worst::default(); 3];
     let short = LOOKED * CLOSE * trace.duration();
     for pair in trace.nodes().windows(2) {
         let [before, after] = [&pair[0], &pair[1]];
@@ -253,16 +336,16 @@ fn measure(words: &[u32], trace: &Trace, domain: Domain) -> Result<(Errors, [f32
             let turned = f64::from(place.turns) + f64::from(place.motion.phase.to_bits()) / RANGE;
             let found = [from + turned * span, place.motion.omega, place.motion.alpha];
             let exact = [exact.phi, exact.omega, exact.alpha];
-            for ((worst, found), exact) in errors.iter_mut().zip(found).zip(exact) {
-                *worst = worst.max((found - exact).abs());
+            for ((worst, found), exact) in all.iter_mut().zip(found).zip(exact) {
+                let error = (found - exact).abs();
+                if error > worst.error {
+                    *worst = Worst {
+                        error,
+                        t: t as f64 / UNITS,
+                    };
+                }
             }
         }
     }
-    let [position, speed, acceleration] = errors.map(|error| (error as f32).next_up());
-    let errors = Errors {
-        position,
-        speed,
-        acceleration,
-    };
-    Ok((errors, plan.most()))
+    Ok((all, plan.most()))
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::axis::plan::{HEADER_WORDS, PlanError};
 use jred_machine::model::coordinate::Coordinate;
-use jred_motion::plan::{Plan, SHARE};
+use jred_motion::plan::{Plan, Quantity, SHARE};
 use jred_motion::trace::{Node, Trace};
 
 /// A motion of nodes at equal times.
@@ -126,6 +126,99 @@ fn two_nodes_at_nearly_one_time_are_one() {
     let plan = Plan::new(&trace, Domain::Turn, 0, SHARE).unwrap();
     assert_eq!(plan.rows, 3);
     assert!(plan.errors.acceleration < 1e-6, "{:?}", plan.errors);
+}
+
+/// Constant speed is a row however exact the plan, alone and between two ramps; a rest and rounding in the accelerations do not cut it.
+#[test]
+fn constant_speed_takes_one_row() {
+    for share in [1e-1, SHARE, 1e-6] {
+        for noise in [0.0, 1e-13] {
+            let trace = motion(1000, 10.0, |t| {
+                [0.3 + 2.0 * t, 2.0, noise * (1e3 * t).sin()]
+            });
+            let plan = Plan::new(&trace, Domain::Turn, 0, share).unwrap();
+            assert_eq!((plan.rows, plan.excess), (2, None), "{share}");
+            // The place in a row of 10 s is known to 16 s·2⁻³².
+            assert!(plan.errors.position < 2e-8, "{:?}", plan.errors);
+            assert!(plan.errors.speed < 3e-7, "{:?}", plan.errors);
+        }
+    }
+    // 2 rad/s² up and down, each for a second, with 2 rad/s for 8 s between.
+    let trace = motion(1000, 10.0, |t| match t {
+        ..1.0 => [t * t, 2.0 * t, 2.0],
+        ..9.0 => [2.0 * t - 1.0, 2.0, 0.0],
+        _ => [18.0 - (10.0 - t).powi(2), 2.0 * (10.0 - t), -2.0],
+    });
+    let mut nodes = trace.nodes().to_vec();
+    nodes[100].alpha = [2.0, 0.0];
+    nodes[900].alpha = [0.0, -2.0];
+    let plan = Plan::new(
+        &Trace::new(Coordinate::Angle, nodes),
+        Domain::Turn,
+        0,
+        SHARE,
+    )
+    .unwrap();
+    assert_eq!((plan.rows, plan.excess), (4, None));
+}
+
+/// A plan says which of its three is off more than it may be, where and by how much.
+#[test]
+fn what_contradicts_itself_is_said() {
+    let even = |contradicts: fn(&mut Node)| {
+        let mut nodes = motion(10, 1.0, |t| [2.0 * t, 2.0, 0.0]).nodes().to_vec();
+        contradicts(&mut nodes[5]);
+        let plan = Plan::new(
+            &Trace::new(Coordinate::Angle, nodes),
+            Domain::Turn,
+            0,
+            SHARE,
+        );
+        plan.unwrap().excess
+    };
+    assert_eq!(even(|_| ()), None);
+    // 0.01 rad too far in two steps of 0.1 s: a speed of 0.1·15/8 rad/s, an acceleration beyond that of the motion's cubic by 0.01·5.77/0.1².
+    let excess = even(|node| node.phi += 0.01).unwrap();
+    assert_eq!(excess.quantity, Quantity::Speed);
+    assert!((excess.allowed - 2e-3).abs() < 1e-12, "{excess:?}");
+    assert!(
+        (excess.error - 0.01 * 15.0 / 8.0 / 0.1).abs() < 1e-5,
+        "{excess:?}"
+    );
+    assert!(
+        (excess.t - 0.45).abs() < 1e-9 || (excess.t - 0.55).abs() < 1e-9,
+        "{excess:?}"
+    );
+}
+
+/// A motion on a stroke that turns at its end, between two of its nodes, and one that is beyond it there.
+#[test]
+fn the_stroke_is_kept() {
+    let domain = Domain::stroke(0.0, 0.5).unwrap();
+    // Up to x = 0.5 − more and back, with −1 m/s² in the middle and a jerk that changes: (1 − cos 2πt)/4.
+    let turning = |count: usize, top: f64| {
+        motion(count, 1.0, move |t| {
+            let angle = TAU * t;
+            [
+                0.5 * top * (1.0 - angle.cos()),
+                0.5 * top * TAU * angle.sin(),
+                0.5 * top * TAU * TAU * angle.cos(),
+            ]
+        })
+    };
+    // With a node at the top and without.
+    for count in [1000, 999, 64, 63] {
+        for share in [1e-1, 1e-2, SHARE] {
+            let plan = Plan::new(&turning(count, 0.5), domain, 0, share).unwrap();
+            assert!(plan.rows < 40, "{count} {share}: {}", plan.rows);
+            assert_eq!(plan.excess, None, "{count} {share}");
+        }
+        let beyond = Plan::new(&turning(count, 0.500_1), domain, 0, SHARE);
+        assert!(
+            matches!(beyond, Err(PlanError::Number(_) | PlanError::Stroke(_))),
+            "{count}: {beyond:?}"
+        );
+    }
 }
 
 #[test]

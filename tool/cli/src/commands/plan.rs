@@ -23,11 +23,8 @@ pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Re
     let machine = jred_machine::export::identifier(&file.title);
     let plan = Plan::new(trace, file.machine.domain(), machine, options.plan_error)
         .map_err(|error| miette!(help = format!("{}", error.cure()), "{error}"))?;
-    if !plan.faithful {
-        output::say(
-            "warning: the plan is off by more than --plan-error: position, speed and acceleration of the motion contradict each other between \
-             two of its instants, as where it nearly stands still",
-        );
+    if let Some(warning) = list::plan::warning(&plan, trace) {
+        output::say(&format!("warning: {warning}"));
     }
     let says = list::plan::text(&plan, trace);
     let source = path

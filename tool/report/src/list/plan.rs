@@ -3,7 +3,7 @@
 use jred::axis::plan::Errors;
 use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
-use jred_motion::plan::Plan;
+use jred_motion::plan::{Excess, Plan, Quantity};
 use jred_motion::trace::Trace;
 
 /// Rows, bytes, and what it is off by.
@@ -27,4 +27,32 @@ pub fn text(plan: &Plan, trace: &Trace) -> String {
         short(acceleration.into()),
         acceleration_unit.unit
     )
+}
+
+/// Where it is off by more than was asked, if it is.
+pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
+    let Excess {
+        quantity,
+        error,
+        allowed,
+        t,
+    } = plan.excess?;
+    let coordinate = trace.coordinate;
+    let [_, acceleration_unit] = coordinate.rates();
+    let shown = |value: f64| match quantity {
+        Quantity::Position => coordinate.shown(value),
+        Quantity::Speed | Quantity::Acceleration => value,
+    };
+    let (name, unit) = match quantity {
+        Quantity::Position => ("position", coordinate.unit()),
+        Quantity::Speed => ("speed", coordinate.speed_unit()),
+        Quantity::Acceleration => ("acceleration", acceleration_unit.unit),
+    };
+    Some(format!(
+        "the plan's {name} is off by {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion contradict each other there, \
+         or the motion is finer than a plan's integers; give a larger --plan-error",
+        short(shown(error)),
+        short(t),
+        short(shown(allowed)),
+    ))
 }

@@ -1,5 +1,6 @@
 //! Ends a simulation where a follower leaves its cam or a rope goes slack.
 
+use jred::machine::motion::{End, Polynomial};
 use jred::{Domain, Reducible as _};
 
 use super::SimulationError;
@@ -69,8 +70,9 @@ impl<'a> Watch<'a> {
         };
         let parts = (PER_RANGE * (to.state[0] - from.state[0]).abs() / span).ceil();
         let parts = parts.clamp(1.0, 1e6) as u32;
+        let way = between([from, to]);
         let at = |share: f64| -> Result<At, SimulationError> {
-            let [phi, omega] = between([from, to], share);
+            let [phi, omega] = way(share);
             let t = from.t + share * (to.t - from.t);
             let alpha = alpha(t, [phi, omega])?;
             Ok(At {
@@ -124,21 +126,18 @@ fn parted(watched: Watched, force: f64, At { t, state }: At) -> SimulationError 
     }
 }
 
-/// φ and ω between two states: the polynomial of the fifth degree with their positions, speeds and accelerations.
-pub(super) fn between([from, to]: [At; 2], share: f64) -> [f64; 2] {
-    let h = to.t - from.t;
+/// φ and ω between two states, at a share of the time: the polynomial of the fifth degree with their positions, speeds and accelerations.
+pub(super) fn between([from, to]: [At; 2]) -> impl Fn(f64) -> [f64; 2] {
+    let span = to.t - from.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
-    // What is left of the way, speed and acceleration after a parabola from the start.
-    let way = q - p - v * h - 0.5 * a * h * h;
-    let speed = (w - v - a * h) * h;
-    let acceleration = (b - a) * h * h;
-    let c3 = 10.0 * way - 4.0 * speed + 0.5 * acceleration;
-    let c4 = -15.0 * way + 7.0 * speed - acceleration;
-    let c5 = 6.0 * way - 3.0 * speed + 0.5 * acceleration;
-    let x = share;
-    let phi = p + x * (v * h + x * (0.5 * a * h * h + x * (c3 + x * (c4 + x * c5))));
-    let slope = v * h + x * (a * h * h + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
-    [phi, if h > 0.0 { slope / h } else { v }]
+    let through =
+        (span > 0.0).then(|| Polynomial::between(q - p, span, End::new(v, a), End::new(w, b)));
+    move |share| {
+        through.map_or([p, v], |through| {
+            let [way, speed, ..] = through.at(share * span);
+            [p + way, speed]
+        })
+    }
 }
 
 #[cfg(test)]
@@ -158,7 +157,7 @@ mod tests {
         };
         let ends = [at(0.2), at(0.9)];
         for share in [0.0, 0.3, 0.71, 1.0] {
-            let [phi, omega] = between(ends, share);
+            let [phi, omega] = between(ends)(share);
             let expected = at(0.2 + 0.7 * share).state;
             assert!((phi - expected[0]).abs() < 1e-14, "{phi}");
             assert!((omega - expected[1]).abs() < 1e-13, "{omega}");

@@ -29,11 +29,11 @@ impl<P> Run<'_, P> {
             self.at(self.within(from.0), &from.1)?,
             self.at(self.within(to.0), &to.1)?,
         ];
-        let inside = self.inside;
+        let (inside, way) = (self.inside, between(ends));
         let at = |share: f64| -> Result<Working, SimulationError> {
             let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
             let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
-            let y = plant.with_link(t, &y, between(ends, share))?;
+            let y = plant.with_link(t, &y, way(share))?;
             let working = plant.working(direction, t, &y)?;
             Ok(working.unwrap_or(first))
         };
