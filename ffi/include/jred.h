@@ -50,7 +50,15 @@ enum {
     JRED_UNITS = 19,        /* the machine units are not those of the table */
     JRED_CONSTANT = 20,     /* a constant friction is negative or not finite */
     JRED_RECIPROCAL = 21,   /* the curve of 1/J is not that of J */
-    JRED_TABLE = 22         /* anything else that is wrong with a table */
+    JRED_TABLE = 22,        /* anything else that is wrong with a table */
+    JRED_NOT_A_PLAN = 23,   /* the words do not begin with "JRPL" */
+    JRED_OTHER_RANGE = 24,  /* the plan was made for another range of the drive link than the model */
+    JRED_PLAN_ROW = 25,     /* a row of the plan is out of order, or has a number that does not fit */
+    JRED_GAP = 26,          /* a row of the plan does not end where the next begins */
+    JRED_STROKE = 27,       /* the plan leaves the stroke */
+    JRED_OPEN = 28,         /* the plan does not end as it begins: it cannot be repeated */
+    JRED_FIGURE = 29,       /* period or ramp do not fit, or the plan is faster than the machine units of the model */
+    JRED_NOT_LOADED = 30    /* there is no model, or no follower, in the memory */
 };
 
 /* The name of a status, such as "JRED_CRC"; "JRED_UNKNOWN" for another number. */
@@ -172,6 +180,65 @@ JRED_RANGE_(f32)
 JRED_RANGE_(q31)
 JRED_RANGE_(q15)
 
+/* ---- plan -------------------------------------------------------------------------------------------------------- */
+
+/* A motion that `jred fastest --plan` or `jred retime --plan` wrote, followed tick by tick at its own pace or slower. Of a machine that
+ * JRED_MODEL has declared,
+ *
+ *     jred_status press_follow(const press_model *, jred_f32_follower *, const uint32_t *plan, size_t length, float period, float ramp);
+ *
+ * checks the plan and makes a follower that waits at its start: `period` is the time of a tick, `ramp` that of a change of the rate from 0 to 100 % (s). The
+ * plan's words must live and stay the same as long as the follower is ticked; the model need not. With n of the model's format:
+ *
+ *     void        jred_n_follower_start(jred_n_follower *);      begins with the next tick, after the end once more from the start
+ *     void        jred_n_follower_reset(jred_n_follower *);      back to the start, where it waits
+ *     jred_status jred_n_follower_repeat(jred_n_follower *);     from now on again and again, if the plan ends as it begins
+ *     jred_stage  jred_n_follower_next(jred_n_follower *, uint32_t percent, jred_n_planned *);       in every tick, with the rate wanted
+ *     jred_status jred_n_follower_plan(jred_n_follower *, jred_plan *);                              what the plan says of itself
+ *
+ * A null pointer, or zeros, is no follower: its set-point is 0, and it waits.
+ */
+typedef int32_t jred_stage;
+enum {
+    JRED_WAITING = 0, /* not started: at the start */
+    JRED_RUNNING = 1,
+    JRED_HELD = 2, /* on the way, with the rate 0 */
+    JRED_DONE = 3  /* at the end, where it stays */
+};
+
+typedef struct {
+    uint32_t rows;
+    float duration;           /* s */
+    float most_speed;         /* rad/s, or m/s */
+    float most_acceleration;  /* rad/s^2, or m/s^2 */
+    float position_error;     /* what the plan is off by at most, beside the motion that it was made of */
+    float speed_error;
+    float acceleration_error;
+    uint32_t machine;         /* identifier of the machine; 0 if it has none: compare it with that of jred_info */
+} jred_plan;
+
+#define JRED_FOLLOWER_WORDS 28
+#define JRED_FOLLOWER_(n)                                                                                                  \
+    typedef struct {                                                                                                       \
+        uint64_t tag; /* 0: no follower */                                                                                 \
+        uint64_t opaque[JRED_FOLLOWER_WORDS];                                                                              \
+    } jred_##n##_follower;                                                                                                 \
+    typedef struct {                                                                                                       \
+        uint32_t phase;                                                                                                    \
+        int32_t turns; /* whole turns since phi = 0; 0 on a stroke */                                                      \
+        jred_##n omega;                                                                                                    \
+        jred_##n alpha;                                                                                                    \
+        bool limited; /* in fixed point the acceleration is beyond its base, with that of a change of the rate */          \
+    } jred_##n##_planned;                                                                                                  \
+    void jred_##n##_follower_start(jred_##n##_follower *follower);                                                         \
+    void jred_##n##_follower_reset(jred_##n##_follower *follower);                                                         \
+    jred_status jred_##n##_follower_repeat(jred_##n##_follower *follower);                                                 \
+    jred_stage jred_##n##_follower_next(jred_##n##_follower *follower, uint32_t percent, jred_##n##_planned *planned);     \
+    jred_status jred_##n##_follower_plan(jred_##n##_follower *follower, jred_plan *plan);
+JRED_FOLLOWER_(f32)
+JRED_FOLLOWER_(q31)
+JRED_FOLLOWER_(q15)
+
 #ifdef __cplusplus
 }
 #endif
@@ -185,11 +252,17 @@ JRED_RANGE_(q15)
                                                                        jred_##n omega, jred_##n torque);                      \
     JRED_C_ void jred_##format##_##family##_acceleration_range(const jred_memory *memory, uint32_t phase, jred_##n omega,     \
                                                                jred_##n least, jred_##n greatest, jred_##n##_range *range);   \
+    JRED_C_ jred_status jred_##format##_follow(const jred_memory *memory, jred_##n##_follower *follower, const uint32_t *plan, \
+                                               size_t length, float period, float ramp);                                      \
     typedef struct {                                                                                                          \
         jred_memory memory;                                                                                                   \
     } name##_model;                                                                                                           \
     static inline jred_status name##_load_words(name##_model *model, const uint32_t *words, size_t length) {                  \
         return jred_##format##_load((jred_memory *)model, set, words, length);                                                \
+    }                                                                                                                         \
+    static inline jred_status name##_follow(const name##_model *model, jred_##n##_follower *follower, const uint32_t *plan,    \
+                                            size_t length, float period, float ramp) {                                        \
+        return jred_##format##_follow((const jred_memory *)model, follower, plan, length, period, ramp);                      \
     }                                                                                                                         \
     static inline jred_##n name##_torque(const name##_model *model, uint32_t phase, jred_##n omega, jred_##n alpha) {         \
         return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque(&model->memory, phase, omega, alpha) : 0;      \

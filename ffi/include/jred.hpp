@@ -22,6 +22,29 @@ private:
     uint32_t bits_;
 };
 
+/// Follows a plan, of a model with this number: jred_f32, jred_q31 or jred_q15. `Class::follow` makes it.
+template <typename Number> class Follower;
+
+#define JRED_FOLLOWER_CLASS_(n)                                                                                        \
+    template <> class Follower<jred_##n> {                                                                             \
+    public:                                                                                                            \
+        typedef jred_##n##_planned Planned;                                                                            \
+        Follower() : follower_() {}                                                                                    \
+        void start() { jred_##n##_follower_start(&follower_); }                                                        \
+        void reset() { jred_##n##_follower_reset(&follower_); }                                                        \
+        jred_status repeat() { return jred_##n##_follower_repeat(&follower_); }                                        \
+        jred_stage next(uint32_t percent, Planned &planned) { return jred_##n##_follower_next(&follower_, percent, &planned); } \
+        jred_status plan(jred_plan &plan) { return jred_##n##_follower_plan(&follower_, &plan); }                      \
+        jred_##n##_follower *c() { return &follower_; }                                                                \
+                                                                                                                       \
+    private:                                                                                                           \
+        jred_##n##_follower follower_;                                                                                 \
+    };
+JRED_FOLLOWER_CLASS_(f32)
+JRED_FOLLOWER_CLASS_(q31)
+JRED_FOLLOWER_CLASS_(q15)
+#undef JRED_FOLLOWER_CLASS_
+
 inline const char *name(jred_status status) { return jred_status_name(status); }
 
 }  // namespace jred
@@ -41,6 +64,9 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
         }                                                                                                             \
         Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                   \
             return machine##_acceleration(&model_, phase.bits(), omega, torque);                                      \
+        }                                                                                                             \
+        jred_status follow(jred::Follower<Number> &follower, const uint32_t *plan, size_t length, float period, float ramp) const { \
+            return machine##_follow(&model_, follower.c(), plan, length, period, ramp);                               \
         }                                                                                                             \
         Range acceleration_range(jred::Phase phase, Number omega, Number least, Number greatest) const {              \
             return machine##_acceleration_range(&model_, phase.bits(), omega, least, greatest);                       \

@@ -2,6 +2,7 @@
 
 use jred::{Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16};
 
+use crate::follower::Follow;
 use crate::memory::Memory;
 use crate::status::Status;
 use crate::ticks::ticks;
@@ -21,6 +22,27 @@ macro_rules! family {
             ) -> Status {
                 // SAFETY: as promised by the caller.
                 memory.map_or(Status::Null, |memory| unsafe { memory.load(set, words, length) })
+            }
+
+            /// # Safety
+            /// `words` is null, or the address of `length` words that live and stay the same as long as the follower is ticked; `memory` and
+            /// `follow` are null, or a `jred_memory` and a follower of this number type.
+            #[unsafe(export_name = concat!("jred_", $name, "_follow"))]
+            unsafe extern "C" fn follow(
+                memory: Option<&Memory<$format>>,
+                follow: Option<&mut Follow<$number>>,
+                words: *const u32,
+                length: usize,
+                period: f32,
+                ramp: f32,
+            ) -> Status {
+                let (Some(memory), Some(follow)) = (memory, follow) else {
+                    return Status::Null;
+                };
+                // SAFETY: as promised by the caller.
+                memory.loaded().map_or(Status::NotLoaded, |model| unsafe {
+                    follow.follow(words, length, [period, ramp], model)
+                })
             }
         };
         ticks!(concat!("jred_", $name, "_any_"), $format, $number, Memory::any);

@@ -9,6 +9,7 @@
 #![allow(unsafe_code, reason = "C calls by names and gives pointers")]
 
 mod families;
+mod follower;
 mod image;
 mod memory;
 mod number;

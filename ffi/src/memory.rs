@@ -73,6 +73,12 @@ impl<F: Format> Memory<F> {
         Ok(())
     }
 
+    /// The model, if there is one.
+    pub(crate) fn loaded(&self) -> Option<&AnyModel<'static, F>> {
+        // SAFETY: the tag says that there is one.
+        (self.tag != 0).then(|| unsafe { self.model.assume_init_ref() })
+    }
+
     /// The model of any set.
     ///
     /// # Safety

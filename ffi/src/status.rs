@@ -2,6 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 
+use jred::axis::plan::PlanError;
 use jred::{ImageError, TableError};
 
 macro_rules! statuses {
@@ -74,6 +75,22 @@ statuses! {
     Reciprocal = 21 c"JRED_RECIPROCAL",
     /// Anything else that is wrong with a table.
     Table = 22 c"JRED_TABLE",
+    /// The words do not begin with "JRPL".
+    NotAPlan = 23 c"JRED_NOT_A_PLAN",
+    /// The plan was made for another range of the drive link than the model.
+    OtherRange = 24 c"JRED_OTHER_RANGE",
+    /// A row of the plan does not begin after the one before, or has a number that does not fit.
+    PlanRow = 25 c"JRED_PLAN_ROW",
+    /// A row of the plan does not end where the next begins.
+    Gap = 26 c"JRED_GAP",
+    /// The plan leaves the stroke.
+    Stroke = 27 c"JRED_STROKE",
+    /// The plan does not end as it begins, so it cannot be repeated.
+    Open = 28 c"JRED_OPEN",
+    /// The period or the ramp of the rate does not fit, or the plan is faster than the machine units of the model.
+    Figure = 29 c"JRED_FIGURE",
+    /// There is no model, or no follower, in the memory.
+    NotLoaded = 30 c"JRED_NOT_LOADED",
 }
 
 impl From<ImageError> for Status {
@@ -110,6 +127,21 @@ impl From<TableError> for Status {
             TableError::Constant => Self::Constant,
             TableError::Reciprocal { .. } => Self::Reciprocal,
             _ => Self::Table,
+        }
+    }
+}
+
+impl From<PlanError> for Status {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::Image(error) => error.into(),
+            PlanError::NotAPlan(_) => Self::NotAPlan,
+            PlanError::Range => Self::OtherRange,
+            PlanError::Gap(_) => Self::Gap,
+            PlanError::Stroke(_) => Self::Stroke,
+            PlanError::Open => Self::Open,
+            PlanError::Axis(_) => Self::Figure,
+            _ => Self::PlanRow,
         }
     }
 }

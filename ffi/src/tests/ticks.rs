@@ -1,0 +1,127 @@
+//! An image is refused or ticked with the bits of Rust.
+
+use core::mem::zeroed;
+use core::ptr::{null, null_mut};
+
+use jred::{Cubic, Image, Model, Phase, Q31, Set, Spline, curves};
+
+use super::{PRESS, Press, press};
+use crate::image::jred_image_info;
+use crate::memory::{ANY, Memory};
+use crate::status::Status;
+
+#[allow(improper_ctypes, reason = "C sees the memory of a model as bytes")]
+unsafe extern "C" {
+    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
+    fn jred_cubic_f32_load(
+        memory: *mut Memory<Cubic<f32>>,
+        set: Set,
+        words: *const u32,
+        length: usize,
+    ) -> i32;
+    fn jred_spline_q31_load(
+        memory: *mut Memory<Spline<Q31>>,
+        set: Set,
+        words: *const u32,
+        length: usize,
+    ) -> i32;
+    fn jred_spline_f32_s21_torque(memory: *const Press, phase: u32, omega: f32, alpha: f32) -> f32;
+    fn jred_spline_f32_s21_acceleration(
+        memory: *const Press,
+        phase: u32,
+        omega: f32,
+        torque: f32,
+    ) -> f32;
+    fn jred_spline_f32_any_torque(memory: *const Press, phase: u32, omega: f32, alpha: f32) -> f32;
+}
+
+#[test]
+fn a_tick_through_c_has_the_bits_of_one_in_rust() {
+    let words = press();
+    let model: Model<'_, Spline<f32>, PRESS> = Image::new(&words).unwrap().model().unwrap();
+    // SAFETY: zeros are no model; the words outlive it.
+    unsafe {
+        let mut memory: Press = zeroed();
+        assert_eq!(
+            jred_spline_f32_load(&raw mut memory, PRESS, words.as_ptr(), words.len()),
+            0
+        );
+        for k in 0..1000u32 {
+            let phase = k.wrapping_mul(4_294_967);
+            let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
+            let torque = model.torque(Phase::from_bits(phase), omega, alpha);
+            let back = model
+                .acceleration(Phase::from_bits(phase), omega, torque)
+                .value;
+            let same = |a: f32, b: f32| assert_eq!(a.to_bits(), b.to_bits(), "{k}");
+            same(
+                jred_spline_f32_s21_torque(&raw const memory, phase, omega, alpha),
+                torque,
+            );
+            same(
+                jred_spline_f32_any_torque(&raw const memory, phase, omega, alpha),
+                torque,
+            );
+            same(
+                jred_spline_f32_s21_acceleration(&raw const memory, phase, omega, torque),
+                back,
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_no_image_of_the_model_is_refused() {
+    let words = press();
+    let (address, length) = (words.as_ptr(), words.len());
+    let status = |status: Status| status as i32;
+    let damaged = |word: usize, bit: u32| {
+        let mut words = words.clone();
+        words[word] ^= bit;
+        words
+    };
+    // SAFETY: zeros are no model; null pointers are allowed; the words outlive the models.
+    unsafe {
+        let (mut memory, mut cubic, mut fixed): (Press, _, _) = (zeroed(), zeroed(), zeroed());
+        let mut load = |set, words: *const u32, length| {
+            jred_spline_f32_load(&raw mut memory, set, words, length)
+        };
+        assert_eq!(load(PRESS, null(), length), status(Status::Null));
+        assert_eq!(
+            load(PRESS, address.byte_add(2), length - 1),
+            status(Status::Misaligned)
+        );
+        for short in [0, 1, 24, length - 1] {
+            assert_eq!(
+                load(PRESS, address, short),
+                status(Status::Length),
+                "{short}"
+            );
+        }
+        assert_eq!(load(curves::LOAD, address, length), status(Status::Set));
+        assert_eq!(load(ANY, address, length), 0);
+        for (word, bit, expected) in [
+            (0, 1, Status::NotAnImage),
+            (1, 1, Status::Version),
+            (2, 1, Status::Length),
+            (30, 1, Status::Crc),
+        ] {
+            let words = damaged(word, bit);
+            assert_eq!(load(PRESS, words.as_ptr(), length), status(expected));
+        }
+        assert_eq!(
+            jred_spline_f32_load(null_mut(), PRESS, address, length),
+            status(Status::Null)
+        );
+        assert_eq!(
+            jred_cubic_f32_load(&raw mut cubic, PRESS, address, length),
+            status(Status::Layout)
+        );
+        assert_eq!(
+            jred_spline_q31_load(&raw mut fixed, PRESS, address, length),
+            status(Status::NumberType)
+        );
+        assert_eq!(jred_image_info(address, length, None), Status::Null);
+        assert_eq!(jred_image_info(null(), 0, None), Status::Null);
+    }
+}
