@@ -68,6 +68,10 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
         jred_status follow(jred::Follower<Number> &follower, const uint32_t *plan, size_t length, float period, float ramp) const { \
             return machine##_follow(&model_, follower.c(), plan, length, period, ramp);                               \
         }                                                                                                             \
+        template <size_t N>                                                                                           \
+        jred_status follow(jred::Follower<Number> &follower, const uint32_t (&plan)[N], float period, float ramp) const { \
+            return follow(follower, plan, N, period, ramp);                                                           \
+        }                                                                                                             \
         Range acceleration_range(jred::Phase phase, Number omega, Number least, Number greatest) const {              \
             return machine##_acceleration_range(&model_, phase.bits(), omega, least, greatest);                       \
         }                                                                                                             \

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! A tick is a torque and an acceleration at a random phase, speed, acceleration and torque: of all that fixed point can hold, or
-//! up to twice the validity of a table in `f32`. Every bit of their results counts. Digests are printed on the way, so that a
+//! up to twice the validity of a table in `f32`. Of a plan it is its state at a random time, and its follower's at a rate that changes. Every bit of their results counts. Digests are printed on the way, so that a
 //! core without a floating-point unit may stop early and still has something to compare.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![forbid(unsafe_code)]
@@ -16,6 +16,8 @@
 #[allow(dead_code, reason = "here everything is printed as bits")]
 mod support;
 
+use jred::axis::plan::PlanError;
+use jred::axis::{Follower, Plan, Rate};
 use jred::harmonic::terms;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
@@ -144,6 +146,9 @@ models! {
     "q31 spline16, 1/J  ": of_model, Spline16, SEED, "../data/q31_spline16_seed.jred";
     "q15 rows           ": of_model, Rows16, PRESS, "../data/q15_rows.jred";
     "q15 rows, 1/J      ": of_model, Rows16, SEED, "../data/q15_rows_seed.jred";
+    "f32 plan           ": of_plan, Spline<f32>, PRESS, "../../data/press_f32.jred";
+    "q31 plan           ": of_plan, Spline<Q31>, PRESS, "../../data/press_q31.jred";
+    "q15 plan           ": of_plan, Rows16, PRESS, "../data/q15_rows.jred";
 }
 
 fn of_model<F: Format<Number: Word>, const SET: Set>(
@@ -160,6 +165,44 @@ fn of_model<F: Format<Number: Word>, const SET: Set>(
         |phase, omega, alpha| model.torque(phase, omega, alpha),
         |phase, omega, torque| model.acceleration(phase, omega, torque),
     )
+}
+
+/// The plan of the press, repeated at a rate that changes every so many ticks, and at random times.
+fn of_plan<F: Format<Number: Word>, const SET: Set>(
+    image: &[u8],
+    run: &mut Run,
+    until: u32,
+) -> Result<(), Failure> {
+    let wrong = |_: PlanError| "the plan is not one of the press";
+    let model: Model<'_, F, SET> = Image::from_bytes(image)?.model()?;
+    let plan = include_image!("../../data/press_plan.jred");
+    let plan = Plan::from_bytes(plan, &model).map_err(wrong)?;
+    let follower = Follower::new(plan, 0.000_5, 0.13, &model);
+    let mut follower = follower.and_then(Follower::repeating).map_err(wrong)?;
+    follower.start();
+    let mut rate = Rate::FULL;
+    while run.ticks < until {
+        if run.ticks.is_multiple_of(128) {
+            rate = Rate::percent(run.random() % 128);
+        }
+        let planned = follower.next(rate);
+        // Up to half a second, a little more than the plan takes.
+        let place = plan.at(u64::from(run.random()) << 7);
+        for (motion, turns, limited) in [
+            (planned.motion, planned.turns, planned.limited),
+            (place.value.motion, place.value.turns, place.saturated),
+        ] {
+            run.digest(motion.phase.to_bits());
+            run.digest(turns.cast_unsigned());
+            for result in [motion.omega.number(), motion.alpha.number()] {
+                run.digest(result.bits().ok_or("a result is not a number")?);
+            }
+            run.digest(limited.into());
+            run.saturated += u32::from(limited);
+        }
+        run.ticks += 1;
+    }
+    Ok(())
 }
 
 /// The whole turn as one piece that starts at some phase.

@@ -3,8 +3,9 @@
 use core::mem::{MaybeUninit, zeroed};
 use core::ptr::null;
 
+use jred::axis::plan::{Errors, Knot, encode, image_len};
 use jred::axis::{Follower, Plan, Rate};
-use jred::{Image, Q15, Q31, Rows16, Set, Spline, include_image};
+use jred::{Domain, Image, Q15, Q31, Rows16, Set, Spline, include_image};
 
 use super::{PRESS, Press, press, words};
 use crate::follower::{CPlan, CPlanned, CStage, Follow};
@@ -276,20 +277,16 @@ fn what_is_no_plan_is_refused() {
         let read = Plan::new(&plan, &read).unwrap();
         assert_eq!(jred_f32_follower_plan(follow, &raw mut figures), 0);
         assert_eq!(figures.assume_init(), CPlan::of(&read));
-        let repeats = Follower::new(
-            read,
-            1e-3,
-            0.1,
-            &Image::new(&image)
-                .unwrap()
-                .any_model::<Spline<f32>>()
-                .unwrap(),
-        );
-        let expected = match repeats.unwrap().repeating() {
-            Ok(_) => 0,
-            Err(_) => status(Status::Open),
-        };
-        assert_eq!(jred_f32_follower_repeat(follow), expected);
+        assert_eq!(jred_f32_follower_repeat(follow), 0);
+        let open = [(0.0, 0.0), (1.0, 1.0)].map(|(t, position)| Knot {
+            t,
+            position,
+            ..Knot::default()
+        });
+        let mut words = vec![0; image_len(2)];
+        encode(&open, Domain::Turn, 0, Errors::default(), &mut words).unwrap();
+        assert_eq!(refused(&words, words.len(), 1e-3, 0.1), 0);
+        assert_eq!(jred_f32_follower_repeat(follow), status(Status::Open));
         // Nobody, and nowhere.
         assert_eq!(
             jred_f32_follower_next(core::ptr::null_mut(), 100, core::ptr::null_mut()),

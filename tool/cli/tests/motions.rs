@@ -216,7 +216,8 @@ fn a_plan_is_the_motion() {
     let folder = Folder::new();
     let press = folder.file("press.toml", press_text());
     let press = press.to_str().unwrap();
-    let [plan, source, table] = ["p.jred", "p.rs", "t.jred"].map(|name| folder.path(name));
+    let [plan, source, c_source, table] =
+        ["p.jred", "p.rs", "press_plan.h", "t.jred"].map(|name| folder.path(name));
     let fastest = |plan: &std::path::Path, format: &str| {
         run(&[
             "fastest",
@@ -257,14 +258,21 @@ fn a_plan_is_the_motion() {
             .collect()
     };
     let (words, table) = (words(&plan), words(&table));
-    let text = std::fs::read_to_string(&source).unwrap();
-    let hexadecimal = text
-        .split("0x")
-        .skip(2)
-        .map(|rest| u32::from_str_radix(&rest[..8], 16).unwrap());
-    assert_eq!(hexadecimal.collect::<Vec<_>>(), words);
+    fastest(&c_source, "table");
+    let [text, c_text] = [&source, &c_source].map(|path| std::fs::read_to_string(path).unwrap());
+    for text in [&text, &c_text] {
+        let hexadecimal = text
+            .split("0x")
+            .skip(2)
+            .map(|rest| u32::from_str_radix(&rest[..8], 16).unwrap());
+        assert_eq!(hexadecimal.collect::<Vec<_>>(), words);
+    }
+    let array = format!("const uint32_t press_plan_words[{}] =", words.len());
+    assert!(c_text.contains(&array), "{c_text}");
     let image = jred::Image::new(&table).unwrap();
     assert!(text.contains(&format!("MACHINE: u32 = 0x{:08x}", image.machine())));
+    let machine = format!("#define PRESS_PLAN_MACHINE 0x{:08x}u", image.machine());
+    assert!(c_text.contains(&machine), "{c_text}");
     let model = image.any_model::<jred::Spline<f32>>().unwrap();
     let read = jred::axis::Plan::new(&words, &model).unwrap();
     let read = read.of_machine(image.machine()).unwrap();

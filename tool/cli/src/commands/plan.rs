@@ -5,7 +5,7 @@ use miette::{Result, miette};
 use crate::options::plan::PlanFile;
 use crate::output;
 use jred::Reducible as _;
-use jred_machine::export::plan_source;
+use jred_machine::export::{plan_c_source, plan_source};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::plain;
 use jred_motion::plan::Plan;
@@ -27,14 +27,15 @@ pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Re
         output::say(&format!("warning: {warning}"));
     }
     let says = list::plan::text(&plan, trace);
-    let source = path
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("rs"));
-    let bytes = if source {
-        let title = format!("{}: {says}", file.title);
-        plan_source(&title, machine, &plan.words).into_bytes()
-    } else {
-        plan.bytes()
+    let title = format!("{}: {says}", file.title);
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let bytes = match ending.to_str() {
+        Some("rs") => plan_source(&title, machine, &plan.words).into_bytes(),
+        Some("h" | "c") => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            plan_c_source(&title, &name, machine, &plan.words).into_bytes()
+        }
+        _ => plan.bytes(),
     };
     output::write(path, &bytes)?;
     Ok(format!("plan written to {}: {says}\n", plain::path(path)))

@@ -65,9 +65,30 @@ fn source(name: &str, data: &str, functions: &str) -> String {
     format!(
         "#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n{data}\n\
-         #ifdef __cplusplus\n}}\n#endif\n\n\
-         #ifdef JRED_H\n{functions}\n#endif\n\n#endif\n"
+         #ifdef __cplusplus\n}}\n#endif\n\n{functions}#endif\n"
     )
+}
+
+/// Where `jred.h` was included before.
+fn with_jred(functions: &str) -> String {
+    format!("#ifdef JRED_H\n{functions}\n#endif\n\n")
+}
+
+/// The identifier that `jred_info` has of an image, and `jred_plan` of a plan, of this machine.
+fn machine_constant(name: &str, machine: u32) -> String {
+    format!(
+        "/* Identifier of the machine: that of another in jred_info is another machine's. */\n\
+         #define {}_MACHINE 0x{machine:08x}u\n\n",
+        name.to_uppercase()
+    )
+}
+
+/// A plan as a source file of C or C++, under the name of its file.
+pub fn plan_c_source(title: &str, file: &str, machine: u32, words: &[u32]) -> String {
+    let name = identifier(file);
+    let data = machine_constant(&name, machine) + &array(&format!("{name}_words"), words);
+    let title = title.replace(['\n', '\r'], " ");
+    format!("// {title}\n{}", source(&name, &data, ""))
 }
 
 impl Export {
@@ -80,24 +101,15 @@ impl Export {
              \x20   return {name}_load_words(model, {name}_words, sizeof {name}_words / sizeof {name}_words[0]);\n\
              }}"
         );
-        let data = self.machine(&name) + &array(&format!("{name}_words"), &table.words);
-        source(&name, &data, &format!("{model}\n{load}"))
-    }
-
-    /// The identifier that `jred_info` has of an image of this machine.
-    fn machine(&self, name: &str) -> String {
-        format!(
-            "/* Identifier of the machine: that of another in jred_info is another machine's. */\n\
-             #define {}_MACHINE 0x{:08x}u\n\n",
-            name.to_uppercase(),
-            self.machine
-        )
+        let data =
+            machine_constant(&name, self.machine) + &array(&format!("{name}_words"), &table.words);
+        source(&name, &data, &with_jred(&format!("{model}\n{load}")))
     }
 
     /// A table for each piece, and where each starts.
     pub(super) fn c_pieces(&self, tables: &[Made]) -> String {
         let name = identifier(&self.name);
-        let mut data = self.machine(&name);
+        let mut data = machine_constant(&name, self.machine);
         for (number, table) in (1..).zip(tables) {
             data += &array(&format!("{name}_words_{number}"), &table.words);
             data.push('\n');
@@ -115,7 +127,7 @@ impl Export {
         data += &constant(&format!("uint32_t {name}_starts[{count}]"), &starts);
         data += &constant(&format!("uint32_t *const {name}_tables[{count}]"), &names);
         data += &constant(&format!("uint32_t {name}_lengths[{count}]"), &lengths);
-        source(&name, &data, &model(&name, self.chosen()))
+        source(&name, &data, &with_jred(&model(&name, self.chosen())))
     }
 }
 

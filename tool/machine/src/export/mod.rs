@@ -18,6 +18,7 @@ mod size;
 mod slider_crank;
 mod ticks;
 
+pub use c_source::plan_c_source;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;

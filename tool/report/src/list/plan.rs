@@ -46,7 +46,7 @@ pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
     let (name, unit) = match quantity {
         Quantity::Position => ("position", coordinate.unit()),
         Quantity::Speed => ("speed", coordinate.speed_unit()),
-        Quantity::Acceleration => ("acceleration", acceleration_unit.unit),
+        Quantity::Acceleration => ("acceleration", &*acceleration_unit.unit),
     };
     Some(format!(
         "the plan's {name} is off by {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion contradict each other there, \
