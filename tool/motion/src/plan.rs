@@ -22,8 +22,11 @@ const FAITHFUL: f64 = 1.5;
 /// Times of rows are closer than this share of the whole only where the motion ends: twice what a plan resolves.
 const CLOSE: f64 = 1.0 / 536_870_912.0;
 
-/// A step of the motion shorter than 8 times `CLOSE` is not looked at: the time of a row is rounded by as much.
+/// A step of the motion shorter than 8 times those is not looked at: the time of a row is rounded by as much.
 const LOOKED: f64 = 8.0;
+
+/// Half a unit at both ends of a row is at most 6 units over its length squared as an acceleration: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
+const ROUNDING: f64 = 6.0;
 
 /// Places in a step of the motion at which a plan is looked at.
 const LOOKS: [f64; 5] = [0.02, 0.25, 0.5, 0.75, 0.98];
@@ -93,8 +96,9 @@ impl Plan {
     /// # Errors
     /// A motion that is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
-        let nodes = apart(trace.nodes());
-        let bounds = bounds(&nodes, share);
+        let bounds = bounds(trace.nodes(), share);
+        let close = CLOSE * trace.duration();
+        let nodes = apart(trace.nodes(), close);
         let mut knots = knots(&nodes, bounds, domain);
         let write = |knots: &[Knot], errors| {
             let mut words = vec![0; image_len(knots.len())];
@@ -110,7 +114,7 @@ impl Plan {
                 other => break other?,
             }
         };
-        let (worst, most) = measure(&draft, trace, domain)?;
+        let (worst, most) = measure(&draft, trace, domain, LOOKED * close)?;
         let [position, speed, acceleration] = worst.map(|worst| (worst.error as f32).next_up());
         let errors = Errors {
             position,
@@ -235,9 +239,21 @@ fn bounds(nodes: &[Node], share: f64) -> [f64; 3] {
     ]
 }
 
+/// The range in which positions of rows are counted (rad, or m).
+const fn span(domain: Domain) -> f64 {
+    match domain {
+        Domain::Turn => TAU,
+        Domain::Stroke { from, to } => to - from,
+    }
+}
+
+/// A unit of positions (rad, or m).
+const fn unit(domain: Domain) -> f64 {
+    span(domain) / RANGE
+}
+
 /// Nodes that a plan tells apart: of two that are closer one, which goes on as the second does.
-fn apart(nodes: &[Node]) -> Vec<Node> {
-    let close = CLOSE * nodes.last().map_or(0.0, |node| node.t);
+fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
     let mut kept: Vec<Node> = Vec::with_capacity(nodes.len());
     for node in nodes {
         match kept.last_mut() {
@@ -277,6 +293,10 @@ fn keeps(nodes: &[Node], [position, speed, acceleration]: [f64; 3], domain: Doma
             from - beyond..=to + beyond
         }
     };
+    // What rounding the positions of both ends takes can be exceeded as well.
+    let length = last.t - first.t;
+    let rounded = ROUNDING * unit(domain) / length;
+    let (speed, acceleration) = (speed.max(rounded), acceleration.max(rounded / length));
     let near = |t: f64, phi: f64, omega: f64, alpha: f64| {
         let [x, v, a, _] = through.at(t - first.t);
         range.contains(&(first.phi + x))
@@ -303,6 +323,7 @@ fn measure(
     words: &[u32],
     trace: &Trace,
     domain: Domain,
+    short: f64,
 ) -> Result<([Worst; 3], [f32; 2]), PlanError> {
     // A machine with this range, whatever its inertia: a plan takes range and units of it.
     let table = [1.0 / 6.0; 7];
@@ -317,11 +338,10 @@ fn measure(
     let model = model.map_err(|error| PlanError::Image(error.into()))?;
     let plan = Read::new(words, &model)?;
     let (from, span) = match domain {
-        Domain::Turn => (0.0, TAU),
-        Domain::Stroke { from, to } => (from, to - from),
+        Domain::Turn => (0.0, span(domain)),
+        Domain::Stroke { from, .. } => (from, span(domain)),
     };
     let mut all = [Worst::default(); 3];
-    let short = LOOKED * CLOSE * trace.duration();
     for pair in trace.nodes().windows(2) {
         let [before, after] = [&pair[0], &pair[1]];
         let step = after.t - before.t;
