@@ -16,12 +16,14 @@ mod obstacle;
 mod phases;
 pub mod plane;
 mod programme;
+mod rms;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use jred::machine::motion::State;
 use jred::{Domain, Reducible as _};
 use jred_machine::model::machine::MachineFile;
 
@@ -32,6 +34,8 @@ use field::{Field, speed};
 use leg::Step;
 pub use obstacle::NoMotion;
 pub use phases::Phase;
+pub use programme::{Price, Start, Warm};
+pub use rms::Rms;
 use sweep::Piece;
 pub use tool_speed::ToolSpeed;
 use track::{Ends, Track};
@@ -59,6 +63,9 @@ const MOST_CHANGE: f64 = 1e-6;
 
 /// Cells in a turn of a machine that changes within it, about the middle of the way where they are longest.
 const PER_TURN: f64 = 16.0;
+
+/// Share of what a limit may be exceeded by that rounding may make of it.
+const ROUNDED: f64 = 1e-3;
 
 /// Places between two nodes at which that is looked at.
 const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
@@ -106,12 +113,12 @@ pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fas
         return endless::solve(file, actuator, task);
     }
     if task.limits.has_rates() {
-        return priced(file, actuator, task, 0.0);
+        return priced(file, actuator, task, Price::TIME, Start::Nothing).map(|(found, _)| found);
     }
     refine(file, actuator, task, WITHIN)
 }
 
-/// The motion with the least sum of its time and `price` (s/(N²·m²·s)) times the integral of the motor torque's square.
+/// The motion with the least price.
 ///
 /// # Errors
 /// Those of [`solve`].
@@ -119,13 +126,14 @@ pub fn priced(
     file: &MachineFile,
     actuator: &Actuator,
     task: &Task,
-    price: f64,
-) -> Result<Fastest, NoMotion> {
+    price: Price,
+    start: Start,
+) -> Result<(Fastest, Warm), NoMotion> {
     let free = Task {
         limits: task.limits.without_rates(),
         ..*task
     };
-    let bound = time(file, actuator, &free)?;
+    let bound = refine(file, actuator, &free, f64::INFINITY)?;
     let way = way(file, actuator, task)?;
     let field = Field {
         way: &way,
@@ -141,10 +149,30 @@ pub fn priced(
     let asked = programme::Asked {
         field: &field,
         ends: &ends,
-        bound,
+        bound: bound.time,
+        rise: rise(&field, &bound.trace)? / bound.time,
         price,
     };
-    asked.solve()
+    asked.solve(start)
+}
+
+/// The time (s) in which the accelerations of a motion's ends rise from zero under the limits of rates.
+fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
+    let [Some(first), Some(last)] = [trace.nodes().first(), trace.nodes().last()] else {
+        return Ok(0.0);
+    };
+    let mut most = 0.0_f64;
+    for (node, alpha) in [(first, first.alpha[1]), (last, last.alpha[0])] {
+        let place = field.way.place(node.phi)?;
+        let demand = field
+            .way
+            .demand(&place, node.omega.abs(), alpha * field.way.direction);
+        let limits = &field.limits;
+        let own = |limit: Option<f64>, change: f64| limit.map_or(0.0, |limit| change.abs() / limit);
+        most = most.max(own(limits.jerk, alpha));
+        most = most.max(own(limits.torque_rate, alpha * demand.per_acceleration));
+    }
+    Ok(most)
 }
 
 /// The time (s) of the fastest motion alone, without a look at what is between its nodes.
@@ -326,6 +354,18 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
     Trace::new(way.coordinate(), nodes)
 }
 
+/// The state at a share of a step that must be right within a share of itself. Of a step so short that rounding of the speeds makes another
+/// acceleration, that of the nodes counts.
+fn within_step(a: &Node, b: &Node, share: f64, within: f64) -> State<f64> {
+    let state = b.after(a, share);
+    let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
+    if rounding > ROUNDED * within.min(1.0) * (a.alpha[1].abs() + b.alpha[0].abs()) {
+        let alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
+        return State { alpha, ..state };
+    }
+    state
+}
+
 /// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
 /// which cells must meet so that it is no more than `within`. Each step is looked at in its own time, however short it is.
 fn excess(
@@ -345,20 +385,13 @@ fn excess(
         let inside = ends.inside(cell.length);
         let mut most = 0.0_f64;
         for share in LOOKS {
-            let state = b.after(a, share);
+            let state = within_step(a, b, share, within);
             // A place at a corner has the values of its own side.
             let x = (state.phi - ends.from) * direction;
             let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
             let place = way.place(ends.from + direction * x)?;
-            let mut alpha = state.alpha;
-            // Of a step so short that rounding of the speeds makes another acceleration, the sweep's own counts.
-            let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
-            if rounding > 1e-3 * within.min(1.0) * (a.alpha[1].abs() + b.alpha[0].abs()) {
-                alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
-            }
-            let (v, alpha) = (state.omega * direction, alpha * direction);
-            most = most.max(v / field.tool_speed(place.phi)? - 1.0);
-            most = most.max(field.excess(&place, v, alpha));
+            let (v, alpha) = (state.omega * direction, state.alpha * direction);
+            most = most.max(field.excess_by(&place, v, alpha)?.0);
         }
         if most > largest.0 {
             largest = (most, a.phi);

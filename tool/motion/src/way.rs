@@ -271,6 +271,11 @@ impl<'a> Way<'a> {
         acceleration
     }
 
+    /// Whether the torque of the motor bends where power changes its direction.
+    pub fn bends(&self) -> bool {
+        !self.is_linear(&self.actuator.coefficients)
+    }
+
     /// Whether the torque is one straight line in the acceleration.
     fn is_linear(&self, c: &Coefficients) -> bool {
         let [_, driving, back, ..] = c.0;

@@ -20,8 +20,8 @@ use jred_machine::model::variator;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
-use jred_motion::fastest::cycle::{Cycle, Rms, cycle, endless, single};
-use jred_motion::fastest::{Limits, NoMotion, Reserve, Task, ToolSpeed};
+use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
+use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task, ToolSpeed};
 use jred_motion::moves::{NoMoves, parts, ring};
 use jred_motion::way::Actuator;
 use jred_report::list;
@@ -235,12 +235,6 @@ fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limi
         motor_coordinate(file),
     )?;
     let has_rates = jerk.is_some() || torque_rate.is_some();
-    if options.max_tool_speed.is_some() && (has_rates || options.max_rms.is_some()) {
-        return Err(miette!(
-            help = "leave one of them out",
-            "--max-tool-speed goes neither with --max-jerk and --max-torque-rate nor with --max-rms: that motion is not computed"
-        ));
-    }
     if options.ends == Some(Ends::Zero) && !has_rates {
         return Err(miette!(
             help = "give --max-jerk or --max-torque-rate as well",

@@ -5,6 +5,7 @@ use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 
 use super::field::{Binding, Limits};
+use super::rms::{Asked, Refused, Rms, slowest, within};
 use super::{Fastest, NoMotion, Task, priced, solve};
 use crate::moves::{Move, Part};
 use crate::trace::{Node, Trace};
@@ -73,32 +74,6 @@ pub struct MotorLoad {
     pub pause: Option<f64>,
 }
 
-/// A limit of the RMS torque over a motion with its pauses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rms {
-    /// The S1 torque of the motor at the mean speed, without what the reserve leaves unused.
-    Continuous,
-    /// A torque (N·m).
-    Torque(f64),
-}
-
-impl Rms {
-    fn of(self, load: &MotorLoad) -> f64 {
-        match self {
-            Self::Continuous => load.allowed,
-            Self::Torque(torque) => torque,
-        }
-    }
-}
-
-/// Factor from one price to the next until the RMS torque is small enough, and the most such steps.
-const DEARER: f64 = 4.0;
-const MOST_DEARER: u32 = 20;
-
-/// Steps of the search for the price, and the share by which the RMS torque may lie below its limit at its end.
-const PRICES: u32 = 40;
-const BELOW: f64 = 1e-8;
-
 /// Makes every move of a motion as fast as possible.
 ///
 /// # Errors
@@ -110,65 +85,17 @@ pub fn cycle(
     rms: Option<Rms>,
     parts: &[Part],
 ) -> Result<Cycle, (usize, NoMotion)> {
-    let at = |price: Option<f64>| at_price(file, actuator, limits, parts, price);
-    within(rms, at, |why| (0, why))
-}
-
-/// The motion whose RMS torque is within a limit, from the one of each price (s/(N²·m²·s)) of the torque's square. The sum of time and price
-/// times ∫T² dt is least, so no motion with as little ∫T² takes less time, as far as each of these motions is the best of its price.
-fn within<E>(
-    rms: Option<Rms>,
-    at: impl Fn(Option<f64>) -> Result<Cycle, E>,
-    refuse: impl Fn(NoMotion) -> E,
-) -> Result<Cycle, E> {
-    let free = at(None)?;
-    let Some(rms) = rms else { return Ok(free) };
-    let over = |cycle: &Cycle| cycle.load.rms / rms.of(&cycle.load) - 1.0;
-    if over(&free) <= 0.0 {
-        return Ok(free);
-    }
-    let limit = rms.of(&free.load);
-    let mut price = 0.1 / (limit * limit);
-    let mut cheap = (0.0, over(&free));
-    let mut dear = None;
-    let mut least = free.load.rms;
-    for _ in 0..MOST_DEARER {
-        let found = at(Some(price))?;
-        let own = over(&found);
-        if own <= 0.0 {
-            dear = Some((price, own, found));
-            break;
-        }
-        cheap = (price, own);
-        least = found.load.rms;
-        price *= DEARER;
-    }
-    let Some((mut price, mut own, mut best)) = dear else {
-        return Err(refuse(NoMotion::RmsTooLarge {
-            rms: least,
-            allowed: limit,
-        }));
-    };
-    for k in 0..PRICES {
-        if own >= -BELOW {
-            break;
-        }
-        // The secant's place, a little on the dear side; every third time the middle.
-        let secant = cheap.0 + (price - cheap.0) * cheap.1 / (cheap.1 - own);
-        let next = if k % 3 == 2 {
-            cheap.0.midpoint(price)
-        } else {
-            secant + 1e-3 * (price - secant)
-        };
-        let found = at(Some(next))?;
-        let excess = over(&found);
-        if excess <= 0.0 {
-            (price, own, best) = (next, excess, found);
-        } else {
-            cheap = (next, excess);
-        }
-    }
-    Ok(best)
+    let ways = parts.iter().filter_map(|part| match part {
+        Part::Move(step) => Some([step.from, step.to]),
+        Part::Dwell { .. } => None,
+    });
+    let slow = slowest(file, actuator, ways).map_err(|why| (0, why.into()))?;
+    let at = |asked: &mut Asked| at_price(file, actuator, limits, parts, asked);
+    let found = within(rms, slow, at).map_err(|why| match why {
+        Refused::Move(why) => why,
+        Refused::Limit(why) => (0, why),
+    });
+    found.map(|found| with_costs(file, actuator, found))
 }
 
 fn at_price(
@@ -176,7 +103,7 @@ fn at_price(
     actuator: &Actuator,
     limits: Limits,
     parts: &[Part],
-    price: Option<f64>,
+    asked: &mut Asked,
 ) -> Result<Cycle, (usize, NoMotion)> {
     let start = parts.first().map_or(0.0, |part| match part {
         Part::Move(step) => step.from,
@@ -200,8 +127,15 @@ fn at_price(
                     limits,
                     endless: false,
                 };
-                let made = make(file, actuator, &task, Some(step.duration), price)
-                    .map_err(|why| (moves.len(), why))?;
+                let made = make(
+                    file,
+                    actuator,
+                    &task,
+                    Some(step.duration),
+                    asked,
+                    moves.len(),
+                )
+                .map_err(|why| (moves.len(), why))?;
                 trace.then(made.fastest.trace.nodes());
                 moves.push(made);
             }
@@ -228,8 +162,8 @@ pub fn single(
     task: Task,
     rms: Option<Rms>,
 ) -> Result<Cycle, NoMotion> {
-    let at = |price: Option<f64>| -> Result<Cycle, NoMotion> {
-        let made = make(file, actuator, &task, None, price)?;
+    let at = |asked: &mut Asked| -> Result<Cycle, NoMotion> {
+        let made = make(file, actuator, &task, None, asked, 0)?;
         let trace = made.fastest.trace.clone();
         Ok(Cycle {
             load: load(file, actuator, &trace, task.limits.reserve.rms)?,
@@ -239,7 +173,11 @@ pub fn single(
             dwells: 0.0,
         })
     };
-    within(rms, at, |why| why)
+    let slow = slowest(file, actuator, [[task.from, task.to]])?;
+    let found = within(rms, slow, at).map_err(|why| match why {
+        Refused::Move(why) | Refused::Limit(why) => why,
+    });
+    found.map(|found| with_costs(file, actuator, found))
 }
 
 /// A motion that turns for ever, of the given period, as fast as possible; without limits of rates and of the RMS torque.
@@ -259,9 +197,18 @@ pub fn endless(
         limits,
         endless: true,
     };
-    let mut made = make(file, actuator, &task, Some(step.duration), None)?;
+    let mut made = make(
+        file,
+        actuator,
+        &task,
+        Some(step.duration),
+        &mut Asked::default(),
+        0,
+    )?;
     let trace = made.fastest.trace.clone();
     let speed = trace.nodes().first().map_or(0.0, |node| node.omega.abs());
+    let priced = false;
+    made.costs = costs(file, actuator, &made, priced);
     made.task.speeds = [speed; 2];
     Ok(Cycle {
         load: load(file, actuator, &trace, limits.reserve.rms)?,
@@ -272,19 +219,46 @@ pub fn endless(
     })
 }
 
+/// The move of this number; what its limits cost is not known yet.
 fn make(
     file: &MachineFile,
     actuator: &Actuator,
     task: &Task,
     before: Option<f64>,
-    price: Option<f64>,
+    asked: &mut Asked,
+    number: usize,
 ) -> Result<Made, NoMotion> {
-    let fastest = match price {
+    let fastest = match asked.price {
         None => solve(file, actuator, task)?,
-        Some(price) => priced(file, actuator, task, price)?,
+        Some(price) => {
+            let (fastest, warm) = priced(file, actuator, task, price, asked.start(number))?;
+            asked.keep(number, warm);
+            fastest
+        }
     };
+    Ok(Made {
+        costs: Vec::new(),
+        task: *task,
+        before,
+        fastest,
+    })
+}
+
+/// With what the limits cost each move.
+fn with_costs(
+    file: &MachineFile,
+    actuator: &Actuator,
+    (mut cycle, priced): (Cycle, bool),
+) -> Cycle {
+    for made in &mut cycle.moves {
+        made.costs = costs(file, actuator, made, priced);
+    }
+    cycle
+}
+
+fn costs(file: &MachineFile, actuator: &Actuator, made: &Made, priced: bool) -> Vec<Cost> {
     let mut met: Vec<Binding> = Vec::new();
-    for phase in &fastest.phases {
+    for phase in &made.fastest.phases {
         // Driving and braking are one motor.
         let limit = match phase.limit {
             Binding::Braking => Binding::Driving,
@@ -294,23 +268,21 @@ fn make(
             met.push(limit);
         }
     }
-    if price.is_some() {
+    if priced {
         // The price of the torque is that of the whole cycle: what another limit costs is not known without it.
         met.retain(|limit| *limit == Binding::RmsTorque);
     }
     let cost = |limit: Binding| {
-        let (actuator, limits) = without(actuator, task.limits, limit);
-        let eased = Task { limits, ..*task };
+        let (actuator, limits) = without(actuator, made.task.limits, limit);
+        let eased = Task {
+            limits,
+            ..made.task
+        };
         // Where no motion is found the limit is not what it costs time.
         let time = super::time(file, &actuator, &eased).ok()?;
         Some(Cost { limit, time })
     };
-    Ok(Made {
-        costs: met.into_iter().filter_map(cost).collect(),
-        task: *task,
-        before,
-        fastest,
-    })
+    met.into_iter().filter_map(cost).collect()
 }
 
 /// The same without a limit, or with more of the motor's own.

@@ -3,6 +3,7 @@
 use jred::Error;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
+use jred_sizing::motor::envelope::{Curve, Piece};
 
 use super::tool_speed::ToolSpeed;
 use crate::way::{Place, Way};
@@ -122,6 +123,9 @@ impl Limits {
         }
     }
 }
+
+/// Share of the torque at rest by which straight lines may miss a torque-speed curve.
+const CONCAVE: f64 = 1e-12;
 
 /// A limit that a motion can be at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -255,6 +259,31 @@ impl Field<'_, '_> {
         [true, false].map(|braking| self.motor_torque(v, braking))
     }
 
+    /// The motor's torque as straight lines of which the lowest holds, each its torque at rest and its slope by the speed of the drive link;
+    /// `None`: it is no such curve.
+    pub fn torque_lines(&self, braking: bool) -> Option<Vec<[f64; 2]>> {
+        let pieces = self.way.actuator.envelope.limit(braking).pieces();
+        let reserve = &self.limits.reserve;
+        let (left, per_speed) = (reserve.leaves(reserve.torque), self.way.motor_speed(1.0));
+        let lines = pieces.iter().map(|piece| match piece.curve {
+            Curve::Line { start, slope } => Some([start - slope * piece.from, slope]),
+            Curve::Winding { .. } => None,
+        });
+        let lines: Vec<[f64; 2]> = lines.collect::<Option<_>>()?;
+        let scale = pieces.first()?.torque(0.0);
+        let lowest = |speed: f64| {
+            let each = lines.iter().map(|[torque, slope]| torque + slope * speed);
+            each.fold(f64::INFINITY, f64::min)
+        };
+        let is_lowest = |piece: &Piece| {
+            [piece.from, piece.to.min(self.motor_end())]
+                .iter()
+                .all(|speed| (piece.torque(*speed) - lowest(*speed)).abs() <= CONCAVE * scale)
+        };
+        let scaled = |[torque, slope]: &[f64; 2]| [left * torque, left * slope * per_speed];
+        (pieces.iter().all(is_lowest)).then(|| lines.iter().map(scaled).collect())
+    }
+
     /// At rest, in a motion that begins: the torque that keeps the machine moving, and what the limit gives, both at the shaft of the
     /// limit.
     pub fn needed_and_given(&self, place: &Place, limit: Binding, braking: bool) -> [f64; 2] {
@@ -320,27 +349,48 @@ impl Field<'_, '_> {
         self.part(place, z, a, limit, true)
     }
 
-    /// The largest share by which a state (speed and acceleration along the way) exceeds a limit; negative: none. A torque at its limit is
-    /// measured by that of the motor at rest: the limit itself may be nothing.
-    pub fn excess(&self, place: &Place, v: f64, acceleration: f64) -> f64 {
+    /// The largest share by which a state (speed and acceleration along the way) exceeds a limit, and which; negative: none. A torque at its
+    /// limit is measured by that of the motor at rest: the limit itself may be nothing.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn excess_by(
+        &self,
+        place: &Place,
+        v: f64,
+        acceleration: f64,
+    ) -> Result<(f64, Binding), Error> {
         let way = self.way;
         let limits = self.motor_torques(v);
         let scale = self.motor_torques(0.0).map(f64::abs);
         let torque = way.demand(place, v, acceleration).torque;
-        let mut most = (torque - limits[1]) / scale[1];
-        most = most.max((limits[0] - torque) / scale[0]);
-        most = most.max(v / self.top().0 - 1.0);
-        if let Some(limit) = self.limits.gearbox_torque {
-            let torque = way.gearbox_demand(place, v, acceleration).torque;
-            most = most.max(torque.abs() / limit - 1.0);
-        }
-        if let Some(limit) = self.limits.acceleration {
-            most = most.max(acceleration / limit - 1.0);
-        }
-        if let Some(limit) = self.limits.deceleration {
-            most = most.max(-acceleration / limit - 1.0);
-        }
-        most
+        let (top, which) = self.top();
+        let share = |value: f64, limit: Option<f64>| {
+            limit.map_or(f64::NEG_INFINITY, |limit| value / limit - 1.0)
+        };
+        let gearbox = self.limits.gearbox_torque;
+        let gearbox = share(
+            gearbox.map_or(0.0, |_| {
+                way.gearbox_demand(place, v, acceleration).torque.abs()
+            }),
+            gearbox,
+        );
+        let Limits {
+            acceleration: most,
+            deceleration,
+            ..
+        } = self.limits;
+        let all = [
+            ((torque - limits[1]) / scale[1], Binding::Driving),
+            ((limits[0] - torque) / scale[0], Binding::Braking),
+            (v / top - 1.0, which),
+            (v / self.tool_speed(place.phi)? - 1.0, Binding::ToolSpeed),
+            (gearbox, Binding::GearboxTorque),
+            (share(acceleration, most), Binding::Acceleration),
+            (share(-acceleration, deceleration), Binding::Deceleration),
+        ];
+        let first = (f64::NEG_INFINITY, Binding::Driving);
+        Ok(all.into_iter().fold(first, higher))
     }
 
     fn part(&self, place: &Place, z: f64, a: f64, limit: Binding, braking: bool) -> u32 {

@@ -97,15 +97,25 @@ pub enum NoMotion {
     },
     /// Even slow motions take more RMS torque than allowed.
     RmsTooLarge {
-        /// RMS torque (N·m) of the fastest motion.
+        /// Least RMS torque (N·m) that was found.
         rms: f64,
         /// What it may be.
         allowed: f64,
+        /// Least torque (N·m) at which the machine moves slowly, on the way of any move.
+        slow: f64,
     },
     /// No motion within limits of jerk, torque rate or RMS torque was found.
     NotFound {
         /// Time (s) of the fastest motion without these limits.
         bound: f64,
+        /// The limit at which the search ended, if it is one.
+        limit: Option<Binding>,
+        /// Where (rad, or m).
+        phi: f64,
+        /// Share of the limit by which it is exceeded there.
+        missed: f64,
+        /// In whose words it is said.
+        axis: Axis,
     },
     /// No acceleration is left.
     Empty {
@@ -220,9 +230,10 @@ impl NoMotion {
             Self::RmsTooLarge { .. } => {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
-            Self::NotFound { .. } => {
-                "choose another limit of the jerk, the torque rate or the RMS torque: a larger or a smaller one may be found".to_owned()
-            }
+            Self::NotFound { limit, .. } => match limit {
+                Some(limit) => format!("allow a larger {}, or give a longer way", limit.name()),
+                None => "give another limit: a slightly larger or smaller one may be found".to_owned(),
+            },
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
             }
@@ -263,17 +274,39 @@ impl NoMotion {
                 short(*before),
                 short(*after)
             ),
-            Self::RmsTooLarge { rms, allowed } => write!(
+            Self::RmsTooLarge { rms, allowed, slow } => write!(
                 f,
-                "no motion with an RMS torque of {} N m was found: the one with the least heat has {} N m. Where weight or friction keep it above the limit, a slower one may have less, but is not sought",
+                "no motion has an RMS torque of {} N m or less: the least that was found, at whatever speed, is {} N m, and moving slowly takes at least {} N m of weight and friction",
                 short(*allowed),
-                short(*rms)
+                short(*rms),
+                short(*slow)
             ),
-            Self::NotFound { bound } => write!(
-                f,
-                "no motion within the limits of jerk, torque rate or RMS torque was found; without them the fastest motion takes {} s",
-                short(*bound)
-            ),
+            Self::NotFound {
+                bound,
+                limit,
+                phi,
+                missed,
+                axis,
+            } => {
+                match limit {
+                    Some(limit) => write!(
+                        f,
+                        "no motion within the limits was found: the {} is exceeded by {} % at {}",
+                        limit.name(),
+                        short(100.0 * missed),
+                        axis.place(*phi)
+                    )?,
+                    None => write!(
+                        f,
+                        "the search for a motion within the limits of jerk, torque rate or RMS torque did not come to its end, though no limit is exceeded where it stopped"
+                    )?,
+                }
+                write!(
+                    f,
+                    "; without limits of jerk, torque rate and RMS torque the fastest motion takes {} s",
+                    short(*bound)
+                )
+            }
             Self::NoTorqueLimit => write!(
                 f,
                 "the motor's peak torque is not known, so nothing limits the acceleration"

@@ -17,18 +17,20 @@ use crate::gentlest::mesh::dot;
 use crate::gentlest::shape::Shape;
 use crate::gentlest::{self};
 
-use super::field::{Field, Limits};
+use super::field::{Binding, Field, Limits};
 use super::track::Ends;
 use super::{Fastest, NoMotion};
-use interior::{Point, minimise};
+use interior::{Point, Stuck, minimise};
+pub use limits::Price;
 use limits::{Margins, Problem};
 use mesh::{Border, Form, Mesh};
+use outcome::Worst;
 
 /// Pieces of the first mesh, and the most.
 const PIECES: [usize; 2] = [24, 1500];
 
 /// Rounds of finer pieces.
-const ROUNDS: u32 = 14;
+const ROUNDS: u32 = 24;
 
 /// Change of the time, as a share, at which finer pieces gain nothing.
 const SETTLED: f64 = 2e-9;
@@ -40,8 +42,8 @@ const MOVES: u32 = 3;
 const HALVED: u32 = 3;
 const LONGEST: f64 = 0.006;
 
-/// Share of u of the ends along which the path is that of a constant jerk.
-const RAMP: f64 = 0.25;
+/// Least and largest share of u of the ends along which the path is that of a constant jerk.
+const RAMP: [f64; 2] = [1e-6, 0.25];
 
 /// Shares of an even pace from which the motion is sought, by the fastest one without limits of rates.
 const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
@@ -51,12 +53,18 @@ const ROUGH: [f64; 2] = [0.1, 1e-5];
 const FINER: [f64; 2] = [1e-2, 1e-8];
 const LAST: [f64; 2] = [1e-3, 1e-10];
 
+/// Share of itself by which a limit is missed where it stands in the way.
+const FEASIBLE: f64 = 1e-6;
+
+/// Share of the motor's torque at rest, at the drive link, over which bends of the torque are rounded.
+const RANGE: f64 = 0.01;
+
 /// Places closer than this share of u are one.
 const APART: f64 = 1e-9;
 
 /// Share by which a limit may be exceeded between the nodes of the motion, and how often margins are widened for it.
 const WITHIN: f64 = 2e-7;
-const WIDENED: u32 = 8;
+const WIDENED: u32 = 24;
 
 /// What is asked.
 pub(super) struct Asked<'a> {
@@ -64,15 +72,39 @@ pub(super) struct Asked<'a> {
     pub(super) ends: &'a Ends,
     /// Time (s) of the fastest motion without limits of rates and without heat.
     pub(super) bound: f64,
-    /// Seconds that a second with one N²·m² of the torque's square costs.
-    pub(super) price: f64,
+    /// Share of that time that its accelerations at the ends take to rise under the limits of rates; 0: there are none.
+    pub(super) rise: f64,
+    /// What is least.
+    pub(super) price: Price,
 }
 
 /// The motion on a mesh.
+#[derive(Clone, Debug)]
 struct Found {
     mesh: Mesh,
     point: Point,
     time: f64,
+}
+
+/// A motion from which one of another price is sought.
+#[derive(Clone, Debug)]
+pub struct Warm {
+    borders: Vec<Border>,
+    found: Found,
+    margins: Vec<Margins>,
+    /// Share of the time by which it changed with the last pieces.
+    change: f64,
+}
+
+/// From where a motion is sought.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'w> {
+    /// From nothing.
+    Nothing,
+    /// From another motion, with pieces of its own.
+    Near(&'w Warm),
+    /// On the pieces of another motion, so that a small change of the price makes a small one of the motion.
+    Beside(&'w Warm),
 }
 
 /// A border between two pieces of a smooth machine.
@@ -85,87 +117,148 @@ const fn inner(u: f64) -> Border {
     }
 }
 
+/// More borders; `None`: there are none.
+fn with(borders: &[Border], more: Vec<Border>) -> Option<Vec<Border>> {
+    if more.is_empty() {
+        return None;
+    }
+    let mut all: Vec<Border> = borders.iter().copied().chain(more).collect();
+    all.sort_by(|a, b| a.u.total_cmp(&b.u));
+    Some(all)
+}
+
+/// The middles of long pieces.
+fn longest_halved(borders: &[Border]) -> Vec<Border> {
+    let longer = |piece: &&[Border]| piece[1].u - piece[0].u > LONGEST;
+    let pieces = borders.windows(2).filter(longer);
+    pieces
+        .map(|piece| inner(piece[0].u.midpoint(piece[1].u)))
+        .collect()
+}
+
 impl Asked<'_> {
     /// The motion.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere, a load jumps under a limit of the torque rate, or no motion was found.
-    pub(super) fn solve(&self) -> Result<Fastest, NoMotion> {
+    pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
         self.refuse_jumps()?;
         let shape = Shape::new(self.form_of_ends());
-        let mut borders = self.first_borders(&shape);
-        let mut found = self.first(&shape, &borders)?;
-        let mut change = f64::INFINITY;
-        for _ in 0..ROUNDS {
-            let finer = self.finer(&found);
-            if finer.is_empty() || borders.len() + finer.len() > PIECES[1] {
-                break;
-            }
-            borders.extend(finer);
-            borders.sort_by(|a, b| a.u.total_cmp(&b.u));
-            let Some(next) = self.next(&shape, &borders, &found, &[], FINER)? else {
+        let beside = match start {
+            Start::Beside(warm) => self.beside(&shape, warm)?,
+            _ => None,
+        };
+        let mut warm = match (beside, start) {
+            (Some(warm), _) => warm,
+            (None, Start::Nothing) => self.refined(&shape, None)?,
+            (None, Start::Near(warm) | Start::Beside(warm)) => self.refined(&shape, Some(warm))?,
+        };
+        let mut trace = self.trace(&shape, &warm.found);
+        let mut worst = Worst::NONE;
+        for _ in 0..WIDENED {
+            let Ok(next) = self.next(&shape, &warm.borders, &warm.found, &warm.margins, LAST)?
+            else {
                 break;
             };
-            change = (next.time - found.time).abs() / next.time;
-            found = next;
-            if change < SETTLED {
+            warm.found = next;
+            trace = self.trace(&shape, &warm.found);
+            worst = self.widen(&trace, &mut warm.margins)?;
+            if worst.excess <= WITHIN {
                 break;
             }
         }
-        for _ in 0..MOVES {
-            let Some(moved) = self.moved(&borders, &found, &self.trace(&shape, &found)) else {
-                break;
-            };
-            let Some(next) = self.next(&shape, &moved, &found, &[], FINER)? else {
-                break;
-            };
-            change = (next.time - found.time).abs() / next.time;
-            (found, borders) = (next, moved);
+        if worst.excess > super::MOST_EXCESS {
+            return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
-        for _ in 0..HALVED {
-            let longer = |piece: &[Border]| piece[1].u - piece[0].u > LONGEST;
-            let finer = borders.windows(2).filter(|piece| longer(piece));
-            let finer: Vec<Border> = finer
-                .map(|piece| inner(piece[0].u.midpoint(piece[1].u)))
-                .collect();
-            let mut halved = borders.clone();
-            halved.extend(finer);
-            halved.sort_by(|a, b| a.u.total_cmp(&b.u));
-            let Some(next) = self.next(&shape, &halved, &found, &[], FINER)? else {
-                break;
+        let time = trace.duration();
+        let fastest = Fastest {
+            time,
+            error: warm.change.min(1.0) * time,
+            phases: self.phases(&warm.found, &trace),
+            trace,
+            excess: worst.excess,
+            cells: warm.found.mesh.elements.len(),
+            bound: Some(self.bound),
+        };
+        Ok((fastest, warm))
+    }
+
+    fn not_found(&self, limit: Option<Binding>, phi: f64, missed: f64) -> NoMotion {
+        NoMotion::NotFound {
+            bound: self.bound,
+            limit,
+            phi,
+            missed,
+            axis: self.field.way.file.axis(),
+        }
+    }
+
+    /// On the pieces of another motion; `None`: it is too far away.
+    fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
+        let next = self.next(shape, &warm.borders, &warm.found, &warm.margins, FINER)?;
+        Ok(next.ok().map(|found| Warm {
+            found,
+            ..warm.clone()
+        }))
+    }
+
+    /// On pieces that are made finer until the time is settled.
+    fn refined(&self, shape: &Shape, warm: Option<&Warm>) -> Result<Warm, NoMotion> {
+        let started = match warm {
+            Some(warm) => {
+                let plain = |border: &Border| Border {
+                    is_plain: false,
+                    ..*border
+                };
+                let borders: Vec<Border> = warm.borders.iter().map(plain).collect();
+                let found = self.next(shape, &borders, &warm.found, &[], FINER)?;
+                found.ok().map(|found| (borders, found))
+            }
+            None => None,
+        };
+        let (mut borders, mut found) = match started {
+            Some(started) => started,
+            None => {
+                let borders = self.first_borders(shape);
+                let found = self.first(shape, &borders)?;
+                (borders, found)
+            }
+        };
+        let mut change = warm.map_or(f64::INFINITY, |warm| warm.change);
+        let mut rounds = [ROUNDS, MOVES, HALVED];
+        while let Some(round) = rounds.iter().position(|left| *left > 0) {
+            rounds[round] -= 1;
+            let next = match round {
+                0 => with(&borders, self.finer(&found)),
+                1 => self.moved(&borders, &found, &self.trace(shape, &found)),
+                _ => with(&borders, longest_halved(&borders)),
             };
-            change = (next.time - found.time).abs() / next.time;
-            (found, borders) = (next, halved);
+            let next = next.filter(|next| next.len() <= PIECES[1]);
+            let solved = match next {
+                Some(next) => {
+                    let solved = self.next(shape, &next, &found, &[], FINER)?;
+                    solved.ok().map(|solved| (next, solved))
+                }
+                None => None,
+            };
+            let Some((next, solved)) = solved else {
+                rounds[round] = 0;
+                continue;
+            };
+            change = (solved.time - found.time).abs() / solved.time;
+            (borders, found) = (next, solved);
+            if round == 0 && change < SETTLED {
+                rounds[round] = 0;
+            }
         }
         for (border, changes) in borders.iter_mut().zip(self.changes(&found)) {
             border.is_plain = changes[1];
         }
-        let mut margins = vec![Margins::default(); borders.len() - 1];
-        let mut trace = self.trace(&shape, &found);
-        let mut excess = f64::INFINITY;
-        for _ in 0..WIDENED {
-            let Some(next) = self.next(&shape, &borders, &found, &margins, LAST)? else {
-                break;
-            };
-            found = next;
-            trace = self.trace(&shape, &found);
-            excess = self.widen(&trace, &mut margins)?;
-            if excess <= WITHIN {
-                break;
-            }
-        }
-        if excess > super::MOST_EXCESS {
-            return Err(NoMotion::NotFound { bound: self.bound });
-        }
-        let time = trace.duration();
-        Ok(Fastest {
-            time,
-            error: change.min(1.0) * time,
-            phases: self.phases(&found, &trace),
-            trace,
-            excess,
-            cells: found.mesh.elements.len(),
-            bound: Some(self.bound),
+        Ok(Warm {
+            margins: vec![Margins::default(); borders.len() - 1],
+            borders,
+            found,
+            change,
         })
     }
 
@@ -173,10 +266,19 @@ impl Asked<'_> {
         &self.field.limits
     }
 
+    /// Share of u of the ends along which the acceleration rises.
+    fn ramp(&self) -> f64 {
+        self.rise.clamp(RAMP[0], RAMP[1])
+    }
+
     fn form_of_ends(&self) -> gentlest::Ends {
         gentlest::Ends {
             rest: self.ends.speeds.map(|speed| speed == 0.0),
-            ramp: if self.limits().level_ends { RAMP } else { 0.0 },
+            ramp: if self.limits().level_ends {
+                self.ramp()
+            } else {
+                0.0
+            },
             ring: false,
         }
     }
@@ -200,12 +302,23 @@ impl Asked<'_> {
             smooth: self.limits().has_rates(),
         };
         Ok(Mesh::new(
-            self.field.way,
+            self.field,
             [start, distance],
             shape,
             form,
             borders,
         )?)
+    }
+
+    /// Load at the drive link over which the bends of the torque are rounded, where power changes its direction.
+    fn range(&self) -> f64 {
+        let way = self.field.way;
+        if way.bends() {
+            let torques = self.field.motor_torques(0.0).map(f64::abs);
+            RANGE * torques[0].max(torques[1]) * way.motor_speed(1.0)
+        } else {
+            0.0
+        }
     }
 
     fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins]) -> Problem<'m> {
@@ -215,6 +328,8 @@ impl Asked<'_> {
             unit: self.bound,
             pace: self.ends.length / self.bound,
             price: self.price,
+            range: self.range(),
+            lines: [true, false].map(|braking| self.field.torque_lines(braking)),
             margins,
         }
     }
@@ -246,12 +361,22 @@ impl Asked<'_> {
         let mesh = self.mesh(shape, borders)?;
         let margins = vec![Margins::default(); mesh.elements.len()];
         let problem = self.problem(&mesh, &margins);
-        let found = STARTS
-            .into_iter()
-            .find_map(|pace| minimise(&problem, &mesh.even(pace * pace), ROUGH));
-        let point = found.ok_or(NoMotion::NotFound { bound: self.bound })?;
-        let time = self.time(&mesh, &point.x);
-        Ok(Found { mesh, point, time })
+        let mut stuck = None;
+        for pace in STARTS {
+            match minimise(&problem, &mesh.even(pace * pace), ROUGH) {
+                Ok(point) => {
+                    let time = self.time(&mesh, &point.x);
+                    return Ok(Found { mesh, point, time });
+                }
+                Err(why) => stuck = stuck.or(Some(why)),
+            }
+        }
+        let stuck = stuck.filter(|stuck| stuck.missed > FEASIBLE);
+        let phi = stuck.map_or(self.ends.from, |stuck| {
+            mesh.stations[stuck.station].place.phi
+        });
+        let missed = stuck.map_or(0.0, |stuck| stuck.missed);
+        Err(self.not_found(stuck.and_then(|stuck| stuck.limit), phi, missed))
     }
 
     /// From another mesh; without margins if none are given.
@@ -262,17 +387,18 @@ impl Asked<'_> {
         before: &Found,
         margins: &[Margins],
         barrier: [f64; 2],
-    ) -> Result<Option<Found>, NoMotion> {
+    ) -> Result<Result<Found, Stuck>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let start = mesh.refined(&before.mesh, &before.point.x);
         let none = vec![Margins::default(); mesh.elements.len()];
         let margins = if margins.is_empty() { &none } else { margins };
         let problem = self.problem(&mesh, margins);
-        let Some(point) = minimise(&problem, &start, barrier) else {
-            return Ok(None);
-        };
-        let time = self.time(&mesh, &point.x);
-        Ok(Some(Found { mesh, point, time }))
+        let point = minimise(&problem, &start, barrier)
+            .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
+        Ok(point.map(|point| {
+            let time = self.time(&mesh, &point.x);
+            Found { mesh, point, time }
+        }))
     }
 
     /// The time (s).

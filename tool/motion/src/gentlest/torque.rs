@@ -65,15 +65,27 @@ impl Torque {
         [speed, acceleration]: [f64; 2],
         range: f64,
     ) -> Self {
+        Self::rounded_of(place, acceleration, range, |place| {
+            way.demand(place, speed, acceleration)
+        })
+    }
+
+    /// The same of what a state asks for at any shaft.
+    pub(crate) fn rounded_of(
+        place: &Place,
+        acceleration: f64,
+        range: f64,
+        demand_of: impl Fn(&Place) -> Demand,
+    ) -> Self {
         if range == 0.0 {
-            return Self::exact(way, place, speed, acceleration);
+            return Self::of(place, acceleration, demand_of);
         }
         let [low, high] = [-range, range].map(|by| {
             let place = Place {
                 load: place.load + by,
                 ..*place
             };
-            Self::exact(way, &place, speed, acceleration)
+            Self::of(&place, acceleration, &demand_of)
         });
         let rise = high.by_load - low.by_load;
         if rise <= STRAIGHT * high.by_load {

@@ -1,7 +1,7 @@
 //! The RMS torque as a limit.
 
-use jred_motion::fastest::cycle::{Rms, cycle, single};
-use jred_motion::fastest::{Limits, NoMotion, Task};
+use jred_motion::fastest::cycle::{cycle, single};
+use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
 use jred_motion::moves::{Move, Part};
 
 use super::{close, motor, table, task};

@@ -3,7 +3,7 @@
 use super::interior::Programme as _;
 use super::limits::Margins;
 use super::mesh::{Border, SHARES};
-use super::{Asked, Found, inner};
+use super::{Asked, Found, RAMP, inner};
 use crate::fastest::field::Binding;
 use crate::trace::{Node, Trace};
 
@@ -11,7 +11,7 @@ use crate::trace::{Node, Trace};
 const MET: f64 = 1e-3;
 
 /// Pieces are not cut to less than this share of u: w″ is a difference of second order, whose last digits are those of w by the square of
-/// the length.
+/// the length. What a larger limit of the rates leaves of them is less.
 const SHORTEST: f64 = 6e-4;
 
 impl Asked<'_> {
@@ -65,9 +65,14 @@ impl Asked<'_> {
     /// Middles of the pieces in which the limit that is met changes.
     pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
         let pieces = found.mesh.elements.iter().zip(self.changes(found));
+        let shortest = if self.limits().has_rates() {
+            SHORTEST * (self.ramp() / RAMP[1]).sqrt()
+        } else {
+            SHORTEST
+        };
         let finer = pieces.filter_map(|(element, [changes, _])| {
             let [from, to] = element.span;
-            (changes && to - from > 2.0 * SHORTEST).then(|| inner(from.midpoint(to)))
+            (changes && to - from > 2.0 * shortest).then(|| inner(from.midpoint(to)))
         });
         finer.collect()
     }

@@ -5,8 +5,9 @@
 //! ```
 //!
 //! where each f and c depends on the values y of one piece. Newton's method on the conditions of optimality with s·λ = μ·weight, μ falling
-//! to zero; slacks and multipliers are eliminated, so that the matrix has the band of the pieces. What bends a limit downwards is left out
-//! of the matrix where it would not be positive definite. The start may violate limits.
+//! to zero; slacks and multipliers are eliminated, so that the matrix has the band of the pieces. What bends downwards is left out
+//! of the matrix where it would not be positive definite. A step is as long as it leads to a point that misses limits less, or costs less, than
+//! each point before (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
 
 use super::mesh::{Local, Mesh, VALUES};
 use crate::fastest::field::Binding;
@@ -22,7 +23,7 @@ pub(super) struct Term {
     pub(super) value: f64,
     pub(super) gradient: Local,
     /// Second derivatives as factors of squares of linear forms.
-    pub(super) bends: [(f64, Local); 2],
+    pub(super) bends: [(f64, Local); 4],
     /// Share in the barrier.
     pub(super) weight: f64,
 }
@@ -36,7 +37,7 @@ impl Term {
             station: 0,
             value: 0.0,
             gradient: [0.0; VALUES],
-            bends: [(0.0, [0.0; VALUES]); 2],
+            bends: [(0.0, [0.0; VALUES]); 4],
             weight,
         }
     }
@@ -59,8 +60,11 @@ pub(super) struct Point {
     pub(super) multipliers: Vec<f64>,
 }
 
-/// Most steps.
-const STEPS: u32 = 400;
+/// Most steps with one μ.
+const STEPS: u32 = 80;
+
+/// Shares by which stationarity and limits may be missed after so many.
+const BENT: [f64; 2] = [1e-2, 1e-6];
 
 /// Most halvings of a step.
 const HALVINGS: u32 = 30;
@@ -82,6 +86,9 @@ const GAP: f64 = 2.0;
 const IDLE: u32 = 3;
 const ROUNDED: f64 = 1e-8;
 
+/// Share of what limits are missed by that a step must gain.
+const FILTER: f64 = 1e-5;
+
 /// Least slack at the start, and as a multiple of μ.
 const SLACK: [f64; 2] = [1e-2, 10.0];
 
@@ -100,15 +107,31 @@ struct Steps {
     multipliers: Vec<f64>,
 }
 
-/// The minimum, from a point, with μ falling from one value to another. `None`: the method does not come to its end.
+/// Where the method came to no end: the limit that is missed most there, at which station and by which share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stuck {
+    pub(super) limit: Option<Binding>,
+    pub(super) station: usize,
+    pub(super) missed: f64,
+}
+
+/// The minimum, from a point, with μ falling from one value to another.
+///
+/// # Errors
+/// The method does not come to its end.
 pub(super) fn minimise(
     programme: &impl Programme,
     start: &[f64],
     [first, last]: [f64; 2],
-) -> Option<Point> {
+) -> Result<Point, Stuck> {
     let mesh = programme.mesh();
     let mut mu = first;
-    let mut at = Iterate::new(programme, start.to_vec())?;
+    let nowhere = Stuck {
+        limit: None,
+        station: 0,
+        missed: 0.0,
+    };
+    let mut at = Iterate::new(programme, start.to_vec()).ok_or(nowhere)?;
     let least = SLACK[0].min(SLACK[1] * first);
     at.slacks = at
         .rows
@@ -117,9 +140,10 @@ pub(super) fn minimise(
         .collect();
     let each = at.rows.iter().zip(&at.slacks);
     let mut lambda: Vec<f64> = each.map(|(row, s)| mu * row.weight / s).collect();
-    let mut penalty = 1.0_f64;
+    let mut filter = Vec::new();
     let mut idle = 0;
-    for _ in 0..STEPS {
+    let mut steps_of_mu = 0;
+    loop {
         let kkt = Kkt::new(mesh, &at, &lambda);
         loop {
             let missed = kkt.missed(&at, &lambda, mu);
@@ -129,25 +153,35 @@ pub(super) fn minimise(
             } else {
                 (10.0 * mu).clamp(STATIONARY, 0.1)
             };
-            if missed[0] > enough || missed[1] > mu.clamp(FEASIBLE, 1e-3) || missed[2] > GAP {
+            let is_rounded = idle >= IDLE && at.missed() <= ROUNDED;
+            // Where a torque bends the gradient jumps: steps across the bend lead nowhere, and what is left there is small.
+            let is_bent = steps_of_mu >= STEPS && missed[0] < BENT[0] && missed[1] < BENT[1];
+            if !(is_rounded || is_bent)
+                && (missed[0] > enough || missed[1] > mu.clamp(FEASIBLE, 1e-3) || missed[2] > GAP)
+            {
                 break;
             }
             if done {
-                return Some(at.point(lambda));
+                return Ok(at.point(lambda));
             }
             mu = (0.2 * mu).min(mu.powf(1.2)).max(last);
+            (idle, steps_of_mu) = (0, 0);
+            filter.clear();
         }
-        let steps = kkt.steps(mesh, &at, &lambda, mu)?;
+        if idle >= IDLE || steps_of_mu >= STEPS {
+            return Err(at.stuck());
+        }
+        steps_of_mu += 1;
+        let Some(steps) = kkt.steps(mesh, &at, &lambda, mu) else {
+            return Err(at.stuck());
+        };
         let dual = longest(&lambda, &steps.multipliers);
-        let sums = lambda.iter().zip(&steps.multipliers).map(|(l, d)| l + d);
-        let need = sums.fold(0.0, f64::max);
-        if penalty < 1.5 * need {
-            penalty = 2.0 * need;
-        }
         // Near the solution of its μ Newton's step is right even where it bends out of a limit by more than it gains.
         let missed = kkt.missed(&at, &lambda, mu);
         let is_near = missed[0] < CLOSE[0] && missed[1] < CLOSE[1];
-        let (next, gains) = at.after(programme, &steps, [mu, penalty], is_near)?;
+        let Some((next, gains)) = at.after(programme, &steps, mu, &mut filter, is_near) else {
+            return Err(at.stuck());
+        };
         at = next;
         idle = if gains { 0 } else { idle + 1 };
         for (k, (l, d)) in lambda.iter_mut().zip(&steps.multipliers).enumerate() {
@@ -156,18 +190,7 @@ pub(super) fn minimise(
             let center = mu * at.rows[k].weight / at.slacks[k];
             *l = l.clamp(1e-8 * center, 1e8 * center);
         }
-        if idle >= IDLE {
-            if at.missed() > ROUNDED {
-                return None;
-            }
-            if mu <= last {
-                return Some(at.point(lambda));
-            }
-            mu = (0.2 * mu).max(last);
-            idle = 0;
-        }
     }
-    None
 }
 
 impl Iterate {
@@ -189,41 +212,51 @@ impl Iterate {
         }
     }
 
+    fn stuck(&self) -> Stuck {
+        let worst = (self.rows.iter()).max_by(|a, b| a.value.total_cmp(&b.value));
+        Stuck {
+            limit: worst.and_then(|row| row.limit),
+            station: worst.map_or(0, |row| row.station),
+            missed: worst.map_or(0.0, |row| row.value),
+        }
+    }
+
     /// The largest share by which a limit with its slack is missed.
     fn missed(&self) -> f64 {
         let each = self.rows.iter().zip(&self.slacks);
         each.map(|(row, s)| row.value + s).fold(0.0, f64::max)
     }
 
-    /// Cost, barrier, and what missed limits cost.
-    fn merit(&self, [mu, penalty]: [f64; 2]) -> f64 {
+    /// By how much limits with their slacks are missed, and cost with barrier.
+    fn merits(&self, mu: f64) -> [f64; 2] {
         let cost: f64 = self.terms.iter().map(|term| term.value).sum();
-        let each = self.rows.iter().zip(&self.slacks);
-        let limits = each.map(|(row, s)| penalty * misses(row, *s) - mu * row.weight * s.ln());
-        cost + limits.sum::<f64>()
+        let each = || self.rows.iter().zip(&self.slacks);
+        let barrier: f64 = each().map(|(row, s)| mu * row.weight * s.ln()).sum();
+        [each().map(|(row, s)| misses(row, *s)).sum(), cost - barrier]
     }
 
-    /// What a step promises to the merit.
-    fn promise(&self, mesh: &Mesh, steps: &Steps, [mu, penalty]: [f64; 2]) -> f64 {
+    /// What a step promises to cost and barrier.
+    fn promise(&self, mesh: &Mesh, steps: &Steps, mu: f64) -> f64 {
         let terms = self.terms.iter().map(|term| along(mesh, term, &steps.x));
-        let mut slope: f64 = terms.sum();
-        for (k, row) in self.rows.iter().enumerate() {
-            let s = self.slacks[k];
-            slope -= mu * row.weight / s * steps.slacks[k] + penalty * misses(row, s);
-        }
-        slope
+        let slacks = self.rows.iter().zip(&self.slacks).zip(&steps.slacks);
+        terms.sum::<f64>()
+            - slacks
+                .map(|((row, s), d)| mu * row.weight / s * d)
+                .sum::<f64>()
     }
 
-    /// After as much of a step as lowers the merit, or, if it is taken as it is, as stays inside; and whether anything was gained.
+    /// After as much of a step as is better than all points of the filter, or, if it is taken as it is, as stays inside; and whether anything
+    /// was gained.
     fn after(
         &self,
         programme: &impl Programme,
         steps: &Steps,
-        barrier: [f64; 2],
+        mu: f64,
+        filter: &mut Vec<[f64; 2]>,
         as_it_is: bool,
     ) -> Option<(Self, bool)> {
-        let now = self.merit(barrier);
-        let slope = self.promise(programme.mesh(), steps, barrier);
+        let now = self.merits(mu);
+        let slope = self.promise(programme.mesh(), steps, mu);
         let mut share =
             longest(&self.slacks, &steps.slacks).min(programme.reach(&self.x, &steps.x));
         for halvings in 0..=HALVINGS {
@@ -234,16 +267,34 @@ impl Iterate {
                 next.slacks = slacks
                     .map(|((s, d), row)| (s + share * d).max(-row.value))
                     .collect();
-                let least = now + 1e-4 * share * slope.min(0.0) + 1e-13 * now.abs();
-                let gains = as_it_is || next.merit(barrier) <= least;
-                if gains || halvings == HALVINGS {
-                    return Some((next, gains));
+                let then = next.merits(mu);
+                // Where the step promises much of the cost against what is missed, the cost must fall.
+                let is_of_cost = slope < 0.0 && share * slope.powi(2) > now[0];
+                let is_gain = if is_of_cost {
+                    then[1] <= now[1] + 1e-4 * share * slope + 1e-13 * now[1].abs()
+                } else {
+                    is_better(then, now)
+                };
+                let gains = is_gain && filter.iter().all(|old| is_better(then, *old));
+                if as_it_is || gains || halvings == HALVINGS {
+                    if !is_of_cost {
+                        filter.push(now);
+                    }
+                    if !gains {
+                        filter.clear();
+                    }
+                    return Some((next, as_it_is || gains));
                 }
             }
             share *= 0.5;
         }
         None
     }
+}
+
+/// Whether a point misses limits less than another, or costs less.
+fn is_better(then: [f64; 2], now: [f64; 2]) -> bool {
+    then[0] <= (1.0 - FILTER) * now[0] || then[1] <= now[1] - FILTER * now[0] + 1e-13 * now[1].abs()
 }
 
 /// By how much a limit with its slack is missed; less than what rounding leaves is nothing.
@@ -352,7 +403,9 @@ impl Kkt {
             };
             for term in &at.terms {
                 for (factor, form) in &term.bends {
-                    add(term.element, *factor, form);
+                    if bends_down || *factor > 0.0 {
+                        add(term.element, *factor, form);
+                    }
                 }
             }
             for (k, row) in rows.iter().enumerate() {

@@ -32,6 +32,24 @@ pub(super) struct Margins {
     pub(super) rate: f64,
 }
 
+/// What is least: `time` times the duration (s) and `heat` times ∫T² dt (N²·m²·s). The time may count less than nothing: where a weight is
+/// held a slower motion has less RMS torque until it takes more of ∫T² than of the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Price {
+    /// Of a second.
+    pub time: f64,
+    /// Of a second with 1 N²·m² (1/(N²·m²)).
+    pub heat: f64,
+}
+
+impl Price {
+    /// The duration alone.
+    pub const TIME: Self = Self {
+        time: 1.0,
+        heat: 0.0,
+    };
+}
+
 /// A programme on a mesh.
 pub(super) struct Problem<'a> {
     pub(super) field: &'a Field<'a, 'a>,
@@ -40,8 +58,12 @@ pub(super) struct Problem<'a> {
     pub(super) unit: f64,
     /// Mean speed (rad/s, or m/s) in that time.
     pub(super) pace: f64,
-    /// What the square of the motor torque (N²·m²) costs, in seconds a second: 0, time alone.
-    pub(super) price: f64,
+    /// What is least.
+    pub(super) price: Price,
+    /// Load (N·m) over which bends of the torque are rounded.
+    pub(super) range: f64,
+    /// The motor's torque limits as straight lines, braking and driving.
+    pub(super) lines: [Option<Vec<[f64; 2]>>; 2],
     /// Of each piece.
     pub(super) margins: &'a [Margins],
 }
@@ -53,6 +75,8 @@ struct Effort {
     gradient: Local,
     /// Factor of the square of w's basis in the second derivatives.
     bend: f64,
+    /// Where power changes its direction: a factor, and the form whose square it belongs to.
+    turn: (f64, Local),
 }
 
 /// A motion at a station.
@@ -68,22 +92,36 @@ pub(super) struct State {
 const NONE: (f64, Local) = (0.0, [0.0; VALUES]);
 
 impl Effort {
-    /// With its derivatives; `rate`: what the torque rises with the speed itself.
-    fn of(station: &Station, state: &State, rate: f64, demand: impl Fn(&Place) -> Demand) -> Self {
+    /// With its derivatives; `rate`: what the torque rises with the speed itself; bends are rounded over loads ± `range`.
+    fn of(
+        station: &Station,
+        state: &State,
+        rate: f64,
+        range: f64,
+        demand: impl Fn(&Place) -> Demand,
+    ) -> Self {
         let place = &station.place;
-        let torque = Torque::of(place, state.acceleration, demand);
-        let friction = torque.by_load * place.viscous + rate;
+        let torque = Torque::rounded_of(place, state.acceleration, range, demand);
         let root = state.w.sqrt();
-        let by_w = torque.by_load * 0.5 * place.inertia_slope * state.pace * state.pace
-            + friction * state.pace / (2.0 * root);
+        let own = &station.basis[0];
+        let per_root = state.pace / (2.0 * root);
+        let load_by_w =
+            0.5 * place.inertia_slope * state.pace * state.pace + place.viscous * per_root;
+        let friction = torque.by_load * place.viscous + rate;
         Self {
             value: torque.value,
             gradient: mix(
-                (by_w, &station.basis[0]),
+                (torque.by_load * load_by_w + rate * per_root, own),
                 (torque.by_acceleration, &state.by),
             ),
             bend: -0.25 * friction * state.pace / (state.w * root),
+            turn: (torque.bend, mix((load_by_w, own), (torque.lean, &state.by))),
         }
+    }
+
+    /// The part of a term's second derivatives in which the torque turns, times a factor.
+    const fn turned(&self, factor: f64) -> (f64, Local) {
+        (factor * self.turn.0, self.turn.1)
     }
 }
 
@@ -106,51 +144,64 @@ impl Problem<'_> {
     fn motor(&self, station: &Station, state: &State) -> Effort {
         let way = self.field.way;
         let rate = way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs();
-        Effort::of(station, state, rate, |place| {
+        Effort::of(station, state, rate, self.range, |place| {
             way.demand(place, state.speed, state.acceleration)
         })
     }
 
     fn gearbox(&self, station: &Station, state: &State) -> Effort {
         let way = self.field.way;
-        Effort::of(station, state, 0.0, |place| {
+        Effort::of(station, state, 0.0, self.range, |place| {
             way.gearbox_demand(place, state.speed, state.acceleration)
         })
     }
 
-    /// −T and T at their limits, which fall with the speed.
+    /// −T and T at their limits, which fall with the speed. Where the curve is the lowest of straight lines each is a limit of its own: a
+    /// motion may stay where two meet.
     fn torque_limits(
         &self,
         station: &Station,
         state: &State,
         torque: &Effort,
-        weight: f64,
         rows: &mut Vec<Term>,
     ) {
         let field = self.field;
         let margin = self.margins[station.element].state;
         let scale = field.motor_torques(0.0).map(f64::abs);
-        let limits = field.motor_torques(state.speed);
         let near = NEAR * self.pace;
-        let beside = [state.speed, state.speed + near].map(|v| field.motor_torques(v));
         for (k, sign) in [(0, -1.0), (1, 1.0)] {
-            let slope = (beside[1][k] - beside[0][k]) / near;
-            let by_w = -slope * state.pace / (2.0 * state.w.sqrt());
-            let bend = 0.25 * slope * state.pace / (state.w * state.w.sqrt());
-            let size = sign / scale[k];
-            let left = limits[k] * (1.0 - margin);
             let limit = if k == 0 {
                 Binding::Braking
             } else {
                 Binding::Driving
             };
-            rows.push(Term {
-                limit: Some(limit),
-                value: (torque.value - left) * size,
-                gradient: mix((size, &torque.gradient), (size * by_w, &station.basis[0])),
-                bends: [(size * (torque.bend + bend), station.basis[0]), NONE],
-                ..Term::straight(station.element, weight)
-            });
+            let size = sign / scale[k];
+            // A limit and its slope by the speed. A margin is a share of what an excess is measured by: the limit itself may be nothing.
+            let mut row = |left: f64, slope: f64| {
+                let by_w = -slope * state.pace / (2.0 * state.w.sqrt());
+                let bend = 0.25 * slope * state.pace / (state.w * state.w.sqrt());
+                rows.push(Term {
+                    limit: Some(limit),
+                    value: (torque.value - left) * size + margin,
+                    gradient: mix((size, &torque.gradient), (size * by_w, &station.basis[0])),
+                    bends: [
+                        (size * (torque.bend + bend), station.basis[0]),
+                        torque.turned(size),
+                        NONE,
+                        NONE,
+                    ],
+                    ..Term::straight(station.element, station.weight)
+                });
+            };
+            if let Some(lines) = &self.lines[k] {
+                for [torque, slope] in lines {
+                    row(sign * (torque + slope * state.speed), sign * slope);
+                }
+                continue;
+            }
+            let [left, beside] =
+                [state.speed, state.speed + near].map(|v| field.motor_torques(v)[k]);
+            row(left, (beside - left) / near);
         }
     }
 
@@ -180,13 +231,23 @@ impl Problem<'_> {
             let by = station.basis[0].map(|basis| factor * basis);
             rows.push(straight(which, factor * state.w - 1.0, by));
         }
-        self.torque_limits(station, state, torque, weight, rows);
+        if limits.tool.is_some() {
+            let factor = (margin * state.pace / station.tool).powi(2);
+            let by = station.basis[0].map(|basis| factor * basis);
+            rows.push(straight(Binding::ToolSpeed, factor * state.w - 1.0, by));
+        }
+        self.torque_limits(station, state, torque, rows);
         if let Some(limit) = limits.gearbox_torque {
             let torque = self.gearbox(station, state);
             for sign in [1.0, -1.0] {
                 let size = margin * sign / limit;
                 rows.push(Term {
-                    bends: [(size * torque.bend, station.basis[0]), NONE],
+                    bends: [
+                        (size * torque.bend, station.basis[0]),
+                        torque.turned(size),
+                        NONE,
+                        NONE,
+                    ],
                     ..straight(
                         Binding::GearboxTorque,
                         size * torque.value - 1.0,
@@ -220,7 +281,7 @@ impl Problem<'_> {
             let rise = 0.5 / (state.w * root);
             for sign in [1.0, -1.0] {
                 rows.push(Term {
-                    bends: [(-1.5 * rise / state.w, *own), NONE],
+                    bends: [(-1.5 * rise / state.w, *own), NONE, NONE, NONE],
                     ..straight(
                         Binding::Jerk,
                         sign * dot(&by, values) - 1.0 / root,
@@ -256,7 +317,12 @@ impl Problem<'_> {
                 value: size * (torque_b.value - torque_a.value)
                     - time * (1.0 / roots[0] + 1.0 / roots[1]),
                 gradient: mix((1.0, &by_a), (1.0, &by_b)),
-                bends: [bend_a, bend_b],
+                bends: [
+                    bend_a,
+                    bend_b,
+                    torque_a.turned(-size),
+                    torque_b.turned(size),
+                ],
                 ..Term::straight(a.element, weight)
             });
         }
@@ -268,22 +334,24 @@ impl Problem<'_> {
         let root = w.sqrt();
         let t = torque.value;
         let weight = station.weight;
-        let price = self.price;
-        let whole = 1.0 + price * t * t;
+        let Price { time, heat } = self.price;
+        let whole = time + heat * t * t;
         let own = &station.basis[0];
         // Of T²/√w: one square, and what is left of w's own.
         let lean = mix((1.0, &torque.gradient), (-0.5 * t / w, own));
-        let bend =
-            (0.75 + 0.25 * price * t * t) / (w * w * root) + 2.0 * price * t * torque.bend / root;
+        let bend = (0.75 * time + 0.25 * heat * t * t) / (w * w * root)
+            + 2.0 * heat * t * torque.bend / root;
         Term {
             value: weight * whole / root,
             gradient: mix(
-                (weight * 2.0 * price * t / root, &torque.gradient),
+                (weight * 2.0 * heat * t / root, &torque.gradient),
                 (-0.5 * weight * whole / (w * root), own),
             ),
             bends: [
-                (weight * 2.0 * price / root, lean),
-                (weight * bend.max(0.1 / (w * w * root)), *own),
+                (weight * 2.0 * heat / root, lean),
+                (weight * bend.max(0.1 * time / (w * w * root)), *own),
+                torque.turned(weight * 2.0 * heat * t / root),
+                NONE,
             ],
             ..Term::straight(station.element, weight)
         }

@@ -6,10 +6,11 @@
 
 use jred::Error;
 
+use crate::fastest::field::Field;
 use crate::gentlest::mesh::{Value, dot, first_columns, hermite};
 use crate::gentlest::shape::Shape;
 use crate::skyline::Skyline;
-use crate::way::{Place, Way};
+use crate::way::Place;
 
 /// Values of a piece: w and w′ at its start, two that vanish with their slopes at both ends, w and w′ at its end.
 pub(super) const VALUES: usize = 6;
@@ -19,6 +20,9 @@ pub(super) type Local = [f64; VALUES];
 
 /// Share of a piece by which a place at its end lies inside it: what jumps there has the value of its own side.
 const INSIDE: f64 = 1e-9;
+
+/// The same as a share of u, whose last digits must not step out of a short piece.
+const NEAR: f64 = 1e-13;
 
 /// How the ends of the motion are, and what may jump on the way.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +63,8 @@ pub(super) struct Station {
     pub(super) u: f64,
     pub(super) weight: f64,
     pub(super) place: Place,
+    /// The largest speed that the tool leaves the drive link (rad/s, or m/s).
+    pub(super) tool: f64,
     /// L·g′, L·g″, L·g‴.
     pub(super) path: [f64; 3],
     /// What the values of the piece give to w, w′, w″.
@@ -112,7 +118,7 @@ impl Mesh {
     /// # Errors
     /// The mechanism cannot be placed somewhere.
     pub(super) fn new(
-        way: &Way,
+        field: &Field,
         course: [f64; 2],
         shape: &Shape,
         form: Form,
@@ -126,15 +132,17 @@ impl Mesh {
             let h = to - from;
             for [z, weight] in SHARES {
                 let u = from + z * h;
-                let inside = from + z.clamp(INSIDE, 1.0 - INSIDE) * h;
+                let near = (NEAR / h).clamp(INSIDE, 0.1);
+                let inside = from + z.clamp(near, 1.0 - near) * h;
                 let [_, slope, bend, jerk] = shape.series(u, from.midpoint(to));
                 let [g, ..] = shape.series(inside, inside);
-                let place = way.place(start + distance * g)?;
+                let place = field.way.place(start + distance * g)?;
                 stations.push(Station {
                     element: index,
                     u,
                     weight: weight * h,
                     place,
+                    tool: field.tool_speed(place.phi)?,
                     path: [slope, bend, jerk].map(|derivative| derivative * distance.abs()),
                     basis: basis(z, h),
                 });

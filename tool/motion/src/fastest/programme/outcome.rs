@@ -4,10 +4,27 @@ use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
 use crate::fastest::field::Binding;
-use crate::fastest::{LOOKS, NoMotion, Phase};
+use crate::fastest::{LOOKS, NoMotion, Phase, ROUNDED, within_step};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
+
+/// The limit that is exceeded most between the nodes, by which share of itself, and where.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Worst {
+    pub(super) excess: f64,
+    pub(super) limit: Option<Binding>,
+    pub(super) phi: f64,
+}
+
+impl Worst {
+    /// Nothing was looked at.
+    pub(super) const NONE: Self = Self {
+        excess: f64::INFINITY,
+        limit: None,
+        phi: 0.0,
+    };
+}
 
 impl Asked<'_> {
     /// The motion over the time.
@@ -68,12 +85,15 @@ impl Asked<'_> {
         self.bound * (end - start) * (to - from) * each.sum::<f64>()
     }
 
-    /// The largest share by which a limit is exceeded; the margins of pieces in which one is are widened.
-    pub(super) fn widen(&self, trace: &Trace, margins: &mut [Margins]) -> Result<f64, NoMotion> {
+    /// The limit that is exceeded most; the margins of pieces in which one is are widened.
+    pub(super) fn widen(&self, trace: &Trace, margins: &mut [Margins]) -> Result<Worst, NoMotion> {
         let way = self.field.way;
         let direction = way.direction;
         let limits = self.limits();
-        let mut most = f64::NEG_INFINITY;
+        let mut worst = Worst {
+            excess: f64::NEG_INFINITY,
+            ..Worst::NONE
+        };
         let near = self.ends.inside(0.0);
         let distance = |phi: f64| (phi - self.ends.from) * direction;
         let mut own: Vec<[f64; 3]> = vec![[0.0; 3]; margins.len()];
@@ -83,35 +103,58 @@ impl Asked<'_> {
                 continue;
             }
             let piece = index / (SHARES.len() - 1);
-            let mut look = |kind: usize, excess: f64| {
+            let mut look = |kind: usize, excess: f64, limit: Binding| {
                 let all = &mut own[piece][kind];
                 *all = all.max(excess);
-                most = most.max(excess);
+                if excess > worst.excess {
+                    worst = Worst {
+                        excess,
+                        limit: Some(limit),
+                        phi: a.phi,
+                    };
+                }
             };
             let [first, last] = [a, b].map(|node| distance(node.phi));
+            let middle = 0.5 * (first + last);
+            let place = |phi: f64| {
+                // A place at a corner has the values of its own side.
+                let x = distance(phi)
+                    .max((first + near).min(middle))
+                    .min((last - near).max(middle));
+                way.place(self.ends.from + direction * x)
+            };
             for share in LOOKS {
-                let state = b.after(a, share);
-                let x = distance(state.phi).min(last - near).max(first + near);
-                let place = way.place(self.ends.from + direction * x)?;
+                let state = within_step(a, b, share, WITHIN);
+                let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                look(0, self.field.excess(&place, v, alpha));
+                let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
+                look(0, excess, limit);
             }
             if let Some(limit) = limits.torque_rate {
                 // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
                 let torque = |share: f64| -> Result<f64, NoMotion> {
-                    let state = b.after(a, share);
-                    let place = way.place(state.phi)?;
+                    let state = within_step(a, b, share, WITHIN);
+                    let place = place(state.phi)?;
                     let (v, alpha) = (state.omega * direction, state.alpha * direction);
                     Ok(way.demand(&place, v, alpha).torque)
                 };
                 let torques = [torque(0.0)?, torque(0.5)?, torque(1.0)?];
                 for pair in torques.windows(2) {
-                    look(2, (pair[1] - pair[0]).abs() / (0.5 * b.step * limit) - 1.0);
+                    let rate = (pair[1] - pair[0]).abs() / (0.5 * b.step);
+                    look(2, rate / limit - 1.0, Binding::TorqueRate);
                 }
             }
             if let Some(limit) = limits.jerk {
+                // Of a step so short that rounding of the speeds makes another jerk, that of its accelerations counts.
+                let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step);
+                let mean = (b.alpha[0] - a.alpha[1]) / b.step;
                 for share in [0.0, 0.5, 1.0] {
-                    look(1, b.jerk_after(a, share).abs() / limit - 1.0);
+                    let jerk = if rounding > ROUNDED * WITHIN * limit {
+                        mean
+                    } else {
+                        b.jerk_after(a, share)
+                    };
+                    look(1, jerk.abs() / limit - 1.0, Binding::Jerk);
                 }
             }
         }
@@ -127,7 +170,7 @@ impl Asked<'_> {
             margins.jerk += jerk;
             margins.rate += rate;
         }
-        Ok(most)
+        Ok(worst)
     }
 
     /// Which limit is met, from where to where.
@@ -136,7 +179,7 @@ impl Asked<'_> {
         let count = SHARES.len();
         let mut phases: Vec<Phase> = Vec::new();
         let nodes = trace.nodes();
-        let idle = if self.price > 0.0 {
+        let idle = if self.price.heat > 0.0 {
             Some(Binding::RmsTorque)
         } else {
             None

@@ -1,0 +1,196 @@
+//! The fastest motion whose RMS torque, over all moves and pauses, is within a limit R.
+//!
+//! Of all motions it is the one with the least
+//!
+//! ```text
+//! (1 − β)·t + β·∫T² dt/R²
+//! ```
+//!
+//! for one β in all moves, which is sought. With β = 0 the time alone counts. A standing or crawling machine whose torque there is C adds
+//! 1 − β·(1 − C²/R²) each second; where that is less than nothing waiting on the way would be best, so β stays below 1/(1 − C²/R²) with the
+//! least C of the way. Without a torque at rest that is 1: a second never counts less than nothing. Where a weight is held all along the way
+//! it may: J constant against a weight G asks for β = R²/(4·(R² − G²)), more than 1 for a limit below 1.155·G. So β grows with a share s from
+//! 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with it.
+
+use jred::Error;
+use jred_machine::model::machine::MachineFile;
+
+use super::NoMotion;
+use super::cycle::{Cycle, MotorLoad};
+use super::programme::{Price, Start, Warm};
+use crate::way::{Actuator, Way};
+
+/// A limit of the RMS torque over a motion with its pauses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rms {
+    /// The S1 torque of the motor at the mean speed, without what the reserve leaves unused.
+    Continuous,
+    /// A torque (N·m).
+    Torque(f64),
+}
+
+impl Rms {
+    fn of(self, load: &MotorLoad) -> f64 {
+        match self {
+            Self::Continuous => load.allowed,
+            Self::Torque(torque) => torque,
+        }
+    }
+}
+
+/// Shares s that are tried until the RMS torque is small enough. Of a constant inertia alone s is 1/5.
+const SHARES: [f64; 10] = [0.2, 0.4, 0.6, 0.8, 0.9, 0.96, 0.99, 0.997, 0.9997, 0.999_99];
+
+/// Steps between two shares, and the share of the RMS torque at which the pieces of the motions stay what they are.
+const STEPS: u32 = 40;
+const NEAR: f64 = 0.02;
+
+/// Share by which the RMS torque may lie below its limit at the end, and at the most.
+const BELOW: [f64; 2] = [1e-8, 1e-6];
+
+/// Places of a move at which the torque of a slow motion is looked at.
+const PLACES: u32 = 360;
+
+/// The motions that are asked for, and what is known of the ones before.
+#[derive(Debug, Default)]
+pub(super) struct Asked {
+    /// What is least; `None`: the time, with the limits alone.
+    pub(super) price: Option<Price>,
+    /// Of each move.
+    warm: Vec<Warm>,
+    /// Whether the price changes so little that pieces stay what they are.
+    is_beside: bool,
+}
+
+impl Asked {
+    /// From where a move is sought.
+    pub(super) fn start(&self, number: usize) -> Start<'_> {
+        match self.warm.get(number) {
+            None => Start::Nothing,
+            Some(warm) if self.is_beside => Start::Beside(warm),
+            Some(warm) => Start::Near(warm),
+        }
+    }
+
+    /// Keeps a move for the next price.
+    pub(super) fn keep(&mut self, number: usize, warm: Warm) {
+        match self.warm.get_mut(number) {
+            Some(own) => *own = warm,
+            None => self.warm.push(warm),
+        }
+    }
+}
+
+/// Why there is no cycle.
+pub(super) enum Refused<E> {
+    /// A move cannot be made.
+    Move(E),
+    /// The limit cannot be kept.
+    Limit(NoMotion),
+}
+
+/// The least torque (N·m) of the motor in a motion without speed and acceleration, on ways from one position to another.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere.
+pub(super) fn slowest(
+    file: &MachineFile,
+    actuator: &Actuator,
+    ways: impl IntoIterator<Item = [f64; 2]>,
+) -> Result<f64, Error> {
+    let mut least = f64::INFINITY;
+    for [from, to] in ways {
+        let way = Way::new(file, actuator.clone(), (to - from).signum());
+        for k in 0..=PLACES {
+            let place = way.place(from + (to - from) * f64::from(k) / f64::from(PLACES))?;
+            least = least.min(way.demand(&place, 0.0, 0.0).torque.abs());
+        }
+    }
+    Ok(least)
+}
+
+/// The price of a share s.
+fn price(share: f64, limit: f64, slow: f64) -> Price {
+    let waiting = (1.0 - (slow / limit).powi(2)).max(0.0);
+    let beta = 1.0 / ((1.0 - share) / share + waiting);
+    // Only their ratio counts.
+    let unit = beta.max(1.0);
+    Price {
+        time: (1.0 - beta) / unit,
+        heat: beta / unit / (limit * limit),
+    }
+}
+
+/// The motion whose RMS torque is within a limit, and whether the limit has a price.
+pub(super) fn within<E>(
+    rms: Option<Rms>,
+    slow: f64,
+    at: impl Fn(&mut Asked) -> Result<Cycle, E>,
+) -> Result<(Cycle, bool), Refused<E>> {
+    let mut asked = Asked::default();
+    let free = at(&mut asked).map_err(Refused::Move)?;
+    let Some(rms) = rms else {
+        return Ok((free, false));
+    };
+    let over = |cycle: &Cycle| cycle.load.rms / rms.of(&cycle.load) - 1.0;
+    let limit = rms.of(&free.load);
+    let mut cheap = [0.0, over(&free)];
+    if cheap[1] <= 0.0 {
+        return Ok((free, false));
+    }
+    let mut try_at = |share: f64, is_beside: bool| {
+        asked.price = Some(price(share, limit, slow));
+        asked.is_beside = is_beside;
+        at(&mut asked)
+    };
+    let mut least = free.load.rms;
+    let mut best = None;
+    for share in SHARES {
+        let found = try_at(share, false).map_err(Refused::Move)?;
+        let own = [share, over(&found)];
+        if own[1] <= 0.0 {
+            best = Some((own, found));
+            break;
+        }
+        least = least.min(found.load.rms);
+        cheap = own;
+    }
+    let Some((mut dear, mut best)) = best else {
+        return Err(Refused::Limit(NoMotion::RmsTooLarge {
+            rms: least,
+            allowed: limit,
+            slow,
+        }));
+    };
+    let mut last = dear;
+    let mut slope = (dear[1] - cheap[1]) / (dear[0] - cheap[0]);
+    for step in 0..STEPS {
+        if dear[1] >= -BELOW[0] {
+            break;
+        }
+        let is_beside = last[1].abs() <= NEAR;
+        // The secant's place, a little on the dear side; where it leaves the shares between, or every fourth time, the middle.
+        let secant = last[0] - (last[1] + 0.5 * BELOW[0]) / slope;
+        let is_inside = secant > cheap[0] && secant < dear[0];
+        let next = if is_inside && (is_beside || step % 4 != 3) {
+            secant
+        } else {
+            cheap[0].midpoint(dear[0])
+        };
+        if next <= cheap[0] || next >= dear[0] {
+            break;
+        }
+        let found = try_at(next, is_beside).map_err(Refused::Move)?;
+        let own = [next, over(&found)];
+        if own[0] != last[0] && own[1] != last[1] {
+            slope = (own[1] - last[1]) / (own[0] - last[0]);
+        }
+        last = own;
+        if own[1] <= 0.0 {
+            (dear, best) = (own, found);
+        } else {
+            cheap = own;
+        }
+    }
+    Ok((best, true))
+}
