@@ -3,7 +3,6 @@
 use jred::Error;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
-use jred_sizing::motor::envelope::{Curve, Piece};
 
 use super::tool_speed::ToolSpeed;
 use crate::way::{Place, Way};
@@ -85,7 +84,7 @@ impl Reserve {
     }
 
     /// What it leaves of a limit.
-    fn leaves(&self, share: f64) -> f64 {
+    pub(super) fn leaves(&self, share: f64) -> f64 {
         if self.is_some() {
             (1.0 - share) * (1.0 - BELOW)
         } else {
@@ -123,9 +122,6 @@ impl Limits {
         }
     }
 }
-
-/// Share of the torque at rest by which straight lines may miss a torque-speed curve.
-const CONCAVE: f64 = 1e-12;
 
 /// A limit that a motion can be at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -237,7 +233,7 @@ impl Field<'_, '_> {
         )
     }
 
-    fn motor_end(&self) -> f64 {
+    pub(super) fn motor_end(&self) -> f64 {
         let envelope = &self.way.actuator.envelope;
         let ends = [false, true].map(|braking| envelope.limit(braking).end());
         let reserve = &self.limits.reserve;
@@ -257,31 +253,6 @@ impl Field<'_, '_> {
     /// Least and largest torque of the motor at a speed of the drive link: −braking, driving.
     pub fn motor_torques(&self, v: f64) -> [f64; 2] {
         [true, false].map(|braking| self.motor_torque(v, braking))
-    }
-
-    /// The motor's torque as straight lines of which the lowest holds, each its torque at rest and its slope by the speed of the drive link;
-    /// `None`: it is no such curve.
-    pub fn torque_lines(&self, braking: bool) -> Option<Vec<[f64; 2]>> {
-        let pieces = self.way.actuator.envelope.limit(braking).pieces();
-        let reserve = &self.limits.reserve;
-        let (left, per_speed) = (reserve.leaves(reserve.torque), self.way.motor_speed(1.0));
-        let lines = pieces.iter().map(|piece| match piece.curve {
-            Curve::Line { start, slope } => Some([start - slope * piece.from, slope]),
-            Curve::Winding { .. } => None,
-        });
-        let lines: Vec<[f64; 2]> = lines.collect::<Option<_>>()?;
-        let scale = pieces.first()?.torque(0.0);
-        let lowest = |speed: f64| {
-            let each = lines.iter().map(|[torque, slope]| torque + slope * speed);
-            each.fold(f64::INFINITY, f64::min)
-        };
-        let is_lowest = |piece: &Piece| {
-            [piece.from, piece.to.min(self.motor_end())]
-                .iter()
-                .all(|speed| (piece.torque(*speed) - lowest(*speed)).abs() <= CONCAVE * scale)
-        };
-        let scaled = |[torque, slope]: &[f64; 2]| [left * torque, left * slope * per_speed];
-        (pieces.iter().all(is_lowest)).then(|| lines.iter().map(scaled).collect())
     }
 
     /// At rest, in a motion that begins: the torque that keeps the machine moving, and what the limit gives, both at the shaft of the

@@ -1,5 +1,7 @@
 //! Why there is no motion, and where.
 
+mod cure;
+
 use std::fmt;
 
 use jred::Error;
@@ -181,64 +183,6 @@ impl NoMotion {
             },
         }
     }
-
-    /// What to do about it.
-    pub fn cure(&self) -> String {
-        match self {
-            Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
-            Self::NoWay => "give two different positions".to_owned(),
-            Self::NoTorqueLimit => {
-                "take a motor with a peak torque, or give --torque".to_owned()
-            }
-            Self::NoSpeedLimit => "give --max-speed".to_owned(),
-            Self::SelfLocking => "take another gearbox".to_owned(),
-            Self::Stops {
-                limit,
-                torques,
-                unit,
-                ..
-            } => {
-                let missing = short(torques[0] - torques[1]);
-                match limit {
-                    Binding::GearboxTorque => format!(
-                        "take a gearbox with {missing} {unit} more at its output, or start with more speed"
-                    ),
-                    Binding::Acceleration | Binding::Deceleration => {
-                        "allow a larger deceleration".to_owned()
-                    }
-                    _ => format!(
-                        "take a motor with more torque at low speed ({missing} {unit} more would hold the machine there; less may do, as kinetic energy helps), a larger gear ratio, or start with more speed"
-                    ),
-                }
-            }
-            Self::RunsAway { limit, .. } => match limit {
-                Binding::Deceleration => "allow a larger deceleration".to_owned(),
-                Binding::GearboxTorque => {
-                    "take a gearbox with more torque, or balance the weight".to_owned()
-                }
-                _ => "take a motor with more torque where it brakes, a larger gear ratio, or balance the weight"
-                    .to_owned(),
-            },
-            Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
-            Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
-            Self::TooLong { .. } | Self::NotAccurate { .. } => {
-                "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed)".to_owned()
-            }
-            Self::LoadJumps { .. } => {
-                "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
-            }
-            Self::RmsTooLarge { .. } => {
-                "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
-            }
-            Self::NotFound { limit, .. } => match limit {
-                Some(limit) => format!("allow a larger {}, or give a longer way", limit.name()),
-                None => "give another limit: a slightly larger or smaller one may be found".to_owned(),
-            },
-            Self::Empty { .. } => {
-                "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
-            }
-        }
-    }
 }
 
 impl NoMotion {
@@ -276,7 +220,7 @@ impl NoMotion {
             ),
             Self::RmsTooLarge { rms, allowed, slow } => write!(
                 f,
-                "no motion has an RMS torque of {} N m or less: the least that was found, at whatever speed, is {} N m, and moving slowly takes at least {} N m of weight and friction",
+                "no motion with an RMS torque of {} N m or less was found: the least, at whatever speed, was {} N m, and moving slowly takes at least {} N m against weight and friction",
                 short(*allowed),
                 short(*rms),
                 short(*slow)

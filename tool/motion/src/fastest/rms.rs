@@ -146,7 +146,12 @@ pub(super) fn within<E>(
     let mut least = free.load.rms;
     let mut best = None;
     for share in SHARES {
-        let found = try_at(share, false).map_err(Refused::Move)?;
+        let found = match try_at(share, false) {
+            Ok(found) => found,
+            // Where the time hardly counts any more, or less than nothing, there may be no slowest motion.
+            Err(_) if cheap[0] > 0.0 => break,
+            Err(why) => return Err(Refused::Move(why)),
+        };
         let own = [share, over(&found)];
         if own[1] <= 0.0 {
             best = Some((own, found));
@@ -180,10 +185,17 @@ pub(super) fn within<E>(
         if next <= cheap[0] || next >= dear[0] {
             break;
         }
-        let found = try_at(next, is_beside).map_err(Refused::Move)?;
+        let found = match try_at(next, is_beside) {
+            Ok(found) => found,
+            // What is within the limit and hardly below it is the answer.
+            Err(_) if dear[1] >= -BELOW[1] => break,
+            Err(why) => return Err(Refused::Move(why)),
+        };
         let own = [next, over(&found)];
-        if own[0] != last[0] && own[1] != last[1] {
-            slope = (own[1] - last[1]) / (own[0] - last[0]);
+        // The RMS torque falls with the share; what rises is rounding.
+        let fall = (own[1] - last[1]) / (own[0] - last[0]);
+        if fall < 0.0 {
+            slope = fall;
         }
         last = own;
         if own[1] <= 0.0 {

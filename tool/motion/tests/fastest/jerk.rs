@@ -1,6 +1,8 @@
 //! Limited jerk and torque rate.
 
-use jred_motion::fastest::{Binding, Fastest, Limits, NoMotion, Task, solve};
+use std::f64::consts::TAU;
+
+use jred_motion::fastest::{Binding, Fastest, Limits, NoMotion, Task, ToolSpeed, solve};
 
 use jred_motion::trace::Node;
 use jred_motion::way::Way;
@@ -202,6 +204,128 @@ fn a_press_comes_near_the_motion_without_a_limit() {
     }
     let bound = solve(&file, &motor, &task(3.2, 7.0)).unwrap().time;
     assert!(last < 1.01 * bound, "{last}, {bound}");
+}
+
+/// A large limit is hardly one: a ramp of the acceleration a takes a/j and costs a time of its own order, so the excess over the motion
+/// without a limit falls with 1/j. Of a constant inertia it is that of the seven segments.
+#[test]
+fn a_large_jerk_tends_to_the_motion_without_a_limit() {
+    let file = table(2.0, "");
+    let mut last = f64::INFINITY;
+    for jerk in [1e2, 1e3, 1e4, 1e6, 1e8] {
+        let asked = Task {
+            limits: limited(2.0, 4.0, jerk),
+            ..task(0.0, 3.0)
+        };
+        let found = smooth(&file, &motor([10.0; 2], 100.0), &asked);
+        // Ramps of a thousandth of the time are as short as the shortest pieces.
+        close(found.time, seven(3.0, 2.0, 4.0, jerk), 2.0 * NEAR);
+        assert!(found.time < last);
+        last = found.time;
+    }
+    close(last, 3.0 / 2.0 + 2.0 / 4.0, NEAR);
+}
+
+/// The same of a press whose drive loses power in its belt, and of the rate of its torque: never slower with a larger limit, and at last as
+/// fast as without one.
+#[test]
+fn larger_limits_of_a_press_are_faster() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let motor = motor([24.0, 12.0], 300.0);
+    let bound = solve(&file, &motor, &task(3.2, 9.0)).unwrap().time;
+    let limits: [fn(f64) -> Limits; 2] = [
+        |limit| Limits {
+            jerk: Some(limit),
+            level_ends: true,
+            ..Limits::default()
+        },
+        |limit| Limits {
+            torque_rate: Some(0.02 * limit),
+            level_ends: true,
+            ..Limits::default()
+        },
+    ];
+    for limits in limits {
+        let mut last = f64::INFINITY;
+        for limit in [1e5, 1e6, 1e7, 1e9] {
+            let asked = Task {
+                limits: limits(limit),
+                ..task(3.2, 9.0)
+            };
+            let found = smooth(&file, &motor, &asked);
+            assert!(
+                found.time <= last * (1.0 + NEAR),
+                "{} after {last}",
+                found.time
+            );
+            last = found.time;
+        }
+        close(last, bound, 1e-5);
+    }
+}
+
+/// The tool is as slow as without the limit of the jerk, and the motion slower than with either alone.
+#[test]
+fn a_tool_speed_with_a_limited_jerk() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let mechanism = file.machine.mechanism();
+    let slider = (mechanism.link_names().iter())
+        .position(|name| name == "slider")
+        .unwrap();
+    let between = [1.8 * std::f64::consts::PI, TAU];
+    let tool = ToolSpeed::new(mechanism, (slider, [0.0; 2]), 0.2, between).unwrap();
+    let motor = motor([300.0, 200.0], 90.0);
+    let asked = |tool, jerk: Option<f64>| Task {
+        limits: Limits {
+            tool,
+            jerk,
+            level_ends: jerk.is_some(),
+            ..Limits::default()
+        },
+        ..task(3.2, 9.0)
+    };
+    let both = smooth(&file, &motor, &asked(tool, Some(2e4)));
+    let [one, other] = [asked(tool, None), asked(None, Some(2e4))]
+        .map(|asked| solve(&file, &motor, &asked).unwrap().time);
+    assert!(
+        both.time > 1.001 * one.max(other),
+        "{} {one} {other}",
+        both.time
+    );
+    let limit = |phi: f64| tool.unwrap().at(mechanism, phi).unwrap();
+    let share = |node: &Node| node.omega / limit(node.phi);
+    let most = both.trace.nodes().iter().map(share).fold(0.0, f64::max);
+    assert!((most - 1.0).abs() <= WITHIN, "{most}");
+    assert!(
+        both.phases
+            .iter()
+            .any(|phase| phase.limit == Binding::ToolSpeed)
+    );
+}
+
+/// Too little way to slow down in: the message names the limit and the place.
+#[test]
+fn what_is_in_the_way_is_named() {
+    let file = table(2.0, "");
+    let asked = Task {
+        speeds: [2.0, 0.0],
+        limits: Limits {
+            jerk: Some(1.0),
+            level_ends: true,
+            ..Limits::default()
+        },
+        ..task(0.0, 1.0)
+    };
+    let refused = solve(&file, &motor([100.0; 2], 100.0), &asked).unwrap_err();
+    let NoMotion::NotFound { limit, missed, .. } = &refused else {
+        panic!("{refused}");
+    };
+    assert_eq!(*limit, Some(Binding::Jerk));
+    assert!(*missed > 0.01);
+    assert!(
+        refused.to_string().contains("jerk limit is exceeded by"),
+        "{refused}"
+    );
 }
 
 /// The torque of the press changes as fast as allowed, from above, and never as fast as without a limit.

@@ -5,6 +5,7 @@ use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
 use jred_motion::moves::{Move, Part};
 
 use super::{close, motor, table, task};
+use crate::support::press_file;
 
 /// Of a constant inertia without friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls in a straight line.
 #[test]
@@ -151,4 +152,54 @@ fn with_a_limited_jerk() {
         both > 1.001 * jerk && both > 1.001 * rms,
         "{both} {jerk} {rms}"
     );
+}
+
+/// A weight held all along the way: J constant against G takes ∫T² = 12·J²·D²/t³ + G²·t, so t⁴ = 12·J²·D²/(R² − G²), also below 1.155·G, where
+/// a slower motion takes more of ∫T² and has less RMS torque.
+#[test]
+fn a_held_weight_bears_a_limit_near_itself() {
+    let text = "title = \"lift\"\ngravity = [\"0 m/s^2\", \"-10 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n\
+        [mechanism.drum]\nmass = \"10 kg\"\ninertia = \"0.5 kg m^2\"\n[mechanism.load]\nradius = \"100 mm\"\nmass = \"40 kg\"\n";
+    let file = super::machine(text);
+    let (inertia, weight, way) = (0.5 + 40.0 * 0.01, 40.0, 20.0);
+    let motor = motor([400.0; 2], 1e3);
+    for limit in [1.5, 1.2, 1.15, 1.05, 1.01] {
+        let limit = limit * weight;
+        let found = single(&file, &motor, task(0.0, way), Some(Rms::Torque(limit))).unwrap();
+        let own: f64 = inertia * way;
+        let time = (12.0 * own * own / (limit * limit - weight * weight)).powf(0.25);
+        close(found.trace.duration(), time, 1e-6);
+        assert!(found.load.rms <= limit, "{}", found.load.rms);
+    }
+    let refused = single(
+        &file,
+        &motor,
+        task(0.0, way),
+        Some(Rms::Torque(0.99 * weight)),
+    );
+    assert!(
+        matches!(refused, Err(NoMotion::RmsTooLarge { .. })),
+        "{refused:?}"
+    );
+}
+
+/// A press with losses, friction and a falling torque: a tighter limit takes longer, and one that hardly acts takes as long as none.
+#[test]
+fn a_tighter_limit_of_a_press_takes_longer() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let motor = motor([24.0, 12.0], 300.0);
+    let asked = task(3.2, 9.0);
+    let free = single(&file, &motor, asked, None).unwrap();
+    let mut last = free.trace.duration();
+    for share in [0.999_999, 0.97, 0.8, 0.6, 0.5] {
+        let limit = share * free.load.rms;
+        let found = single(&file, &motor, asked, Some(Rms::Torque(limit))).unwrap();
+        let time = found.trace.duration();
+        assert!(time > last * (1.0 - 1e-6), "{time} after {last} at {share}");
+        assert!(found.load.rms <= limit, "{}", found.load.rms);
+        if share > 0.99 {
+            close(time, last, 1e-5);
+        }
+        last = time;
+    }
 }

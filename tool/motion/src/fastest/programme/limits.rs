@@ -7,13 +7,12 @@
 //! with t the unit of the time. Speed and acceleration limits are straight lines in w and w′; so is the torque, but for viscous friction (√w);
 //! the jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is a share of itself: c ≤ 0, −1 far from it.
 
+use super::effort::{Effort, State, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
 use crate::fastest::field::{Binding, Field};
 use crate::gentlest::mesh::Value;
 use crate::gentlest::mesh::dot;
-use crate::gentlest::torque::Torque;
-use crate::way::{Demand, Place};
 
 /// Share of the mean speed over which the slope of a torque-speed curve is taken.
 const NEAR: f64 = 1e-6;
@@ -68,62 +67,7 @@ pub(super) struct Problem<'a> {
     pub(super) margins: &'a [Margins],
 }
 
-/// A torque at a station.
-#[derive(Clone, Copy)]
-struct Effort {
-    value: f64,
-    gradient: Local,
-    /// Factor of the square of w's basis in the second derivatives.
-    bend: f64,
-    /// Where power changes its direction: a factor, and the form whose square it belongs to.
-    turn: (f64, Local),
-}
-
-/// A motion at a station.
-pub(super) struct State {
-    pub(super) speed: f64,
-    pub(super) acceleration: f64,
-    w: f64,
-    /// Speed per √w.
-    pace: f64,
-    by: Local,
-}
-
 const NONE: (f64, Local) = (0.0, [0.0; VALUES]);
-
-impl Effort {
-    /// With its derivatives; `rate`: what the torque rises with the speed itself; bends are rounded over loads ± `range`.
-    fn of(
-        station: &Station,
-        state: &State,
-        rate: f64,
-        range: f64,
-        demand: impl Fn(&Place) -> Demand,
-    ) -> Self {
-        let place = &station.place;
-        let torque = Torque::rounded_of(place, state.acceleration, range, demand);
-        let root = state.w.sqrt();
-        let own = &station.basis[0];
-        let per_root = state.pace / (2.0 * root);
-        let load_by_w =
-            0.5 * place.inertia_slope * state.pace * state.pace + place.viscous * per_root;
-        let friction = torque.by_load * place.viscous + rate;
-        Self {
-            value: torque.value,
-            gradient: mix(
-                (torque.by_load * load_by_w + rate * per_root, own),
-                (torque.by_acceleration, &state.by),
-            ),
-            bend: -0.25 * friction * state.pace / (state.w * root),
-            turn: (torque.bend, mix((load_by_w, own), (torque.lean, &state.by))),
-        }
-    }
-
-    /// The part of a term's second derivatives in which the torque turns, times a factor.
-    const fn turned(&self, factor: f64) -> (f64, Local) {
-        (factor * self.turn.0, self.turn.1)
-    }
-}
 
 impl Problem<'_> {
     pub(super) fn state(&self, station: &Station, values: &Local) -> State {
@@ -414,9 +358,4 @@ impl Programme for Problem<'_> {
         }
         share
     }
-}
-
-/// p·a + q·b
-fn mix((p, a): (f64, &Local), (q, b): (f64, &Local)) -> Local {
-    std::array::from_fn(|k| p * a[k] + q * b[k])
 }

@@ -3,8 +3,9 @@
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
+use crate::fastest::excess::{LOOKS, ROUNDED, within_step};
 use crate::fastest::field::Binding;
-use crate::fastest::{LOOKS, NoMotion, Phase, ROUNDED, within_step};
+use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};

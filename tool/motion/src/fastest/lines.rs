@@ -1,0 +1,35 @@
+//! A torque-speed curve as the lowest of straight lines, each of which is then a smooth limit.
+
+use jred_sizing::motor::envelope::{Curve, Piece};
+
+use super::field::Field;
+
+/// Share of the torque at rest by which straight lines may miss a torque-speed curve.
+const CONCAVE: f64 = 1e-12;
+
+impl Field<'_, '_> {
+    /// The motor's torque as straight lines of which the lowest holds, each its torque at rest and its slope by the speed of the drive link;
+    /// `None`: it is no such curve.
+    pub fn torque_lines(&self, braking: bool) -> Option<Vec<[f64; 2]>> {
+        let pieces = self.way.actuator.envelope.limit(braking).pieces();
+        let reserve = &self.limits.reserve;
+        let (left, per_speed) = (reserve.leaves(reserve.torque), self.way.motor_speed(1.0));
+        let lines = pieces.iter().map(|piece| match piece.curve {
+            Curve::Line { start, slope } => Some([start - slope * piece.from, slope]),
+            Curve::Winding { .. } => None,
+        });
+        let lines: Vec<[f64; 2]> = lines.collect::<Option<_>>()?;
+        let scale = pieces.first()?.torque(0.0);
+        let lowest = |speed: f64| {
+            let each = lines.iter().map(|[torque, slope]| torque + slope * speed);
+            each.fold(f64::INFINITY, f64::min)
+        };
+        let is_lowest = |piece: &Piece| {
+            [piece.from, piece.to.min(self.motor_end())]
+                .iter()
+                .all(|speed| (piece.torque(*speed) - lowest(*speed)).abs() <= CONCAVE * scale)
+        };
+        let scaled = |[torque, slope]: &[f64; 2]| [left * torque, left * slope * per_speed];
+        (pieces.iter().all(is_lowest)).then(|| lines.iter().map(scaled).collect())
+    }
+}
