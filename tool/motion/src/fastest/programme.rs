@@ -27,7 +27,7 @@ use interior::{Point, Stuck, minimise};
 pub use limits::Price;
 use limits::{Margins, Problem};
 use mesh::{Border, Form, Mesh};
-use outcome::Worst;
+use outcome::{Worst, widen};
 
 /// Pieces of the first mesh, and the most.
 const PIECES: [usize; 2] = [24, 1500];
@@ -133,9 +133,13 @@ impl Asked<'_> {
             };
             warm.found = next;
             trace = self.trace(&shape, &warm.found);
-            worst = self.widen(&trace, &mut warm.margins)?;
+            let each;
+            (worst, each) = self.exceeded(&trace, warm.margins.len())?;
             if worst.excess <= WITHIN {
                 break;
+            }
+            if !self.divide(&mut warm, &each) {
+                widen(&mut warm.margins, &each);
             }
         }
         if worst.excess > super::MOST_EXCESS {

@@ -3,12 +3,15 @@
 use super::interior::Programme as _;
 use super::limits::Margins;
 use super::mesh::{Border, SHARES};
-use super::{Asked, Found, RAMP, inner};
+use super::{Asked, Found, RAMP, Warm, inner};
 use crate::fastest::field::Binding;
 use crate::trace::{Node, Trace};
 
 /// Share of itself within which a limit is met.
 const MET: f64 = 1e-3;
+
+/// Share by which a state may exceed its limit between stations without swinging.
+const SWINGS: f64 = 1e-4;
 
 /// Pieces are not cut to less than this share of u: w″ is a difference of second order, whose last digits are those of w by the square of
 /// the length. What a larger limit of the rates leaves of them is less.
@@ -62,14 +65,53 @@ impl Asked<'_> {
         all.iter().enumerate().map(changes).collect()
     }
 
-    /// Middles of the pieces in which the limit that is met changes.
-    pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
-        let pieces = found.mesh.elements.iter().zip(self.changes(found));
-        let shortest = if self.limits().has_rates() {
+    fn shortest(&self) -> f64 {
+        if self.limits().has_rates() {
             SHORTEST * (self.ramp() / RAMP[1]).sqrt()
         } else {
             SHORTEST
-        };
+        }
+    }
+
+    /// Divides the pieces in which limits are exceeded by much and makes them cubics: a margin there would slow their neighbours down. Whether
+    /// there are any.
+    pub(super) fn divide(&self, warm: &mut Warm, exceeded: &[[f64; 3]]) -> bool {
+        let shortest = self.shortest();
+        let mut borders = Vec::with_capacity(warm.borders.len());
+        let mut margins = Vec::with_capacity(warm.margins.len());
+        for (k, border) in warm.borders.iter().enumerate() {
+            let mut border = *border;
+            let (Some(next), Some([state, ..])) = (warm.borders.get(k + 1), exceeded.get(k)) else {
+                borders.push(border);
+                continue;
+            };
+            let own = warm.margins[k];
+            margins.push(own);
+            let is_long = next.u - border.u > 2.0 * shortest;
+            if *state > SWINGS && self.limits().has_rates() && (is_long || !border.is_plain) {
+                border.is_plain = true;
+                borders.push(border);
+                if is_long {
+                    margins.push(own);
+                    let middle = inner(border.u.midpoint(next.u));
+                    borders.push(Border {
+                        is_plain: true,
+                        ..middle
+                    });
+                }
+            } else {
+                borders.push(border);
+            }
+        }
+        let changes = borders != warm.borders;
+        (warm.borders, warm.margins) = (borders, margins);
+        changes
+    }
+
+    /// Middles of the pieces in which the limit that is met changes.
+    pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
+        let pieces = found.mesh.elements.iter().zip(self.changes(found));
+        let shortest = self.shortest();
         let finer = pieces.filter_map(|(element, [changes, _])| {
             let [from, to] = element.span;
             (changes && to - from > 2.0 * shortest).then(|| inner(from.midpoint(to)))

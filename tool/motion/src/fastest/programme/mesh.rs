@@ -38,7 +38,7 @@ pub(super) struct Form {
 }
 
 /// Where two pieces meet.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Border {
     pub(super) u: f64,
     /// Whether the machine is not smooth there.

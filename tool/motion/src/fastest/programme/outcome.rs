@@ -27,6 +27,22 @@ impl Worst {
     };
 }
 
+/// Widens the margins of pieces in which limits are exceeded.
+pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]]) {
+    for (margins, own) in margins.iter_mut().zip(exceeded) {
+        let [state, jerk, rate] = own.map(|excess| {
+            if excess > 0.5 * WITHIN {
+                1.1 * excess + 1e-9
+            } else {
+                0.0
+            }
+        });
+        margins.state += state;
+        margins.jerk += jerk;
+        margins.rate += rate;
+    }
+}
+
 impl Asked<'_> {
     /// The motion over the time.
     pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
@@ -86,8 +102,12 @@ impl Asked<'_> {
         self.bound * (end - start) * (to - from) * each.sum::<f64>()
     }
 
-    /// The limit that is exceeded most; the margins of pieces in which one is are widened.
-    pub(super) fn widen(&self, trace: &Trace, margins: &mut [Margins]) -> Result<Worst, NoMotion> {
+    /// The limit that is exceeded most, and by which shares limits of state, jerk and torque rate are exceeded in each piece.
+    pub(super) fn exceeded(
+        &self,
+        trace: &Trace,
+        pieces: usize,
+    ) -> Result<(Worst, Vec<[f64; 3]>), NoMotion> {
         let way = self.field.way;
         let direction = way.direction;
         let limits = self.limits();
@@ -97,7 +117,7 @@ impl Asked<'_> {
         };
         let near = self.ends.inside(0.0);
         let distance = |phi: f64| (phi - self.ends.from) * direction;
-        let mut own: Vec<[f64; 3]> = vec![[0.0; 3]; margins.len()];
+        let mut own: Vec<[f64; 3]> = vec![[0.0; 3]; pieces];
         for (index, pair) in trace.nodes().windows(2).enumerate() {
             let [a, b] = [&pair[0], &pair[1]];
             if b.step <= 0.0 {
@@ -159,19 +179,7 @@ impl Asked<'_> {
                 }
             }
         }
-        for (margins, own) in margins.iter_mut().zip(own) {
-            let [state, jerk, rate] = own.map(|excess| {
-                if excess > 0.5 * WITHIN {
-                    1.1 * excess + 1e-9
-                } else {
-                    0.0
-                }
-            });
-            margins.state += state;
-            margins.jerk += jerk;
-            margins.rate += rate;
-        }
-        Ok(worst)
+        Ok((worst, own))
     }
 
     /// Which limit is met, from where to where.
