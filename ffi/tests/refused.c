@@ -4,6 +4,7 @@
 
 #include "jred.h"
 #include "../examples/press.h"
+#include "../examples/press_plan.h"
 
 JRED_MODEL(other, spline_f32, 1);
 JRED_MODEL(cubic, cubic_f32, 21);
@@ -13,6 +14,7 @@ JRED_MODEL(crank, slider_crank_f32, 49);
 JRED_ANY_MODEL(any, spline_f32);
 
 #define WORDS (sizeof press_words / sizeof press_words[0])
+#define PLAN_WORDS (sizeof press_plan_words / sizeof press_plan_words[0])
 
 static int failures;
 
@@ -98,6 +100,33 @@ int main(void) {
     EXPECT(jred_q15_from_si(5.0f, 20.0f, &half), JRED_OK);
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
     CLAIM(jred_phase_from_counts(1024 + 4096, 4096) == 0x40000000u && jred_phase_from_counts(1, 0) == 0);
+
+    /* What is no plan is not followed; no follower waits. */
+    static jred_f32_follower follower;
+    jred_f32_planned planned = {1, 1, 1.0f, 1.0f, true};
+    jred_plan plan;
+    press_model none = {{0, {0}}};
+    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_WAITING && planned.phase == 0 && planned.omega == 0.0f && !planned.limited);
+    CLAIM(jred_f32_follower_next(NULL, 100, NULL) == JRED_WAITING);
+    EXPECT(jred_f32_follower_repeat(NULL), JRED_NULL);
+    EXPECT(jred_f32_follower_repeat(&follower), JRED_NOT_LOADED);
+    EXPECT(jred_f32_follower_plan(&follower, &plan), JRED_NOT_LOADED);
+    EXPECT(press_follow(NULL, &follower, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
+    EXPECT(press_follow(&press, NULL, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
+    EXPECT(press_follow(&press, &follower, NULL, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
+    EXPECT(press_follow(&none, &follower, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_NOT_LOADED);
+    EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS - 1, 0.001f, 0.1f), JRED_LENGTH);
+    EXPECT(press_follow(&press, &follower, press_words, WORDS, 0.001f, 0.1f), JRED_NOT_A_PLAN);
+    EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.0f, 0.1f), JRED_FIGURE);
+    EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.001f, -0.1f), JRED_FIGURE);
+    EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_OK);
+    EXPECT(jred_f32_follower_plan(&follower, &plan), JRED_OK);
+    CLAIM(plan.rows == 10 && plan.machine == PRESS_PLAN_MACHINE && plan.machine == info.machine && plan.acceleration_error < 0.23f);
+    EXPECT(jred_f32_follower_repeat(&follower), JRED_OK);
+    jred_f32_follower_start(&follower);
+    for (int tick = 0; tick < 1000; tick++) CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_RUNNING);
+    jred_f32_follower_reset(&follower);
+    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_WAITING && planned.phase == 0x80000000u);
     printf("%d failures\n", failures);
     return failures != 0;
 }

@@ -310,6 +310,25 @@ fn a_plan_is_the_motion() {
         run(&arguments).ends(2).says(&[says]);
     };
     refused(&["--plan-error", "1 %"], "--plan");
+    // Finer than whole numbers: it is written, and says so.
+    run(&[
+        "fastest",
+        press,
+        "--torque",
+        "50 N m",
+        "--motor-speed",
+        "3000 rpm",
+        "--plan",
+        plan.to_str().unwrap(),
+        "--plan-error",
+        "0.0001 %",
+    ])
+    .ends(0)
+    .says(&[
+        "warning: the plan's acceleration is off by",
+        "but --plan-error allows",
+        "give a larger --plan-error",
+    ]);
     refused(
         &["--plan", plan.to_str().unwrap(), "--plan-error", "50 %"],
         "from 0.0001 % to 10 %",

@@ -162,6 +162,25 @@ fn constant_speed_takes_one_row() {
     assert_eq!((plan.rows, plan.excess), (4, None));
 }
 
+/// A motion of many short steps takes few rows also where the error asked for is as small as the rounding of positions: rows are not shorter than that allows.
+#[test]
+fn fine_steps_do_not_make_short_rows() {
+    let (way, angle) = (0.5 * TAU, TAU);
+    let trace = motion(20_000, 1.0, |t| {
+        [
+            way * (t - (angle * t).sin() / angle),
+            way * (1.0 - (angle * t).cos()),
+            way * angle * (angle * t).sin(),
+        ]
+    });
+    let plan = Plan::new(&trace, Domain::Turn, 0, 1e-6).unwrap();
+    assert!((20..60).contains(&plan.rows), "{}", plan.rows);
+    // 6 units over the square of the shortest row, and as much from the motion: 1e-5 of the greatest.
+    let error = f64::from(plan.errors.acceleration);
+    assert!(error < 1e-5 * 0.5 * TAU * TAU, "{error}");
+    assert!((plan.most[1] / (0.5 * TAU * TAU) as f32 - 1.0).abs() < 1e-3);
+}
+
 /// A plan says which of its three is off more than it may be, where and by how much.
 #[test]
 fn what_contradicts_itself_is_said() {
