@@ -222,7 +222,7 @@ impl<'a, N: Number> Follower<'a, N> {
             state.acceleration = 0;
         }
         let alpha = N::of_counts([
-            (state.acceleration, self.plan.to_acceleration()),
+            (state.acceleration, self.plan.of_acceleration()),
             (gain, &self.ramp),
         ]);
         let place = self.plan.place(state, alpha);

@@ -291,7 +291,7 @@ impl<'a, N: Number> Plan<'a, N> {
 
     /// From accelerations in units of the plan to machine units.
     #[inline]
-    pub(super) const fn to_acceleration(&self) -> &Factor {
+    pub(super) const fn of_acceleration(&self) -> &Factor {
         &self.acceleration
     }
 
