@@ -243,6 +243,28 @@ fn what_is_no_plan_is_refused() {
                 "{period} {ramp}"
             );
         }
+    }
+}
+
+#[test]
+fn a_follower_is_none_before_it_is_made() {
+    let (image, plan) = (press(), plan());
+    let status = |status: Status| status as i32;
+    // SAFETY: as above.
+    unsafe {
+        let (mut memory, mut follow): (Press, Follow<f32>) = (zeroed(), zeroed());
+        let (memory, follow, length) = (&raw mut memory, &raw mut follow, plan.len());
+        assert_eq!(
+            jred_spline_f32_load(memory, PRESS, image.as_ptr(), image.len()),
+            0
+        );
+        let refused = |words: &[u32], length, period, ramp| {
+            jred_spline_f32_follow(memory, follow, words.as_ptr(), length, period, ramp)
+        };
+        assert_eq!(
+            refused(&plan, length - 1, 1e-3, 0.1),
+            status(Status::Length)
+        );
         // A follower whose making failed is none.
         let mut found = CPlanned::default();
         assert_eq!(
