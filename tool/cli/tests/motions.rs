@@ -26,6 +26,63 @@ fn run(arguments: &[&str]) -> Run {
     jred_with(arguments)
 }
 
+/// The force in a joint that `fastest` limits is the one that `reduce --reactions` finds in the motion that it wrote.
+#[test]
+fn a_limited_force_is_that_of_the_reactions() {
+    let folder = Folder::new();
+    let text = include_str!("../../../machines/scotch-yoke.toml");
+    let yoke = folder.file("yoke.toml", text);
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Run-up from rest").unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"p.csv\"\ncyclic = false\n\n";
+    let judged = folder.file("judged.toml", edited(text, &text[begin..end], motion));
+    let profile = folder.path("p.csv");
+    let mut asked = vec![
+        "fastest",
+        yoke.to_str().unwrap(),
+        "--from",
+        "30 deg",
+        "--to",
+        "400 deg",
+    ];
+    asked.extend(["--torque", "80 N m", "--motor-speed", "1500 rpm"]);
+    asked.extend(["--profile", profile.to_str().unwrap(), "--format", "json"]);
+    let joint = ["--max-reaction", "pin in the slot=1 kN"];
+    for (limit, most) in [(&joint[..], 1000.0), (&[], 2000.0)] {
+        let made = run(&[&asked[..], limit].concat()).ends(0).json();
+        let phases = made["moves"][0]["phases"].as_array().unwrap();
+        let at_limit = phases
+            .iter()
+            .any(|phase| phase["limit"] == "force in pin in the slot");
+        assert_eq!(at_limit, !limit.is_empty());
+        let forces = run(&[
+            "reduce",
+            judged.to_str().unwrap(),
+            "--reactions",
+            "--over",
+            "time",
+            "--positions",
+            "2000",
+            "--format",
+            "json",
+        ]);
+        let largest = forces.ends(0).json()["largest"].clone();
+        let of_pin = largest
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|one| one["quantity"] == "pin in the slot F [N]");
+        let force = of_pin.unwrap_or_else(|| panic!("{largest}"))["value"]
+            .as_f64()
+            .unwrap();
+        if limit.is_empty() {
+            assert!(force > 1.05 * 1000.0 && force < most, "{force}");
+        } else {
+            assert!((force / most - 1.0).abs() <= 1e-5, "{force}");
+        }
+    }
+}
+
 /// With the reserve of the rules, written as a profile, the same drive is accepted, and its peak torque is that of the motion; without a reserve
 /// torque and speed are refused.
 #[test]

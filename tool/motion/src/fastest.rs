@@ -7,17 +7,19 @@
 //! [`solve`] is exact for any torque-speed limits, for viscous and Coulomb friction and losses. If it finds no motion, there is none, but where
 //! limits of acceleration leave separate ranges of speed: `sweep` says why.
 
+mod between;
 pub mod corners;
 pub mod cycle;
 mod endless;
-mod excess;
 pub mod field;
+pub mod joint_force;
 pub mod leg;
 mod lines;
 mod obstacle;
 mod phases;
 pub mod plane;
 mod programme;
+mod reserve;
 mod rms;
 pub mod sweep;
 pub mod tool_speed;
@@ -30,9 +32,9 @@ use jred_machine::model::machine::MachineFile;
 
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, Way};
-use excess::excess;
 pub use field::{Binding, Limits, Reserve};
 use field::{Field, speed};
+pub use joint_force::JointForces;
 use leg::Step;
 pub use obstacle::NoMotion;
 pub use phases::Phase;
@@ -59,6 +61,9 @@ const ROUNDS: u32 = 24;
 /// less accurate is none.
 const MOST_EXCESS: f64 = 1e-6;
 const MOST_CHANGE: f64 = 1e-6;
+
+/// Cells with which limits that contradict each other are taken as such.
+const ENOUGH: usize = 4096;
 
 /// Cells in a turn of a machine that changes within it, about the middle of the way where they are longest.
 const PER_TURN: f64 = 16.0;
@@ -122,6 +127,9 @@ pub fn priced(
     price: Price,
     start: Start,
 ) -> Result<(Fastest, Warm), NoMotion> {
+    if task.limits.forces.is_some() {
+        return Err(NoMotion::JointForceAlone);
+    }
     let free = Task {
         limits: task.limits.without_rates(),
         ..*task
@@ -204,12 +212,22 @@ fn refine(
     let mut finer: Vec<f64> = Vec::new();
     for round in 0.. {
         let track = Track::new(&field, &ends, count, &finer)?;
+        if let Some((phi, force)) = joint_force::without_motion(&track) {
+            return Err(NoMotion::of_force(file, phi, &force));
+        }
         let pieces = sweep::fastest(&field, &track, z)
             .map_err(|obstacle| NoMotion::at(&field, &track, obstacle))?;
-        check(&field, &track, &pieces)?;
+        let may_go_on = track.cells.len() < most && round < ROUNDS;
+        if let Err(empty) = between::check(&field, &ends, &track, &pieces) {
+            // Between the places of a cell two limits that meet at the largest speed may cross.
+            if task.limits.forces.is_some() && finer.is_empty() && count < ENOUGH && may_go_on {
+                count *= 2;
+                continue;
+            }
+            return Err(empty);
+        }
         let times = sweep::times(&track, &pieces);
         let time: f64 = times.iter().sum();
-        let may_go_on = track.cells.len() < most && round < ROUNDS;
         if finer.is_empty() {
             let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
             before = Some(time);
@@ -221,7 +239,7 @@ fn refine(
         }
         let trace = trace(&way, &ends, &track, &pieces, &times);
         let (worst, places) = if within.is_finite() {
-            excess(&field, &ends, (&track, &pieces), &trace, within)?
+            between::excess(&field, &ends, (&track, &pieces), &trace, within)?
         } else {
             ((0.0, task.from), Vec::new())
         };
@@ -290,29 +308,6 @@ fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion>
         });
     }
     Ok((PER_TURN * FRAC_PI_2 * turns).ceil() as usize)
-}
-
-/// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
-fn check(field: &Field, track: &Track, pieces: &[Piece]) -> Result<(), NoMotion> {
-    if !field.may_be_empty() {
-        return Ok(());
-    }
-    for Piece { cell, step, .. } in pieces {
-        let cell = &track.cells[*cell];
-        for end in [0, 1] {
-            let (place, z) = (cell.place(step.u[end]), step.z[end]);
-            let [low, high] = [field.least_by(&place, z), field.most_by(&place, z)];
-            if low.0 > high.0 + 1e-9 * (low.0.abs() + high.0.abs()) {
-                return Err(NoMotion::Empty {
-                    phi: place.phi,
-                    speed: speed(z),
-                    least: low,
-                    most: high,
-                });
-            }
-        }
-    }
-    Ok(())
 }
 
 /// The motion over the time.

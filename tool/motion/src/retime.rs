@@ -4,19 +4,21 @@ use jred::Error;
 use jred::machine::motion::Law;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, Phase, Segment};
-use jred_sizing::catalogue::Drive;
+use jred_machine::model::motion::{Motion, Segment};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::motor::winding::CurrentCurve;
 
 use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Travel};
 use crate::moves::{self, Move, NoMoves, Part};
-use crate::trace::{Node, Trace};
+use crate::trace::Trace;
 use crate::way::{Actuator, Way};
 
+use self::course::trace;
 use self::even::constant_energy;
+pub use self::figures::{Figures, Goal, WINDING, copper};
 
+mod course;
 mod even;
+mod figures;
 mod law;
 mod standing;
 
@@ -45,9 +47,6 @@ pub const LAWS: [(&str, Law); 9] = [
     ("polynomial-4567", Law::Polynomial4567),
 ];
 
-/// Temperature of the winding (°C) at which the copper loss is taken.
-pub const WINDING: f64 = 20.0;
-
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -61,58 +60,6 @@ pub struct Request {
     pub ramp: f64,
     /// Time steps of the duty.
     pub steps: usize,
-}
-
-jred_machine::words! {
-    /// What is to be least, over the cycle.
-    pub enum Goal default Rms {
-        /// RMS torque: the heat in the motor.
-        Rms = "rms",
-        /// Copper loss and the mechanical work that the motor delivers; what flows back is not deducted.
-        Energy = "energy",
-        /// Largest torque.
-        Peak = "peak",
-    }
-}
-
-/// Copper loss per square of the torque of a drive's motor (W/(N·m)²), its winding at 20 °C, up to the torque where the iron saturates.
-/// `None`: resistance or torque constant is not stated.
-pub fn copper(drive: &Drive) -> Option<f64> {
-    let constant = CurrentCurve::of(drive.motor)?.torque_constant();
-    let resistance = drive.motor.winding.loss_resistance(WINDING)?;
-    Some(resistance / (constant * constant))
-}
-
-/// What a motion asks of the motor, or of the input of the drive train.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figures {
-    /// RMS torque over the cycle (N·m).
-    pub rms: f64,
-    /// Largest magnitude of the torque (N·m).
-    pub peak: f64,
-    /// Mechanical work that the motor delivers in a cycle (J); what flows back is not deducted.
-    pub drawn: f64,
-    /// Copper loss in a cycle (J).
-    pub copper: Option<f64>,
-    /// Largest speed (rad/s).
-    pub speed: f64,
-    /// Largest share of the drive's short-time torque; infinite beyond its largest speed.
-    pub used: f64,
-    /// RMS torque as a share of the S1 torque at the mean speed; 0 where that is not known.
-    pub rms_used: f64,
-    /// Largest speed as a share of the motor's; 0 where that is not known.
-    pub speed_used: f64,
-}
-
-impl Figures {
-    /// The figure that is to be least.
-    pub fn of(&self, goal: Goal) -> f64 {
-        match goal {
-            Goal::Rms => self.rms,
-            Goal::Peak => self.peak,
-            Goal::Energy => self.drawn + self.copper.unwrap_or(0.0),
-        }
-    }
 }
 
 /// A motion of the comparison.
@@ -397,55 +344,4 @@ impl Asked<'_> {
             },
         ])
     }
-}
-
-/// The motion as nodes.
-fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Trace {
-    let coordinate = file.machine.mechanism().coordinate();
-    let mut trace = Trace::new(coordinate, Vec::new());
-    let mut moves = moves.iter();
-    for part in parts {
-        match part {
-            Part::Dwell { at, duration } => {
-                if trace.nodes().is_empty() {
-                    trace = Trace::from_rest(coordinate, *at);
-                }
-                trace.dwell(*duration);
-            }
-            Part::Move(step) => {
-                let phases = moves.next().map_or(&[][..], |gentle| &gentle.phases);
-                trace.then(&nodes(step.from, phases));
-            }
-        }
-    }
-    trace
-}
-
-fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
-    let mut nodes: Vec<Node> = Vec::with_capacity(phases.len() + 1);
-    let (mut t, mut phi) = (0.0, from);
-    for phase in phases {
-        let [_, omega, alpha, _] = phase.polynomial.at(0.0);
-        match nodes.last_mut() {
-            Some(node) => node.alpha[1] = alpha,
-            None => nodes.push(Node {
-                t,
-                step: 0.0,
-                phi,
-                omega,
-                alpha: [0.0, alpha],
-            }),
-        }
-        let [way, omega, alpha, _] = phase.polynomial.at(phase.duration);
-        t += phase.duration;
-        phi += way;
-        nodes.push(Node {
-            t,
-            step: phase.duration,
-            phi,
-            omega,
-            alpha: [alpha, 0.0],
-        });
-    }
-    nodes
 }

@@ -3,6 +3,7 @@
 mod closed_form;
 mod endless;
 mod jerk;
+mod joint_force;
 mod lengths;
 mod programme;
 mod refusals;

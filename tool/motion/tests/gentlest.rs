@@ -15,6 +15,8 @@ use jred_sizing::study::common::named;
 
 use crate::support::near;
 
+mod closed_form;
+mod objectives;
 mod polynomials;
 mod slow;
 
@@ -83,115 +85,6 @@ fn is_global(gentle: &Gentle) {
         assert!(gap < 1e-6, "gap {gap:e}");
     }
 }
-
-/// Constant inertia: φ = D·(3τ² − 2τ³), ∫T² = 12·J²·D²/T³, which is also the bound.
-#[test]
-fn constant_inertia_is_the_cubic() {
-    let file = table(2.0, 0.0);
-    for (distance, duration) in [(2.0, 0.5), (-40.0, 3.0), (1e-6, 1e-3), (1e3, 50.0)] {
-        let gentle = best(&file, &travel(0.3, distance, duration), Objective::Rms);
-        let exact = 12.0 * 4.0 * distance * distance / duration.powi(3);
-        near("∫T²", gentle.cost, exact, 1e-9);
-        near("bound", gentle.bound.unwrap(), exact, 1e-9);
-        near(
-            "per second",
-            gentle.per_second,
-            -3.0 * exact / duration,
-            1e-6,
-        );
-        is_global(&gentle);
-        let (mut t, mut way) = (0.0, 0.0);
-        for phase in &gentle.phases {
-            let share = (t + 0.5 * phase.duration) / duration;
-            let middle = way + phase.polynomial.at(0.5 * phase.duration)[0];
-            let cubic = distance * share * share * (3.0 - 2.0 * share);
-            assert!((middle - cubic).abs() < 1e-9 * distance.abs());
-            t += phase.duration;
-            way += phase.polynomial.at(phase.duration)[0];
-        }
-        near("time", t, duration, 1e-12);
-        near("way", way, distance, 1e-12);
-    }
-}
-
-/// Between speeds the acceleration is a straight line over the time too.
-#[test]
-fn between_speeds_it_is_a_cubic_as_well() {
-    let file = table(2.0, 0.0);
-    let (d, t, [v, w]) = (2.0, 0.5, [1.0, 2.0]);
-    let travel = Travel {
-        speeds: [v, w],
-        ..travel(0.0, d, t)
-    };
-    let gentle = best(&file, &travel, Objective::Rms);
-    let exact = 4.0
-        * (4.0 * (v * v + v * w + w * w) / t - 12.0 * d * (v + w) / (t * t)
-            + 12.0 * d * d / (t * t * t));
-    near("∫T²", gentle.cost, exact, 1e-9);
-    is_global(&gentle);
-}
-
-/// Against Coulomb friction C a second more costs C² − 36·J²·D²/T⁴. At rest nothing is held, so the motion takes the time at which this
-/// is zero, and waits.
-#[test]
-fn a_long_time_against_friction_is_waited() {
-    let (j, c, d) = (2.0f64, 3.0f64, 2.0f64);
-    let own = (36.0 * j * j * d * d / (c * c)).powf(0.25);
-    let file = table(j, c);
-    let cost = |t: f64| 12.0 * j * j * d * d / t.powi(3) + c * c * t;
-    for share in [0.3, 0.9, 1.1, 3.0] {
-        let time = share * own;
-        let gentle = best(&file, &travel(0.0, d, time), Objective::Rms);
-        let moving = time.min(own);
-        near("moving", gentle.moving, moving, 1e-5);
-        near("∫T²", gentle.cost, cost(moving), 1e-9);
-        is_global(&gentle);
-        let whole: f64 = gentle.phases.iter().map(|phase| phase.duration).sum();
-        near("time", whole, time, 1e-12);
-    }
-}
-
-/// A weight is held while waiting too, so that waiting saves nothing: 12·J²·D²/T³ + G²·T in any time, and the optimum is global although
-/// a longer time costs more.
-#[test]
-fn a_weight_is_moved_all_the_time() {
-    let file = machine(
-        "title = \"hoist\"\ngravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n[mechanism.drum]\n\
-         mass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n[mechanism.load]\nradius = \"100 mm\"\nmass = \"40 kg\"\n",
-    );
-    let (j, g) = (0.5 + 40.0 * 0.01, 40.0 * 9.81 * 0.1);
-    for time in [0.5f64, 2.0, 20.0] {
-        for distance in [6.0, -6.0] {
-            let gentle = best(&file, &travel(0.0, distance, time), Objective::Rms);
-            let exact = 12.0 * j * j * distance * distance / time.powi(3) + g * g * time;
-            near("∫T²", gentle.cost, exact, 1e-9);
-            near("moving", gentle.moving, time, 1e-12);
-            is_global(&gentle);
-        }
-    }
-}
-
-/// Without friction and load a machine that turns for ever takes no torque at constant kinetic energy.
-#[test]
-fn an_endless_turn_keeps_its_energy() {
-    let file = crank("");
-    let motion = Motion::constant_speed(0.0, TAU, TAU);
-    let found = retime(&file, &motion, &request(Goal::Rms, 0.0)).unwrap();
-    assert!(found.endless);
-    assert!(found.best.rms < 1e-5 * found.own.rms, "{:?}", found.best);
-    let even = &found.laws[1].figures;
-    assert!(even.rms < 1e-6 * found.own.rms, "{even:?}");
-    let energy = |t: f64| {
-        let state = found.motion.at(t);
-        let inertia = file.machine.bare_reduction(state.phi).unwrap().inertia;
-        inertia * state.omega * state.omega
-    };
-    let first = energy(0.0);
-    for k in 1..50 {
-        near("energy", energy(f64::from(k) / 50.0), first, 1e-5);
-    }
-}
-
 /// A crank of 60 mm with a rod and a slider, one turn a second.
 fn crank(loads: &str) -> MachineFile {
     machine(&format!(
@@ -201,100 +94,6 @@ fn crank(loads: &str) -> MachineFile {
          com = [\"100 mm\", \"0 mm\"]\n[mechanism.slider]\nmass = \"8 kg\"\n{loads}"
     ))
 }
-
-/// A slider-crank at one turn a second, friction at its slider and in its bearings: against constant speed both objectives take more than
-/// 60 % off the peak torque, and the least peak is below that of the least RMS.
-#[test]
-fn a_slider_crank_takes_a_fraction_of_the_peak() {
-    let file = crank(
-        "[[load]]\non = \"slider\"\nopposing_force = \"4 N\"\n[[load]]\non = \"crank\"\nopposing_moment = \"0.05 N m\"\n",
-    );
-    let motion = Motion::constant_speed(0.0, TAU, TAU);
-    let [rms, peak] =
-        [Goal::Rms, Goal::Peak].map(|goal| retime(&file, &motion, &request(goal, 0.0)).unwrap());
-    assert!(rms.best.peak < 0.4 * rms.own.peak, "{:?}", rms.best);
-    assert!(peak.best.peak < 0.4 * peak.own.peak, "{:?}", peak.best);
-    assert!(peak.best.peak <= rms.best.peak * 1.001);
-    assert!(rms.best.rms <= peak.best.rms);
-}
-
-/// ∫T² of the solver is that of the duty of the motion that it returns, for machines with losses, friction, edges of loads and dwells;
-/// and nothing in the table is below the bound.
-#[test]
-fn the_duty_confirms_the_torque() {
-    for name in [
-        "press",
-        "rotary-table",
-        "vertical-axis",
-        "four-bar",
-        "hoist",
-        "six-link",
-    ] {
-        let file = example(name, &[]);
-        let found = retimed(&file, Goal::Rms, 0.0);
-        let duration = found.motion.duration();
-        let moves: f64 = found.moves.iter().map(|gentle| gentle.cost).sum();
-        // What the dwells of the file take: the own motion without its moves.
-        let duty = jred_machine::analysis::duty::Duty::new(&file, &found.motion, 4000).unwrap();
-        let still = duty.instants.iter().filter(|instant| instant.omega == 0.0);
-        let dwells: f64 = still
-            .map(|instant| instant.weight * instant.input_torque * instant.input_torque)
-            .sum();
-        let waits: f64 = found
-            .moves
-            .iter()
-            .map(|gentle| (gentle.travel.duration - gentle.moving, gentle))
-            .filter(|(wait, _)| *wait > 0.0)
-            .map(|(wait, gentle)| {
-                let at = if gentle.waits_at_end {
-                    gentle.travel.distance
-                } else {
-                    0.0
-                };
-                let held = file.bare_reduction(gentle.travel.start + at).unwrap();
-                let torque = held.torque(0.0, 0.0).total() / file.drive_train.ratio();
-                wait * torque * torque / file.drive_train.efficiency().powi(2)
-            })
-            .sum();
-        let expected = moves + dwells - waits;
-        near(name, found.best.rms.powi(2) * duration, expected, 1e-6);
-        let bound = found.bound.unwrap();
-        for figures in found
-            .laws
-            .iter()
-            .map(|row| &row.figures)
-            .chain([&found.own])
-        {
-            assert!(figures.rms >= bound * (1.0 - 1e-9), "{name}: {figures:?}");
-            assert!(figures.rms >= found.best.rms * (1.0 - 1e-9), "{name}");
-        }
-        assert_eq!(found.optimum(), Optimum::Global, "{name}");
-        let gap = (found.best.rms - bound) / found.best.rms;
-        assert!(gap < 1e-4, "{name}: gap {gap:e}");
-    }
-}
-
-/// Energy and peak: the gentlest of each is the least of the table in its own figure.
-#[test]
-fn each_objective_is_least_in_its_own_figure() {
-    for name in ["press", "rotary-table", "four-bar"] {
-        let file = example(name, &[]);
-        let all =
-            [Goal::Rms, Goal::Energy, Goal::Peak].map(|goal| (goal, retimed(&file, goal, 0.0)));
-        for (goal, found) in &all {
-            for (_, other) in &all {
-                let [own, other] = [found, other].map(|found| found.best.of(*goal));
-                assert!(
-                    own <= other * 1.003,
-                    "{name}, {goal}: {own}, with another objective {other}"
-                );
-            }
-            let law = found.best_law(*goal).unwrap().figures.of(*goal);
-            assert!(found.best.of(*goal) <= law * (1.0 + 1e-9), "{name}, {goal}");
-        }
-    }
-}
-
 /// With ramps the acceleration is zero at rest and has no jump; a tenth costs little, and less than the law of fifth degree.
 #[test]
 fn ramps_begin_and_end_without_a_jump() {
@@ -332,7 +131,6 @@ fn ramps_begin_and_end_without_a_jump() {
         assert!((after - before).abs() < 1e-6 * largest, "{node:?}");
     }
 }
-
 /// The same machine in other units of mass and time: torques ×k/c², times ×c; from 1 µs to a day.
 #[test]
 fn units_change_nothing() {
@@ -356,16 +154,6 @@ fn backwards_is_the_same_in_reverse() {
     is_global(&there);
     is_global(&back);
 }
-
-/// The least peak of a constant inertia is that of constant acceleration, 4·J·D/T², from below to 1 %.
-#[test]
-fn the_least_peak_is_that_of_the_parabola() {
-    let gentle = best(&table(2.0, 0.0), &travel(0.0, 2.0, 0.5), Objective::Peak);
-    let parabola = 4.0 * 2.0 * 2.0 / 0.25;
-    let least = gentle.least_peak.unwrap();
-    assert!(least < parabola && least > 0.99 * parabola, "{least}");
-}
-
 /// What cannot be made is refused by its name.
 #[test]
 fn bad_input_is_named() {
@@ -414,57 +202,6 @@ fn bad_input_is_named() {
         Obstacle::NoCopper
     );
 }
-
-/// The least peak of a table from rest to rest is that of constant acceleration, 4·J·D/T²; and no law of the list has a lower one, of any
-/// machine, as far as it has the ends that are asked for.
-#[test]
-fn no_law_has_a_lower_peak() {
-    let text = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\n\
-                inertia = \"2 kg m^2\"\n[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"90 deg\"\nduration = \"0.5 s\"\n\
-                [[motion.segment]]\ndwell = \"0.2 s\"\n";
-    let found = retimed(&machine(text), Goal::Peak, 0.0);
-    assert_eq!(found.moves[0].law, Some("parabola"));
-    near(
-        "peak",
-        found.best.peak,
-        4.0 * 2.0 * (TAU / 4.0) / 0.25,
-        1e-9,
-    );
-    let nodes = found.trace.nodes();
-    near("way", nodes[nodes.len() - 1].phi, TAU / 4.0, 1e-12);
-    let machines = vec![
-        machine(text),
-        example("press", &[]),
-        example("four-bar", &[]),
-        example("vertical-axis", &[]),
-        example("rack", &[]),
-    ];
-    for file in &machines {
-        // With ramps the search for the peak finds no motion of some machines, and says so.
-        for ramp in [0.0, 0.1] {
-            let motion = file.motion.as_ref().unwrap();
-            let found = match retime(file, motion, &request(Goal::Peak, ramp)) {
-                Ok(found) => found,
-                Err(Obstacle::Move(_, _, Fault::NotFound)) if ramp > 0.0 => continue,
-                Err(why) => panic!("{why:?}"),
-            };
-            for law in &found.laws {
-                let jumps = ["parabola", "trapezoid", "simple-sine"].contains(&law.name);
-                if ramp > 0.0 && jumps {
-                    continue;
-                }
-                let [best, other] = [found.best.peak, law.figures.peak];
-                assert!(
-                    best <= other * (1.0 + 1e-9),
-                    "{} {}: {best} {other}",
-                    file.title,
-                    law.name
-                );
-            }
-        }
-    }
-}
-
 /// The table of an indexing cam rests while the cam turns through its dwell: the gentlest motion hurries through it, and says so.
 #[test]
 fn a_dwell_of_a_cam_that_is_lost_is_named() {
@@ -481,7 +218,6 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
             .is_empty()
     );
 }
-
 /// A large gearbox with losses, at whose output the torque bends twice within the roundings of the far lines between which its bends are sought: the
 /// lower bound is found, and close.
 #[test]

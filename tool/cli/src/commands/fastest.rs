@@ -12,6 +12,7 @@ use crate::output;
 use crate::output::print_parts;
 use jred::machine::Mechanism as _;
 use jred::{Domain, Reducible as _};
+use jred_machine::analysis::reduce::joints_with_force;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
@@ -21,7 +22,7 @@ use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
-use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task, ToolSpeed};
+use jred_motion::fastest::{JointForces, Limits, NoMotion, Reserve, Rms, Task, ToolSpeed};
 use jred_motion::moves::{NoMoves, parts, ring};
 use jred_motion::way::Actuator;
 use jred_report::list;
@@ -62,14 +63,14 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(Asked::Share(share)) => Reserve::of_motor(share),
         Some(Asked::Rules) => Reserve::of(&file.rules),
     };
-    let limits = limits(options, &file, chosen.limits)?.with_reserve(reserve);
+    let limits = limits(options, &file, &chosen.limits)?.with_reserve(reserve);
     let rms = rms(options, &file, &chosen)?;
     let cycle = match task {
         Some(task) => {
             let task = Task { limits, ..task };
             single(&file, &chosen.actuator, task, rms).map_err(|why| no_motion(&why, None))?
         }
-        None => of_motion(&file, &chosen.actuator, limits, rms)?,
+        None => of_motion(&file, &chosen.actuator, &limits, rms)?,
     };
     let trace = cycle.trace.of_axis(&file.axis());
     if let Some(path) = &options.profile {
@@ -114,7 +115,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
 fn of_motion(
     file: &MachineFile,
     actuator: &Actuator,
-    limits: Limits,
+    limits: &Limits,
     rms: Option<Rms>,
 ) -> Result<Cycle> {
     let motion = file.motion_or("give --from and --to, or ")?;
@@ -126,7 +127,7 @@ fn of_motion(
                 file.name
             ));
         }
-        return endless(file, actuator, limits, &step).map_err(|why| no_motion(&why, None));
+        return endless(file, actuator, *limits, &step).map_err(|why| no_motion(&why, None));
     }
     let parts = parts(motion).map_err(|why| match why {
         NoMoves::Still => miette!(
@@ -147,7 +148,7 @@ fn of_motion(
         }
     })?;
     let moves = parts.len();
-    cycle(file, actuator, limits, rms, &parts).map_err(|(index, why)| {
+    cycle(file, actuator, *limits, rms, &parts).map_err(|(index, why)| {
         let which = (moves > 1).then_some(index + 1);
         no_motion(&why, which)
     })
@@ -212,7 +213,7 @@ fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Resu
 }
 
 /// The limits of the command line, and those of the gearbox.
-fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limits> {
+fn limits(options: &Options, file: &MachineFile, gearbox: &Limits) -> Result<Limits> {
     let axis = file.axis();
     let read = |name: &str, text: &Option<String>, read: read::Reader| {
         rate(name, text.as_deref(), read, &axis)
@@ -247,13 +248,42 @@ fn limits(options: &Options, file: &MachineFile, gearbox: Limits) -> Result<Limi
             Some(text) => Some(tool_speed(text, file)?),
             None => None,
         },
+        forces: forces(&options.max_reaction, file)?,
         acceleration,
         deceleration: deceleration.or(acceleration),
         jerk,
         torque_rate,
         level_ends: has_rates && options.ends != Some(Ends::Free),
-        ..gearbox
+        ..*gearbox
     })
+}
+
+/// "crank pin=2 kN", for each joint.
+fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
+    let mut forces = JointForces::default();
+    let joints = joints_with_force(file.machine.mechanism()).map_err(core_report)?;
+    for text in texts {
+        let given = format!("--max-reaction {}", plain::quoted(text));
+        let Some((name, force)) = text.rsplit_once('=') else {
+            return Err(miette!(
+                help = "write a joint and its largest force: \"crank pin=2 kN\"",
+                "{given} has no \"=\""
+            ));
+        };
+        let name = name.trim();
+        let Some((joint, _)) = joints.iter().find(|(_, own)| *own == name) else {
+            let all: Vec<&str> = joints.iter().map(|(_, name)| *name).collect();
+            return Err(miette!(
+                help = format!("these do: {}", all.join(", ")),
+                "{given}: the mechanism has no joint {} that carries a force",
+                plain::quoted(name)
+            ));
+        };
+        let force = read::drive_effort(force.trim(), Coordinate::Length)
+            .map_err(|why| miette!("{given} cannot be used: {why}"))?;
+        forces = forces.with(*joint, force);
+    }
+    Ok(forces)
 }
 
 /// "slider, 60 mm/s, 300 deg, 360 deg".

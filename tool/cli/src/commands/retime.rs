@@ -6,7 +6,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
-use crate::commands::{Done, print_parts, warn_of_supply};
+use crate::commands::{Done, drive_named, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output;
 use jred_machine::model::drive_train;
@@ -22,8 +22,7 @@ use jred_motion::way::Actuator;
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::motor::envelope::Envelope;
-use jred_sizing::select::fit::fit_input;
-use jred_sizing::study::common::named;
+use jred_sizing::study::chosen::ChosenDrive;
 
 /// Runs the command.
 ///
@@ -41,18 +40,11 @@ pub fn retime(options: &Retime) -> Result<Done> {
     drive_train::refuse(&file, "retime")?;
     file.refuse_timed("retime")?;
     let motion = file.required_motion()?;
-    let catalogue = match &options.drive {
-        Some(name) => {
-            let mut catalogue = options.catalogue.open()?;
-            fit_input(&mut catalogue, &file)?;
-            Some((catalogue, name))
-        }
+    let chosen = match &options.drive {
+        Some(name) => Some(drive_named(options.catalogue.open()?, name, &file)?),
         None => None,
     };
-    let drive = match &catalogue {
-        Some((catalogue, name)) => Some(named(catalogue, name)?.1),
-        None => None,
-    };
+    let drive = chosen.as_ref().map(ChosenDrive::drive);
     if let Some(drive) = &drive {
         warn_of_supply(drive, &file);
     }

@@ -85,6 +85,9 @@ pub struct Fastest {
     /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere.
     #[arg(long, value_name = "POINT, SPEED, FROM, TO")]
     pub max_tool_speed: Option<String>,
+    /// Largest force in a joint, e.g. "crank pin=2 kN"; `jred check` lists the joints. Several times: for several joints.
+    #[arg(long, value_name = "JOINT=FORCE")]
+    pub max_reaction: Vec<String>,
     /// Largest acceleration of the drive link while its speed grows, e.g. "120 rad/s^2" ("3 m/s^2").
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_acceleration: Option<String>,

@@ -201,6 +201,32 @@ fn slow_through_the_work() {
 }
 
 #[test]
+fn fastest_within_the_force_of_a_joint() {
+    let desk = Desk::new().with_machines(&["press.toml", "scotch-yoke.toml"]);
+    let yoke = [
+        "fastest",
+        "scotch-yoke.toml",
+        "--torque",
+        "80 N m",
+        "--motor-speed",
+        "1500 rpm",
+    ];
+    let way = ["--from", "30 deg", "--to", "400 deg", "--max-reaction"];
+    let with = |more: &[&'static str]| [&yoke[..], &way, more].concat();
+    compare(
+        "fastest-joint-force",
+        &desk.runs(&[
+            &with(&["pin in the slot=1 kN"]),
+            &with(&["pin in the slot=1 kN", "--max-reaction", "guide=20 N"]),
+            &with(&["pin in the slot"]),
+            &with(&["pin=1 kN"]),
+            &with(&["guide=1 N m"]),
+            &with(&["guide=1 kN", "--max-jerk", "1e5 rad/s^3"]),
+        ]),
+    );
+}
+
+#[test]
 fn retime() {
     let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];
     let desk = Desk::new().with_machines(&machines);

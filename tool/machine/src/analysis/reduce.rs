@@ -19,6 +19,7 @@ mod points;
 mod reactions;
 
 pub use largest::{Largest, largest};
+pub use reactions::joints_with_force;
 
 crate::words! {
     /// Variable that the rows run over.

@@ -7,12 +7,16 @@ use jred::{Domain, Error, Reducible as _};
 use jred_machine::number::numerics::{edge, least};
 
 use super::field::Field;
+use super::joint_force::JointForce;
 
 /// Places in a turn, or on the whole way where that is less, between which friction vanishes at most once.
 const PLACES: f64 = 360.0;
 
 /// Share of its largest value below which the friction of a load vanishes.
 const NOTHING: f64 = 1e-6;
+
+/// Share of the largest force by the acceleration below which a limited force is not smooth enough for cells across it.
+const SINKS: f64 = 0.3;
 
 /// Places of a turn, no divisor of which is a number of teeth, at which it is looked whether the machine changes.
 const CHANGES: u32 = 61;
@@ -30,6 +34,7 @@ pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error>
     let mut found: Vec<f64> = edges(field, from);
     found.extend(reversals(field, from, length)?);
     found.extend(of_tool(field, from)?);
+    found.extend(of_forces(field, from, length)?);
     if turns {
         for x in &mut found {
             *x = x.rem_euclid(TAU);
@@ -57,8 +62,8 @@ pub fn count(field: &Field) -> usize {
 /// # Errors
 /// The mechanism cannot be placed somewhere.
 pub fn changes(field: &Field, from: f64) -> Result<bool, Error> {
-    let tool = field.limits.tool.is_some();
-    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 || tool {
+    let limited = field.limits.tool.is_some() || field.limits.forces.is_some();
+    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 || limited {
         return Ok(true);
     }
     let torques = field.way.actuator.torques(0.0).map(f64::abs);
@@ -121,20 +126,57 @@ fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
         .collect())
 }
 
-/// In the way, or in the first turn of a longer one.
-fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
-    let file = field.way.file;
-    let machine = &file.machine;
-    let whole = machine.domain() == Domain::Turn && length > TAU;
+/// Distances from the start, in the way or in the first turn of a longer one, at which a quantity of the position is least among its neighbours, with it.
+fn lows(
+    field: &Field,
+    (from, length): (f64, f64),
+    quantity: impl Fn(f64) -> Result<f64, Error>,
+) -> Result<(Vec<[f64; 2]>, f64), Error> {
+    let whole = field.way.file.machine.domain() == Domain::Turn && length > TAU;
     let length = if whole { TAU } else { length };
     let count = PLACES as usize;
     // A whole turn has no ends: it is looked at one place before and after it as well.
     let outside = usize::from(whole);
     let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
+    let at = |x: f64| quantity(from + field.way.direction * x);
+    let values: Vec<f64> = (0..=count + 2 * outside)
+        .map(|k| at(place(k)))
+        .collect::<Result<_, _>>()?;
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for (k, three) in values.windows(3).enumerate() {
+        if three[1] <= three[0] && three[1] < three[2] {
+            let x = least(at, place(k), place(k + 2))?;
+            found.push([x, at(x)?]);
+        }
+    }
+    Ok((found, largest))
+}
+
+/// Where the acceleration changes a limited force least: there the limit is one of the speed alone, or nearly so.
+fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
+    let mut found = Vec::new();
+    for k in 0..field.limits.forces.count() {
+        let by_acceleration = |phi: f64| {
+            let forces = field.forces(phi)?;
+            Ok(forces.get(k).map_or(0.0, JointForce::by_acceleration))
+        };
+        let (lows, largest) = lows(field, (from, length), by_acceleration)?;
+        let sinks = lows
+            .into_iter()
+            .filter(|[_, force]| *force <= SINKS * largest);
+        found.extend(sinks.map(|[x, _]| x));
+    }
+    Ok(found)
+}
+
+/// Where friction of a load vanishes.
+fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
+    let file = field.way.file;
+    let machine = &file.machine;
     let mut found = Vec::new();
     for load in file.machine_at(&field.way.now(), from)?.loads() {
-        let friction = |x: f64| -> Result<f64, Error> {
-            let phi = from + field.way.direction * x;
+        let friction = |phi: f64| -> Result<f64, Error> {
             let frames = machine.mechanism().frames(phi)?;
             let frame = frames.get(load.link());
             Ok(frame.map_or(0.0, |frame| load.reduce(frame, phi).coulomb))
@@ -142,18 +184,11 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
         if load.has_fixed_direction() {
             continue;
         }
-        let values: Vec<f64> = (0..=count + 2 * outside)
-            .map(|k| friction(place(k)))
-            .collect::<Result<_, _>>()?;
-        let largest = values.iter().copied().fold(0.0, f64::max);
-        for (k, three) in values.windows(3).enumerate() {
-            if three[1] <= three[0] && three[1] < three[2] {
-                let x = least(friction, place(k), place(k + 2))?;
-                if friction(x)? <= NOTHING * largest {
-                    found.push(x);
-                }
-            }
-        }
+        let (lows, largest) = lows(field, (from, length), friction)?;
+        let vanishes = lows
+            .into_iter()
+            .filter(|[_, friction]| *friction <= NOTHING * largest);
+        found.extend(vanishes.map(|[x, _]| x));
     }
     Ok(found)
 }

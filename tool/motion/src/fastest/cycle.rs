@@ -90,7 +90,7 @@ pub fn cycle(
         Part::Dwell { .. } => None,
     });
     let slow = slowest(file, actuator, ways).map_err(|why| (0, why.into()))?;
-    let at = |asked: &mut Asked| at_price(file, actuator, limits, parts, asked);
+    let at = |asked: &mut Asked| at_price(file, actuator, &limits, parts, asked);
     let found = within(rms, slow, at).map_err(|why| match why {
         Refused::Move(why) => why,
         Refused::Limit(why) => (0, why),
@@ -101,7 +101,7 @@ pub fn cycle(
 fn at_price(
     file: &MachineFile,
     actuator: &Actuator,
-    limits: Limits,
+    limits: &Limits,
     parts: &[Part],
     asked: &mut Asked,
 ) -> Result<Cycle, (usize, NoMotion)> {
@@ -124,7 +124,7 @@ fn at_price(
                     from: step.from,
                     to: step.to,
                     speeds: [0.0; 2],
-                    limits,
+                    limits: *limits,
                     endless: false,
                 };
                 let made = make(
@@ -273,7 +273,7 @@ fn costs(file: &MachineFile, actuator: &Actuator, made: &Made, priced: bool) -> 
         met.retain(|limit| *limit == Binding::RmsTorque);
     }
     let cost = |limit: Binding| {
-        let (actuator, limits) = without(actuator, made.task.limits, limit);
+        let (actuator, limits) = without(actuator, &made.task.limits, limit);
         let eased = Task {
             limits,
             ..made.task
@@ -286,9 +286,9 @@ fn costs(file: &MachineFile, actuator: &Actuator, made: &Made, priced: bool) -> 
 }
 
 /// The same without a limit, or with more of the motor's own.
-fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Limits) {
+fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, Limits) {
     let mut actuator = actuator.clone();
-    let mut limits = limits;
+    let mut limits = *limits;
     match limit {
         Binding::Driving | Binding::Braking => {
             // A tenth more torque moves a machine that asks for a tenth less.
@@ -303,6 +303,7 @@ fn without(actuator: &Actuator, limits: Limits, limit: Binding) -> (Actuator, Li
         Binding::ToolSpeed => limits.tool = None,
         Binding::Acceleration => limits.acceleration = None,
         Binding::Deceleration => limits.deceleration = None,
+        Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
         Binding::Jerk => limits.jerk = None,
         Binding::TorqueRate => limits.torque_rate = None,
         // That of the whole cycle, which no move keeps alone.

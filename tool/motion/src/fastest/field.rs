@@ -1,9 +1,13 @@
 //! Which accelerations every limit leaves at a place and speed, and which limit is the nearest.
 
-use jred::Error;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
+use std::borrow::Cow;
 
+use jred::Error;
+use jred_machine::model::mechanism::AnyMechanism;
+
+use super::joint_force::{JointForces, Spot};
+pub use super::reserve::Reserve;
+use super::sweep::Side;
 use super::tool_speed::ToolSpeed;
 use crate::way::{Place, Way};
 
@@ -22,6 +26,8 @@ pub struct Limits {
     pub gearbox_torque: Option<f64>,
     /// Largest speed of the gearbox input (rad/s).
     pub gearbox_speed: Option<f64>,
+    /// Largest forces in joints.
+    pub forces: JointForces,
     /// Largest rate of the acceleration (rad/s³, or m/s³).
     pub jerk: Option<f64>,
     /// Largest rate of the motor's torque (N·m/s).
@@ -30,67 +36,6 @@ pub struct Limits {
     pub level_ends: bool,
     /// What is left unused of motor and gearbox.
     pub reserve: Reserve,
-}
-
-/// Share of a limit by which a motion with a reserve stays below what the reserve leaves, so that a rule that asks for the same
-/// reserve is satisfied whatever the last digits: they are known to 1e-9 between the nodes.
-const BELOW: f64 = 1e-6;
-
-/// What a motion leaves unused, as shares of torque and speed of motor and gearbox; 0: nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reserve {
-    /// Of the motor's torque, driving and braking.
-    pub torque: f64,
-    /// Of its largest speed.
-    pub speed: f64,
-    /// Of the gearbox's torque.
-    pub gearbox_torque: f64,
-    /// Of its largest input speed.
-    pub gearbox_speed: f64,
-    /// Of the motor's S1 torque, by the RMS torque.
-    pub rms: f64,
-}
-
-impl Reserve {
-    /// The same share of the motor's torque and of its speed.
-    pub const fn of_motor(share: f64) -> Self {
-        Self {
-            torque: share,
-            speed: share,
-            gearbox_torque: 0.0,
-            gearbox_speed: 0.0,
-            rms: 0.0,
-        }
-    }
-
-    /// What rules for a motion of a given drive ask for.
-    pub fn of(rules: &RuleSet) -> Self {
-        let share = |rule: Rule| {
-            let limit = rules.limit(rule);
-            (1.0 - limit.fail.or(limit.warn).unwrap_or(1.0)).max(0.0)
-        };
-        Self {
-            torque: share(Rule::PeakTorque),
-            speed: share(Rule::Speed),
-            gearbox_torque: share(Rule::GearboxPeak),
-            gearbox_speed: share(Rule::GearboxSpeed),
-            rms: share(Rule::RmsTorque),
-        }
-    }
-
-    /// Whether there is one.
-    pub fn is_some(&self) -> bool {
-        *self != Self::default()
-    }
-
-    /// What it leaves of a limit.
-    pub(super) fn leaves(&self, share: f64) -> f64 {
-        if self.is_some() {
-            (1.0 - share) * (1.0 - BELOW)
-        } else {
-            1.0
-        }
-    }
 }
 
 impl Limits {
@@ -144,6 +89,8 @@ pub enum Binding {
     Acceleration,
     /// The largest deceleration.
     Deceleration,
+    /// The largest force in a joint, by its index.
+    JointForce(usize),
     /// The largest rate of the acceleration.
     Jerk,
     /// The largest rate of the motor's torque.
@@ -165,10 +112,22 @@ impl Binding {
             Self::ToolSpeed => "tool speed limit",
             Self::Acceleration => "acceleration limit",
             Self::Deceleration => "deceleration limit",
+            Self::JointForce(_) => "joint force limit",
             Self::Jerk => "jerk limit",
             Self::TorqueRate => "torque rate limit",
             Self::RmsTorque => "RMS torque",
         }
+    }
+
+    /// Its name, with that of the joint in whose mechanism it is one.
+    pub fn name_in(self, mechanism: &AnyMechanism) -> Cow<'static, str> {
+        let joint = match self {
+            Self::JointForce(joint) => mechanism.joint_names().get(joint),
+            _ => None,
+        };
+        joint.map_or(Cow::Borrowed(self.name()), |joint| {
+            Cow::Owned(format!("force in {joint}"))
+        })
     }
 }
 
@@ -188,14 +147,18 @@ pub fn speed(z: f64) -> f64 {
 
 impl Field<'_, '_> {
     /// Whether a place and a speed may leave no acceleration: two limits of different kinds.
-    pub const fn may_be_empty(&self) -> bool {
+    pub fn may_be_empty(&self) -> bool {
         let Limits {
             acceleration,
             deceleration,
             gearbox_torque,
+            forces,
             ..
         } = &self.limits;
-        acceleration.is_some() || deceleration.is_some() || gearbox_torque.is_some()
+        acceleration.is_some()
+            || deceleration.is_some()
+            || gearbox_torque.is_some()
+            || forces.is_some()
     }
 
     /// The speeds that are not exceeded, in the order in which they are named where two are the same.
@@ -267,13 +230,33 @@ impl Field<'_, '_> {
         [needed, self.motor_torque(0.0, braking)]
     }
 
-    /// The largest acceleration at a place and z = ½·v².
-    pub fn most(&self, place: &Place, z: f64) -> f64 {
-        self.most_by(place, z).0
+    /// The largest or the least acceleration at a place and z = ½·v².
+    pub fn side(&self, side: Side, place: &Spot, z: f64) -> f64 {
+        self.side_by(side, place, z).0
     }
 
     /// The same, with the limit that it is.
-    pub fn most_by(&self, place: &Place, z: f64) -> (f64, Binding) {
+    pub fn side_by(&self, side: Side, place: &Spot, z: f64) -> (f64, Binding) {
+        match side {
+            Side::Most => self.most_by(place, z),
+            Side::Least => self.least_by(place, z),
+        }
+    }
+
+    /// The same, with the smooth part of it in which a place and z lie: the limit, the piece of the torque-speed limit, and which way
+    /// power flows through the drive train.
+    pub fn side_part(&self, side: Side, place: &Spot, z: f64) -> (f64, u32) {
+        let (a, limit) = self.side_by(side, place, z);
+        (a, self.part(place, z, a, limit))
+    }
+
+    /// Whether limits leave an acceleration at a place and z.
+    pub fn is_open(&self, place: &Spot, z: f64) -> bool {
+        self.least_by(place, z).0 <= self.most_by(place, z).0
+    }
+
+    /// The largest acceleration at a place and z, with the limit that it is.
+    pub fn most_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, false);
         let mut most = (self.way.acceleration(place, v, torque), Binding::Driving);
@@ -284,16 +267,14 @@ impl Field<'_, '_> {
         if let Some(a) = self.limits.acceleration {
             most = lower(most, (a, Binding::Acceleration));
         }
+        for (joint, [_, a]) in place.intervals(z) {
+            most = lower(most, (a, Binding::JointForce(joint)));
+        }
         most
     }
 
-    /// The least acceleration.
-    pub fn least(&self, place: &Place, z: f64) -> f64 {
-        self.least_by(place, z).0
-    }
-
-    /// The same, with the limit that it is.
-    pub fn least_by(&self, place: &Place, z: f64) -> (f64, Binding) {
+    /// The least acceleration, with the limit that it is.
+    pub fn least_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, true);
         let mut least = (self.way.acceleration(place, v, torque), Binding::Braking);
@@ -304,20 +285,10 @@ impl Field<'_, '_> {
         if let Some(a) = self.limits.deceleration {
             least = higher(least, (-a, Binding::Deceleration));
         }
+        for (joint, [a, _]) in place.intervals(z) {
+            least = higher(least, (a, Binding::JointForce(joint)));
+        }
         least
-    }
-
-    /// Which smooth part of the largest acceleration a place and z lie in: the limit, the piece of the torque-speed limit, and which way
-    /// power flows through the drive train.
-    pub fn most_part(&self, place: &Place, z: f64) -> u32 {
-        let (a, limit) = self.most_by(place, z);
-        self.part(place, z, a, limit, false)
-    }
-
-    /// The same of the least acceleration.
-    pub fn least_part(&self, place: &Place, z: f64) -> u32 {
-        let (a, limit) = self.least_by(place, z);
-        self.part(place, z, a, limit, true)
     }
 
     /// The largest share by which a state (speed and acceleration along the way) exceeds a limit, and which; negative: none. A torque at its
@@ -360,22 +331,33 @@ impl Field<'_, '_> {
             (share(acceleration, most), Binding::Acceleration),
             (share(-acceleration, deceleration), Binding::Deceleration),
         ];
+        let forces = self.forces(place.phi)?.into_iter().map(|force| {
+            let share = force.at(v, acceleration) / force.limit - 1.0;
+            (share, Binding::JointForce(force.joint))
+        });
         let first = (f64::NEG_INFINITY, Binding::Driving);
-        Ok(all.into_iter().fold(first, higher))
+        Ok(all.into_iter().chain(forces).fold(first, higher))
     }
 
-    fn part(&self, place: &Place, z: f64, a: f64, limit: Binding, braking: bool) -> u32 {
+    fn part(&self, place: &Place, z: f64, a: f64, limit: Binding) -> u32 {
         let v = speed(z);
-        let speed = self.way.motor_speed(v);
-        let pieces = self.way.actuator.envelope.limit(braking).pieces();
-        let piece = match limit {
-            Binding::Driving | Binding::Braking if pieces.len() > 1 => {
-                pieces.iter().take_while(|piece| piece.to < speed).count()
+        let piece = |braking: bool| {
+            let pieces = self.way.actuator.envelope.limit(braking).pieces();
+            if pieces.len() < 2 {
+                return 0;
             }
-            _ => 0,
+            let speed = self.way.motor_speed(v);
+            pieces.iter().take_while(|piece| piece.to < speed).count()
+        };
+        let (kind, which) = match limit {
+            Binding::Driving => (0, piece(false)),
+            Binding::Braking => (0, piece(true)),
+            Binding::GearboxTorque => (1, 0),
+            Binding::JointForce(joint) => (2, joint),
+            _ => (3, 0),
         };
         let back = self.way.backward_stages(place, v, a);
-        limit as u32 | (piece as u32 & 0xff) << 4 | back << 12
+        kind | (which as u32 & 0xff) << 4 | back << 12
     }
 }
 

@@ -1,8 +1,8 @@
 //! One field of accelerations followed through a cell.
 
-use super::field::speed;
+use super::field::{Field, speed};
+use super::sweep::Side;
 use super::track::Cell;
-use crate::way::Place;
 
 /// Error of a step as a share of z, by the difference of orders 4 and 3; what is left after it is much smaller.
 const TOLERANCE: f64 = 1e-10;
@@ -87,8 +87,8 @@ pub struct Point {
     pub part: u32,
 }
 
-/// What a step arrives at: z, its slope, the error, and the time where that was found.
-type Made = (f64, f64, f64, Option<f64>);
+/// What a step arrives at: z, its slope with the part of the field, the error, and the time where that was found.
+type Made = (f64, (f64, u32), f64, Option<f64>);
 
 /// A step from a point.
 #[derive(Clone, Copy)]
@@ -127,26 +127,27 @@ impl One {
     }
 }
 
-/// A field in a cell.
-pub struct Leg<'c, F, P> {
-    /// The field: acceleration at a place and z.
-    pub field: F,
-    /// Which smooth part of it a place and z lie in.
-    pub part: P,
+/// A field in a cell: the largest or the least acceleration at a place and z.
+#[derive(Clone, Copy)]
+pub struct Leg<'c> {
+    /// The accelerations that limits leave.
+    pub field: &'c Field<'c, 'c>,
+    /// Which of them.
+    pub side: Side,
     /// Where.
     pub cell: &'c Cell,
 }
 
-impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
+impl Leg<'_> {
+    /// The acceleration at a share of the cell with this z.
+    pub fn at(&self, u: f64, z: f64) -> f64 {
+        self.field.side(self.side, &self.cell.spot(u), z)
+    }
+
     /// The point at a share of the cell with this z.
     pub fn point(&self, u: f64, z: f64) -> Point {
-        let place = self.cell.place(u);
-        Point {
-            u,
-            z,
-            a: (self.field)(&place, z),
-            part: (self.part)(&place, z),
-        }
+        let (a, part) = self.field.side_part(self.side, &self.cell.spot(u), z);
+        Point { u, z, a, part }
     }
 
     /// From a point to a share of the cell, forwards or backwards; the steps are added to `steps` in the order in which they are made.
@@ -187,10 +188,9 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
 
     /// One step, over the way where z changes little, else over the time; with its error.
     fn one(&self, from: Point, to: f64) -> Option<(One, f64)> {
-        let (z, a, error, time) = self
+        let (z, (a, part), error, time) = self
             .over_way(from, to)
             .or_else(|| self.over_time(from, to))?;
-        let part = (self.part)(&self.cell.place(to), z);
         let one = One {
             to,
             z,
@@ -224,8 +224,8 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
         if (from.a * h).abs() > STEEP * from.z {
             return None;
         }
-        let [middle, end] = [from.u.midpoint(to), to].map(|u| self.cell.place(u));
-        let f = &self.field;
+        let [middle, end] = [from.u.midpoint(to), to].map(|u| self.cell.spot(u));
+        let f = |place, z| self.field.side(self.side, place, z);
         let k1 = from.a;
         let k2 = f(&middle, from.z + 0.5 * h * k1);
         let k3 = f(&middle, from.z + 0.5 * h * k2);
@@ -234,8 +234,8 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
         if (z - from.z).abs() > 2.0 * STEEP * from.z {
             return None;
         }
-        let a = f(&end, z);
-        Some((z, a, (h / 6.0 * (k4 - a)).abs(), None))
+        let (a, part) = self.field.side_part(self.side, &end, z);
+        Some((z, (a, part), (h / 6.0 * (k4 - a)).abs(), None))
     }
 
     /// The same with the time as the variable: how long it takes is sought as well. None where the motion stops before.
@@ -249,10 +249,7 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
         if square <= 0.0 {
             return None;
         }
-        let at = |x: f64, v: f64| {
-            let place = self.cell.place(from.u + heading * x / length);
-            heading * (self.field)(&place, 0.5 * v * v)
-        };
+        let at = |x: f64, v: f64| heading * self.at(from.u + heading * x / length, 0.5 * v * v);
         let mut t = 2.0 * way / (start + square.sqrt());
         for _ in 0..MOST_TRIALS {
             let half = 0.5 * t;
@@ -270,9 +267,9 @@ impl<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32> Leg<'_, F, P> {
             let missing = way - x;
             if missing.abs() <= CLOSE * way {
                 let z = 0.5 * v * v;
-                let a = (self.field)(&self.cell.place(to), z);
-                let error = (t / 6.0 * (a4 - heading * a)).abs() * v;
-                return Some((z, a, error, Some(t)));
+                let end = self.point(to, z);
+                let error = (t / 6.0 * (a4 - heading * end.a)).abs() * v;
+                return Some((z, (end.a, end.part), error, Some(t)));
             }
             t += missing / v;
             if t <= 0.0 {

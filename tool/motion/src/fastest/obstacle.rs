@@ -7,9 +7,11 @@ use std::fmt;
 use jred::Error;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::short;
 
 use super::field::{Binding, Field, speed};
+use super::joint_force::JointForce;
 use super::sweep::Obstacle;
 use super::track::Track;
 
@@ -119,6 +121,19 @@ pub enum NoMotion {
         /// In whose words it is said.
         axis: Axis,
     },
+    /// The force in a joint exceeds its limit however slowly the machine moves.
+    JointForce {
+        /// Name of the joint.
+        joint: String,
+        /// Position where it exceeds the limit most (rad, or m).
+        phi: f64,
+        /// Force (N), and its limit.
+        forces: [f64; 2],
+        /// In whose words it is said.
+        axis: Axis,
+    },
+    /// Forces in joints are limited beside jerk, torque rate or RMS torque.
+    JointForceAlone,
     /// No acceleration is left.
     Empty {
         /// Position (rad, or m).
@@ -139,6 +154,16 @@ impl From<Error> for NoMotion {
 }
 
 impl NoMotion {
+    pub(super) fn of_force(file: &MachineFile, phi: f64, force: &JointForce) -> Self {
+        let names = file.machine.mechanism().joint_names();
+        Self::JointForce {
+            joint: names.get(force.joint).cloned().unwrap_or_default(),
+            phi,
+            forces: [force.at(0.0, 0.0), force.limit],
+            axis: file.axis(),
+        }
+    }
+
     pub(super) fn at(field: &Field, track: &Track, obstacle: Obstacle) -> Self {
         let axis = field.way.file.axis();
         let stages = field.way.file.drive_train.stages();
@@ -147,7 +172,7 @@ impl NoMotion {
         } else {
             Coordinate::Angle.effort_unit()
         };
-        let place = |index: usize, u: f64| track.cells[index].place(u);
+        let place = |index: usize, u: f64| track.cells[index].spot(u);
         match obstacle {
             Obstacle::Stops(index, u) => {
                 let place = place(index, u);
@@ -186,6 +211,40 @@ impl NoMotion {
 }
 
 impl NoMotion {
+    /// Which limits leave nothing at a place.
+    fn at_a_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::JointForce {
+                joint,
+                phi,
+                forces: [force, limit],
+                axis,
+            } => write!(
+                f,
+                "the force in joint \"{joint}\" is {} N at {} however slowly the machine moves; its limit is {} N",
+                short(*force),
+                axis.place(*phi),
+                short(*limit)
+            ),
+            Self::Empty {
+                phi,
+                speed,
+                least,
+                most,
+            } => write!(
+                f,
+                "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
+                short(*phi),
+                short(*speed),
+                least.1.name(),
+                short(least.0),
+                most.1.name(),
+                short(most.0)
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// Why a motion that may exist is not computed.
     fn not_computed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -251,6 +310,10 @@ impl NoMotion {
                     short(*bound)
                 )
             }
+            Self::JointForceAlone => write!(
+                f,
+                "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque: that motion is not computed"
+            ),
             Self::NoTorqueLimit => write!(
                 f,
                 "the motor's peak torque is not known, so nothing limits the acceleration"
@@ -289,7 +352,7 @@ impl fmt::Display for NoMotion {
                     "with the largest acceleration all the way, the machine still stops at"
                 };
                 match limit {
-                    Binding::Acceleration | Binding::Deceleration => {
+                    Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
                         write!(f, "{what} {place}: the {} is in the way", limit.name())
                     }
                     Binding::GearboxTorque => write!(
@@ -318,6 +381,9 @@ impl fmt::Display for NoMotion {
                     "the machine cannot be braked in time: it runs away at"
                 };
                 match limit {
+                    Binding::JointForce(_) => {
+                        write!(f, "{what} {place}: the {} is in the way", limit.name())
+                    }
                     Binding::Deceleration | Binding::Acceleration => write!(
                         f,
                         "{what} {place}: its loads brake harder than the {} allows",
@@ -349,22 +415,9 @@ impl fmt::Display for NoMotion {
             | Self::NotAccurate { .. }
             | Self::LoadJumps { .. }
             | Self::RmsTooLarge { .. }
+            | Self::JointForceAlone
             | Self::NotFound { .. } => self.not_computed(f),
-            Self::Empty {
-                phi,
-                speed,
-                least,
-                most,
-            } => write!(
-                f,
-                "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
-                short(*phi),
-                short(*speed),
-                least.1.name(),
-                short(least.0),
-                most.1.name(),
-                short(most.0)
-            ),
+            Self::JointForce { .. } | Self::Empty { .. } => self.at_a_place(f),
         }
     }
 }

@@ -50,10 +50,9 @@ pub(super) fn phases(
         let width = step.u[1] - step.u[0];
         let z = |s: f64| step.hermite(s, width * cell.length);
         let binding = |s: f64| {
-            let place = cell.place(step.u[0] + s * width);
+            let place = cell.spot(step.u[0] + s * width);
             match piece.along {
-                Along::Most => field.most_by(&place, z(s)).1,
-                Along::Least => field.least_by(&place, z(s)).1,
+                Along::Side(side) => field.side_by(side, &place, z(s)).1,
                 Along::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
                 Along::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
                     field.most_by(&place, z(s)).1
@@ -95,17 +94,24 @@ pub(super) fn phases(
 /// Without what is no phase: at a corner the roundings of the limits on its two sides.
 fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
     let mut kept: Vec<Phase> = Vec::with_capacity(phases.len());
-    for phase in phases {
+    for mut phase in phases {
         if let [.., before, blink] = kept.as_mut_slice()
-            && before.limit == phase.limit
             && blink.t[1] - blink.t[0] <= BLINK * whole
         {
-            (before.phi[1], before.t[1], before.speed[1]) =
-                (phase.phi[1], phase.t[1], phase.speed[1]);
-            kept.pop();
-        } else {
-            kept.push(phase);
+            if before.limit == phase.limit {
+                (before.phi[1], before.t[1], before.speed[1]) =
+                    (phase.phi[1], phase.t[1], phase.speed[1]);
+                kept.pop();
+                continue;
+            }
+            // At a dead centre the force in a joint changes from the one side of its interval to the other.
+            if matches!(phase.limit, Binding::JointForce(_)) {
+                (phase.phi[0], phase.t[0], phase.speed[0]) =
+                    (blink.phi[0], blink.t[0], blink.speed[0]);
+                kept.pop();
+            }
         }
+        kept.push(phase);
     }
     kept
 }

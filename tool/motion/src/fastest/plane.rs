@@ -6,6 +6,8 @@ use jred_machine::model::machine::MachineFile;
 use super::Binding;
 use super::cycle::Made;
 use super::field::Field;
+use super::joint_force::Spot;
+use super::sweep::Side;
 use crate::way::{Actuator, Way};
 
 /// Positions at which the limits are looked at.
@@ -51,19 +53,21 @@ impl Plane {
         let highest = if top.is_finite() { top } else { 1.5 * fastest };
         for k in 0..POSITIONS {
             let phi = from + (to - from) * k as f64 / (POSITIONS - 1) as f64;
-            let place = way.place(phi)?;
+            let forces: Vec<_> = (field.forces(phi)?.iter())
+                .map(|force| [*force; 3])
+                .collect();
+            let place = Spot::new(way.place(phi)?, &forces, [1.0, 0.0, 0.0]);
             let z = |v: f64| 0.5 * v * v;
-            let open = |v: f64| field.least(&place, z(v)) <= field.most(&place, z(v));
             let top = top.min(field.tool_speed(phi)?);
             let closed = if field.may_be_empty() {
-                first(highest, |v| !open(v))
+                first(highest, |v| !field.is_open(&place, z(v)))
             } else {
                 None
             };
             if closed.is_some() || top.is_finite() {
                 plane.ceiling.push([phi, closed.unwrap_or(top)]);
             }
-            let slows = first(highest, |v| field.most(&place, z(v)) < 0.0);
+            let slows = first(highest, |v| field.side(Side::Most, &place, z(v)) < 0.0);
             let below = |v: &f64| *v < closed.unwrap_or(f64::INFINITY);
             let speed = slows.filter(below).unwrap_or(f64::NAN);
             plane.holding.push([phi, speed]);

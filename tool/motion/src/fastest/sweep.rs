@@ -14,9 +14,8 @@ use std::convert::Infallible;
 use jred_machine::number::numerics::zero;
 
 use super::field::Field;
-use super::leg::{Leg, Stalled, Step};
+use super::leg::{Leg, Point, Stalled, Step};
 use super::track::{Cell, Track};
-use crate::way::Place;
 
 /// Share of z within which a curve lies on another.
 const ON: f64 = 1e-12;
@@ -24,16 +23,23 @@ const ON: f64 = 1e-12;
 /// Share of its place to which a crossing is found.
 const CROSSING: f64 = 1e-15;
 
-/// Changes of the state within a cell; more are rounding where two curves touch.
+/// Changes of the state within a cell; more are rounding where two curves touch, and the upper one is not left any more.
 const MOST_CHANGES: u32 = 16;
+
+/// An end of the interval of accelerations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The largest acceleration.
+    Most,
+    /// The least.
+    Least,
+}
 
 /// What a piece of the motion follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// The largest acceleration.
-    Most,
-    /// The least acceleration.
-    Least,
+    /// The largest or the least acceleration.
+    Side(Side),
     /// The limit of the speed.
     Cap,
 }
@@ -66,7 +72,11 @@ pub enum Obstacle {
 ///
 /// # Errors
 /// No motion exists: where.
-pub fn fastest(field: &Field, track: &Track, ends: [f64; 2]) -> Result<Vec<Piece>, Obstacle> {
+pub fn fastest(
+    field: &Field<'_, '_>,
+    track: &Track,
+    ends: [f64; 2],
+) -> Result<Vec<Piece>, Obstacle> {
     let upper = upper(field, track, ends[1])?;
     let first = upper.last().map_or(0.0, |piece| piece.step.z[0]);
     if ends[0] > first * (1.0 + ON) {
@@ -122,10 +132,11 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
     let mut pieces = Vec::with_capacity(track.cells.len() + 64);
     let mut steps = Vec::new();
     let mut z = end;
+    let mut border: Option<Point> = None;
     for (index, cell) in track.cells.iter().enumerate().rev() {
         let leg = Leg {
-            field: |place: &Place, z: f64| field.least(place, z),
-            part: |place: &Place, z: f64| field.least_part(place, z),
+            field,
+            side: Side::Least,
             cell,
         };
         let mut u = 1.0;
@@ -133,11 +144,12 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
         if on_cap {
             z = cell.caps[2];
         }
+        let mut start = border.take().filter(|_| !on_cap);
         let mut changes = 0;
         while u > 0.0 {
             changes += 1;
             if on_cap {
-                let falls = |u: f64| (leg.field)(&cell.place(u), cell.cap(u)) - cell.cap_slope(u);
+                let falls = |u: f64| leg.at(u, cell.cap(u)) - cell.cap_slope(u);
                 let to = if changes > MOST_CHANGES {
                     0.0
                 } else {
@@ -150,17 +162,15 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
                 continue;
             }
             steps.clear();
-            let from = leg.point(u, z);
+            let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 0.0, &mut steps);
-            if changes <= MOST_CHANGES
-                && let Some((k, crossing)) = above_cap(cell, &leg, &steps)
-            {
-                push(&mut pieces, index, steps.drain(..k), Along::Least);
+            if let Some((k, crossing)) = above_cap(cell, &leg, &steps) {
+                push(&mut pieces, index, steps.drain(..k), leg.side);
                 let step = steps[0];
                 let right = leg.point(step.u[1], step.z[1]);
                 let mut part = Vec::new();
                 if crossing < step.u[1] && leg.go(right, crossing, &mut part).is_ok() {
-                    push(&mut pieces, index, part.drain(..), Along::Least);
+                    push(&mut pieces, index, part.drain(..), leg.side);
                 }
                 (u, z, on_cap) = (crossing, cell.cap(crossing), true);
                 continue;
@@ -169,23 +179,21 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
                 let Err(Stalled(at)) = reached else { continue };
                 return Err(Obstacle::RunsAway(index, at));
             };
-            push(&mut pieces, index, steps.drain(..), Along::Least);
+            push(&mut pieces, index, steps.drain(..), leg.side);
             (u, z) = (0.0, point.z);
+            border = Some(Point { u: 1.0, ..point }).filter(|_| cell.goes_on);
         }
     }
     Ok(pieces)
 }
 
-fn push(pieces: &mut Vec<Piece>, cell: usize, steps: impl Iterator<Item = Step>, along: Along) {
+fn push(pieces: &mut Vec<Piece>, cell: usize, steps: impl Iterator<Item = Step>, side: Side) {
+    let along = Along::Side(side);
     pieces.extend(steps.map(|step| Piece { cell, step, along }));
 }
 
 /// The first step (backwards) that rises above the limit of the speed, and where it does.
-fn above_cap<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
-    cell: &Cell,
-    leg: &Leg<F, P>,
-    steps: &[Step],
-) -> Option<(usize, f64)> {
+fn above_cap(cell: &Cell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
     let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + ON);
     let k = steps
         .iter()
@@ -205,11 +213,7 @@ fn above_cap<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
 }
 
 /// z of the curve through a point at another share of the cell.
-fn follow<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
-    leg: &Leg<F, P>,
-    from: super::leg::Point,
-    to: f64,
-) -> f64 {
+fn follow(leg: &Leg, from: Point, to: f64) -> f64 {
     if (to - from.u).abs() <= 0.0 {
         return from.z;
     }
@@ -228,6 +232,7 @@ fn forwards(
     let mut rest = upper;
     let mut z = ends[0];
     let mut steps = Vec::new();
+    let mut border: Option<Point> = None;
     for (index, cell) in track.cells.iter().enumerate() {
         let count = rest
             .iter()
@@ -238,12 +243,13 @@ fn forwards(
         rest = before;
         let above = Upper { field, cell, own };
         let leg = Leg {
-            field: |place: &Place, z: f64| field.most(place, z),
-            part: |place: &Place, z: f64| field.most_part(place, z),
+            field,
+            side: Side::Most,
             cell,
         };
         let mut u = 0.0;
         let mut on_upper = z >= above.z(0.0) * (1.0 - ON);
+        let mut start = border.take().filter(|_| !on_upper);
         let mut changes = 0;
         while u < 1.0 {
             changes += 1;
@@ -253,17 +259,15 @@ fn forwards(
                 continue;
             }
             steps.clear();
-            let from = leg.point(u, z);
+            let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 1.0, &mut steps);
-            if changes <= MOST_CHANGES
-                && let Some((k, crossing)) = above.crossed(&leg, &steps)
-            {
-                push(&mut pieces, index, steps.drain(..k), Along::Most);
+            if let Some((k, crossing)) = above.crossed(&leg, &steps) {
+                push(&mut pieces, index, steps.drain(..k), leg.side);
                 let step = steps[0];
                 let left = leg.point(step.u[0], step.z[0]);
                 let mut part = Vec::new();
                 if crossing > step.u[0] && leg.go(left, crossing, &mut part).is_ok() {
-                    push(&mut pieces, index, part.drain(..), Along::Most);
+                    push(&mut pieces, index, part.drain(..), leg.side);
                 }
                 (u, on_upper) = (crossing, true);
                 continue;
@@ -272,8 +276,12 @@ fn forwards(
                 let Err(Stalled(at)) = reached else { continue };
                 return Err(Obstacle::Stops(index, at));
             };
-            push(&mut pieces, index, steps.drain(..), Along::Most);
+            push(&mut pieces, index, steps.drain(..), leg.side);
             (u, z) = (1.0, point.z);
+            let next = track.cells.get(index + 1);
+            border = next
+                .filter(|next| next.goes_on)
+                .map(|_| Point { u: 0.0, ..point });
         }
     }
     // What is left below the speed of the end is rounding, or the way is too short to reach it.
@@ -284,23 +292,23 @@ fn forwards(
 }
 
 /// The upper curve in a cell: its pieces from the end to the beginning.
-struct Upper<'u, 'f, 'w, 'a> {
-    field: &'f Field<'w, 'a>,
+struct Upper<'u> {
+    field: &'u Field<'u, 'u>,
     cell: &'u Cell,
     own: &'u [Piece],
 }
 
-impl Upper<'_, '_, '_, '_> {
+impl Upper<'_> {
     /// The piece over a share of the cell, the later one where two meet.
     fn piece(&self, u: f64) -> Option<&Piece> {
         let covers = |piece: &&Piece| piece.step.u[0] <= u;
         self.own.iter().find(covers).or(self.own.last())
     }
 
-    fn leg(&self) -> Leg<'_, impl Fn(&Place, f64) -> f64, impl Fn(&Place, f64) -> u32> {
+    fn leg(&self) -> Leg<'_> {
         Leg {
-            field: |place: &Place, z: f64| self.field.least(place, z),
-            part: |place: &Place, z: f64| self.field.least_part(place, z),
+            field: self.field,
+            side: Side::Least,
             cell: self.cell,
         }
     }
@@ -316,16 +324,15 @@ impl Upper<'_, '_, '_, '_> {
         if u <= step.u[0] {
             return step.z[0];
         }
+        if (u - step.u[1]).abs() <= 0.0 {
+            return step.z[1];
+        }
         let leg = self.leg();
         follow(&leg, leg.point(step.u[1], step.z[1]), u)
     }
 
     /// The first step that rises above it, and where.
-    fn crossed<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
-        &self,
-        leg: &Leg<F, P>,
-        steps: &[Step],
-    ) -> Option<(usize, f64)> {
+    fn crossed(&self, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
         let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + ON);
         let k = steps.iter().position(is_above)?;
         let step = steps[k];
@@ -339,10 +346,10 @@ impl Upper<'_, '_, '_, '_> {
     }
 
     /// Follows it from a share of the cell on: how far, and whether it is still followed there.
-    fn along<F: Fn(&Place, f64) -> f64, P: Fn(&Place, f64) -> u32>(
+    fn along(
         &self,
         from: f64,
-        most: &Leg<F, P>,
+        most: &Leg,
         may_leave: bool,
         index: usize,
         pieces: &mut Vec<Piece>,
@@ -354,7 +361,7 @@ impl Upper<'_, '_, '_, '_> {
         match piece.along {
             Along::Cap => {
                 let cell = self.cell;
-                let falls = |u: f64| cell.cap_slope(u) - (most.field)(&cell.place(u), cell.cap(u));
+                let falls = |u: f64| cell.cap_slope(u) - most.at(u, cell.cap(u));
                 let leaves = first_positive(falls, from, end).filter(|_| may_leave);
                 let to = leaves.unwrap_or(end);
                 if to > from {
@@ -366,12 +373,12 @@ impl Upper<'_, '_, '_, '_> {
                 pieces.push(*piece);
                 (end, true)
             }
-            _ => {
+            Along::Side(_) => {
                 let leg = self.leg();
                 let mut part = Vec::new();
                 let right = leg.point(end, piece.step.z[1]);
                 if leg.go(right, from, &mut part).is_ok() {
-                    push(pieces, index, part.into_iter().rev(), Along::Least);
+                    push(pieces, index, part.into_iter().rev(), leg.side);
                 }
                 (end, true)
             }

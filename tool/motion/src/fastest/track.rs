@@ -5,7 +5,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use jred::Error;
 
 use super::field::Field;
+use super::joint_force::{JointForce, Spot};
 use crate::way::Place;
+
+/// Factor of z from one look to the next where nothing limits the speed, and the most of them.
+const RISE: f64 = 16.0;
+const RISES: i32 = 40;
 
 /// Speeds at which it is looked whether limits leave an acceleration.
 const LOOKS: u32 = 24;
@@ -27,31 +32,37 @@ pub struct Cell {
     pub places: [Place; 3],
     /// The largest z = ½·v² at the same places; infinite: no limit.
     pub caps: [f64; 3],
+    /// The forces in joints that are limited, at the same places.
+    pub forces: Vec<[JointForce; 3]>,
+    /// Whether its beginning is the end of the cell before: no corner lies between them.
+    pub goes_on: bool,
 }
 
 impl Cell {
     /// The machine at a share of the cell, 0 to 1.
-    pub fn place(&self, u: f64) -> Place {
+    pub fn spot(&self, u: f64) -> Spot<'_> {
         let [a, b, c] = &self.places;
+        let at = |place, weights| Spot::new(place, &self.forces, weights);
         if (u - 0.5).abs() < f64::EPSILON {
-            return *b;
+            return at(*b, [0.0, 1.0, 0.0]);
         }
         if u <= 0.0 {
-            return *a;
+            return at(*a, [1.0, 0.0, 0.0]);
         }
         if u >= 1.0 {
-            return *c;
+            return at(*c, [0.0, 0.0, 1.0]);
         }
         let w = weights(u);
         let mix = |of: fn(&Place) -> f64| w[0] * of(a) + w[1] * of(b) + w[2] * of(c);
-        Place {
+        let place = Place {
             phi: mix(|p| p.phi),
             inertia: mix(|p| p.inertia),
             inertia_slope: mix(|p| p.inertia_slope),
             load: mix(|p| p.load),
             viscous: mix(|p| p.viscous),
             coulomb: mix(|p| p.coulomb),
-        }
+        };
+        at(place, w)
     }
 
     /// The largest z at a share of the cell.
@@ -128,35 +139,38 @@ impl Track {
         let (nodes, is_edge) = nodes(ends, count, finer);
         let direction = field.way.direction;
         let top = 0.5 * field.top().0.powi(2);
-        let at = |x: f64| field.way.place(ends.from + direction * x);
-        let cap = |place: &Place| ceiling(field, place, top);
-        let with_cap = |x: f64| {
-            let place = at(x)?;
+        let at = |x: f64| {
+            let place = field.way.place(ends.from + direction * x)?;
             let tool = 0.5 * field.tool_speed(place.phi)?.powi(2);
-            Ok::<_, Error>((place, cap(&place).min(tool)))
+            let forces = field.forces(place.phi)?;
+            let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
+            let cap = ceiling(field, &Spot::new(place, &alone, [1.0, 0.0, 0.0]), top);
+            Ok::<_, Error>((place, cap.min(tool), forces))
         };
+        let mut end_before = None;
         let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
         for (k, pair) in nodes.windows(2).enumerate() {
             let &[x, end] = pair else { continue };
             let length = end - x;
             let inside = ends.inside(length);
-            let first = match cells.last() {
-                Some(last) if !is_edge[k] => (last.places[2], last.caps[2]),
-                _ if is_edge[k] => with_cap(x + inside)?,
-                _ => with_cap(x)?,
+            let goes_on = !is_edge[k];
+            let first = match end_before.take().filter(|_| goes_on) {
+                Some(before) => before,
+                None if goes_on => at(x)?,
+                None => at(x + inside)?,
             };
-            let middle = with_cap(x + 0.5 * length)?;
-            let last = if is_edge[k + 1] {
-                with_cap(end - inside)?
-            } else {
-                with_cap(end)?
-            };
+            let middle = at(x + 0.5 * length)?;
+            let last = at(if is_edge[k + 1] { end - inside } else { end })?;
+            let joints = first.2.iter().zip(&middle.2).zip(&last.2);
             cells.push(Cell {
                 x,
                 length,
                 places: [first.0, middle.0, last.0],
                 caps: [first.1, middle.1, last.1],
+                forces: joints.map(|((a, b), c)| [*a, *b, *c]).collect(),
+                goes_on,
             });
+            end_before = Some(last);
         }
         Ok(Self { cells })
     }
@@ -194,13 +208,21 @@ fn nodes(ends: &Ends, count: usize, finer: &[f64]) -> (Vec<f64>, Vec<bool>) {
 }
 
 /// The largest z up to `top` at which limits leave an acceleration, from the first one on at which they do.
-fn ceiling(field: &Field, place: &Place, top: f64) -> f64 {
+fn ceiling(field: &Field, place: &Spot, top: f64) -> f64 {
     if !field.may_be_empty() {
         return top;
     }
-    let open = |z: f64| field.least(place, z) <= field.most(place, z);
-    // Without a limit of the speed the looks go on as long as torques could matter.
-    let highest = if top.is_finite() { top } else { return top };
+    let open = |z: f64| field.is_open(place, z);
+    let highest = if top.is_finite() {
+        top
+    } else {
+        // Without a limit of the speed: from slow motions on, to where none is left.
+        let slow = (1..=RISES).map(|k| place.inertia.recip() * RISE.powi(k));
+        let Some(closed) = slow.take_while(|z| z.is_finite()).find(|z| !open(*z)) else {
+            return top;
+        };
+        closed
+    };
     let z = |k: u32| highest * (f64::from(k) / f64::from(LOOKS)).powi(2);
     let Some(first) = (0..=LOOKS).find(|k| open(z(*k))) else {
         return 0.0;

@@ -127,14 +127,13 @@ const HALVINGS: u32 = 16;
 fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     let mut parts = Vec::with_capacity(mesh.cells.len());
     for &(index, ends) in &mesh.cells {
-        let mut open = vec![(ends, 0)];
-        while let Some(([from, to], depth)) = open.pop() {
-            let part = Part::new(mesh, x, index, [from, to]);
+        let mut open = vec![(Part::new(mesh, x, index, ends), ends, 0)];
+        while let Some((part, [from, to], depth)) = open.pop() {
             let middle = from.midpoint(to);
-            let halves = [[from, middle], [middle, to]];
-            if depth < HALVINGS && !part.meets(halves.map(|ends| Part::new(mesh, x, index, ends))) {
-                let [first, second] = halves;
-                open.extend([(second, depth + 1), (first, depth + 1)]);
+            let [first, second] = [[from, middle], [middle, to]]
+                .map(|ends| (Part::new(mesh, x, index, ends), ends, depth + 1));
+            if depth < HALVINGS && !part.meets([&first.0, &second.0]) {
+                open.extend([second, first]);
             } else {
                 parts.push(part);
             }
@@ -186,7 +185,7 @@ impl Part {
     }
 
     /// Whether the polynomial from end to end goes where its halves do.
-    fn meets(&self, [first, second]: [Self; 2]) -> bool {
+    fn meets(&self, [first, second]: [&Self; 2]) -> bool {
         let [[start, v, a], [end, w, b]] = self.states;
         let polynomial =
             Polynomial::between(end - start, self.time, End::new(v, a), End::new(w, b));

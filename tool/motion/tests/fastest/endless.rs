@@ -108,6 +108,7 @@ fn machines_go_on_for_ever() {
         ("eccentric-press", 60.0),
         ("cam-translating", 60.0),
         ("flying-shear", 60.0),
+        ("geneva", 60.0),
         ("scotch-yoke", 60.0),
         ("shaking-feeder", 60.0),
     ] {

@@ -10,6 +10,7 @@ use jred::Error;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::mechanism::AnyMechanism;
 use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::number::words::counted;
@@ -276,8 +277,9 @@ impl Answer<'_> {
         ];
         let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
         let fastest = axis.rate(speeds.fold(0.0, f64::max));
+        let mechanism = self.file.machine.mechanism();
         let row = |phase: &Phase| -> Vec<Cell> {
-            let mut cells = vec![Cell::from(phase.limit.name())];
+            let mut cells = vec![Cell::from(&*phase.limit.name_in(mechanism))];
             let positions = phase.phi.map(&position);
             let times = phase.t.map(|t| shown(t, made.fastest.time));
             let speeds = phase.speed.map(|v| shown(axis.rate(v), fastest));
@@ -292,7 +294,7 @@ impl Answer<'_> {
             let _ = writeln!(
                 text,
                 "{}: {} s, {} s less",
-                eased(cost),
+                eased(cost, mechanism),
                 short(cost.time),
                 short(saved.max(0.0))
             );
@@ -338,7 +340,7 @@ impl Answer<'_> {
         let axis = self.file.axis();
         map.insert("unit".into(), axis.coordinate.per().into());
         let moves: Vec<Value> = (cycle.moves.iter())
-            .map(|made| move_json(made, &axis))
+            .map(|made| move_json(made, &axis, self.file.machine.mechanism()))
             .collect();
         map.insert("moves".into(), moves.into());
         map
@@ -351,20 +353,23 @@ fn line(text: &mut String, name: &str, says: &str) {
 }
 
 /// Without a limit, or with more of the motor's own.
-fn eased(cost: &Cost) -> String {
+fn eased(cost: &Cost, mechanism: &AnyMechanism) -> String {
     match cost.limit {
         Binding::Driving | Binding::Braking => {
             format!("with {} more motor torque", percent(MORE))
         }
         Binding::MotorSpeed => format!("with {} more motor speed", percent(MORE)),
+        limit @ Binding::JointForce(_) => {
+            format!("without a limit of the {}", limit.name_in(mechanism))
+        }
         limit => format!("without the {}", limit.name()),
     }
 }
 
-fn move_json(made: &Made, axis: &Axis) -> Value {
+fn move_json(made: &Made, axis: &Axis, mechanism: &AnyMechanism) -> Value {
     let phases = made.fastest.phases.iter().map(|phase| {
         json!({
-            "limit": phase.limit.name(),
+            "limit": phase.limit.name_in(mechanism),
             "from": axis.position(phase.phi[0]),
             "to": axis.position(phase.phi[1]),
             "from_time": phase.t[0],
@@ -376,7 +381,7 @@ fn move_json(made: &Made, axis: &Axis) -> Value {
     let costs = made
         .costs
         .iter()
-        .map(|cost| json!({ "limit": cost.limit.name(), "eased": eased(cost), "time": cost.time }));
+        .map(|cost| json!({ "limit": cost.limit.name_in(mechanism), "eased": eased(cost, mechanism), "time": cost.time }));
     json!({
         "from": axis.position(made.task.from),
         "to": axis.position(made.task.to),

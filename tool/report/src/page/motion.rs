@@ -182,9 +182,12 @@ fn plane(
         }
         curve.extend(shown(points));
     }
+    let mechanism = file.machine.mechanism();
+    let named = (curves.into_iter()).map(|(limit, points)| (limit.name_in(mechanism), points));
+    let curves: Vec<_> = named.collect();
     let mut series: Vec<Series> = curves
         .iter()
-        .map(|(limit, points)| line(limit.name(), points.clone()))
+        .map(|(name, points)| line(name, points.clone()))
         .collect();
     let most = FAR * plane.fastest();
     for (name, points) in [

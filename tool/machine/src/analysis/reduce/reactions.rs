@@ -8,6 +8,7 @@ use jred::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 
 use super::{Place, Set, Source};
+use crate::model::mechanism::AnyMechanism;
 use crate::number::columns::{Column, Quantity};
 
 /// Symbols and units of the columns of a joint.
@@ -36,15 +37,30 @@ fn carries(joint: &Joint) -> [bool; 2] {
     }
 }
 
+/// What each joint of a mechanism carries, without those of curves' stand-ins.
+fn carried(mechanism: &AnyMechanism) -> Result<Vec<[bool; 2]>, Error> {
+    let phi = mechanism.domain().position(0.0);
+    let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
+    let own = joints.iter().take(mechanism.own_joints());
+    Ok(own.map(carries).collect())
+}
+
+/// The joints of a mechanism that carry a force, by index and name.
+///
+/// # Errors
+/// The mechanism cannot be placed at the beginning of its range.
+pub fn joints_with_force(mechanism: &AnyMechanism) -> Result<Vec<(usize, &str)>, Error> {
+    let names = mechanism.joint_names().iter().map(String::as_str);
+    let all = names.enumerate().zip(carried(mechanism)?);
+    Ok(all
+        .filter_map(|(joint, [force, _])| force.then_some(joint))
+        .collect())
+}
+
 impl Reactions {
     pub(super) fn new(source: &Source) -> Result<Self, Error> {
-        let mechanism = source.machine.mechanism();
-        let phi = mechanism.domain().position(0.0);
-        let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
         Ok(Self {
-            carries: (joints.iter().take(mechanism.own_joints()))
-                .map(carries)
-                .collect(),
+            carries: carried(source.machine.mechanism())?,
         })
     }
 

@@ -5,6 +5,10 @@ use jred_machine::number::rounding::short;
 use super::NoMotion;
 use crate::fastest::field::Binding;
 
+/// Cure of a limit of the force in a joint.
+const LARGER_FORCE: &str =
+    "allow a larger force in the joint (--max-reaction), or take weight or load off it";
+
 impl NoMotion {
     /// What to do about it.
     pub fn cure(&self) -> String {
@@ -30,6 +34,7 @@ impl NoMotion {
                     Binding::Acceleration | Binding::Deceleration => {
                         "allow a larger deceleration".to_owned()
                     }
+                    Binding::JointForce(_) => LARGER_FORCE.to_owned(),
                     _ => format!(
                         "take a motor with more torque at low speed ({missing} {unit} more would hold the machine there; less may do, as kinetic energy helps), a larger gear ratio, or start with more speed"
                     ),
@@ -37,6 +42,7 @@ impl NoMotion {
             }
             Self::RunsAway { limit, .. } => match limit {
                 Binding::Deceleration => "allow a larger deceleration".to_owned(),
+                Binding::JointForce(_) => LARGER_FORCE.to_owned(),
                 Binding::GearboxTorque => {
                     "take a gearbox with more torque, or balance the weight".to_owned()
                 }
@@ -58,6 +64,10 @@ impl NoMotion {
                 Some(limit) => format!("allow a larger {}, or give a longer way", limit.name()),
                 None => "give another limit: a slightly larger or smaller one may be found".to_owned(),
             },
+            Self::JointForce { .. } => LARGER_FORCE.to_owned(),
+            Self::JointForceAlone => {
+                "leave one of them out: without --max-jerk, --max-torque-rate and --max-rms the forces in joints are limited".to_owned()
+            }
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
             }

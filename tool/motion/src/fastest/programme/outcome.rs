@@ -3,7 +3,7 @@
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
-use crate::fastest::excess::{LOOKS, ROUNDED, within_step};
+use crate::fastest::between::{LOOKS, ROUNDED, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
@@ -145,7 +145,7 @@ impl Asked<'_> {
                 way.place(self.ends.from + direction * x)
             };
             for share in LOOKS {
-                let state = within_step(a, b, share, WITHIN);
+                let state = within_step(a, b, share);
                 let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
                 let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
@@ -154,7 +154,7 @@ impl Asked<'_> {
             if let Some(limit) = limits.torque_rate {
                 // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
                 let torque = |share: f64| -> Result<f64, NoMotion> {
-                    let state = within_step(a, b, share, WITHIN);
+                    let state = within_step(a, b, share);
                     let place = place(state.phi)?;
                     let (v, alpha) = (state.omega * direction, state.alpha * direction);
                     Ok(way.demand(&place, v, alpha).torque)

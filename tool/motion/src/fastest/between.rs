@@ -1,32 +1,72 @@
-//! By how much a motion exceeds its limits between its nodes, with the machine itself.
+//! Whether a motion keeps its limits where it was not made: between its nodes.
 
 use jred::machine::motion::State;
 
-use super::NoMotion;
-use super::field::Field;
+use super::field::{Field, speed};
 use super::sweep::Piece;
 use super::track::{Ends, Track};
+use super::NoMotion;
 use crate::trace::{Node, Trace};
 
 /// Most parts of a cell in the next round.
 const MOST_PARTS: f64 = 8.0;
 
+/// Places between two nodes at which limits are looked at.
+pub(super) const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
+
 /// Share of what a limit may be exceeded by that rounding may make of it.
 pub(super) const ROUNDED: f64 = 1e-3;
 
-/// Places between two nodes at which that is looked at.
-pub(super) const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
+/// Roundings of a speed by which the sweep may miss it.
+const ROUNDINGS: f64 = 1e4;
 
-/// The state at a share of a step that must be right within a share of itself. Of a step so short that rounding of the speeds makes another
-/// acceleration, that of the nodes counts.
-pub(super) fn within_step(a: &Node, b: &Node, share: f64, within: f64) -> State<f64> {
+/// The state at a share of a step. Of a step so short that rounding of the speeds makes another acceleration, that of the nodes counts.
+pub(super) fn within_step(a: &Node, b: &Node, share: f64) -> State<f64> {
     let state = b.after(a, share);
     let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
-    if rounding > ROUNDED * within.min(1.0) * (a.alpha[1].abs() + b.alpha[0].abs()) {
-        let alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
+    let alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
+    if (state.alpha - alpha).abs() <= ROUNDINGS * rounding {
         return State { alpha, ..state };
     }
     state
+}
+
+/// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
+///
+/// At the largest speed that forces in joints leave, one acceleration is left. Between the places of a cell it is known about as well as the
+/// forces, whose own limits are looked at in the end.
+pub(super) fn check(
+    field: &Field,
+    ends: &Ends,
+    track: &Track,
+    pieces: &[Piece],
+) -> Result<(), NoMotion> {
+    if !field.may_be_empty() {
+        return Ok(());
+    }
+    let forces = field.limits.forces.is_some();
+    for Piece { cell, step, .. } in pieces {
+        let cell = &track.cells[*cell];
+        for end in [0, 1] {
+            let (place, z) = (cell.spot(step.u[end]), step.z[end]);
+            let [low, high] = [field.least_by(&place, z), field.most_by(&place, z)];
+            let rounding = 1e-9 * (low.0.abs() + high.0.abs());
+            let known = if forces {
+                1e-3 * (z / ends.length + low.0.abs() + high.0.abs())
+            } else {
+                rounding
+            };
+            if low.0 > high.0 + known {
+                return Err(NoMotion::Empty {
+                    phi: place.phi,
+                    speed: speed(z),
+                    least: low,
+                    most: high,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
@@ -48,7 +88,7 @@ pub(super) fn excess(
         let inside = ends.inside(cell.length);
         let mut most = 0.0_f64;
         for share in LOOKS {
-            let state = within_step(a, b, share, within);
+            let state = within_step(a, b, share);
             // A place at a corner has the values of its own side.
             let x = (state.phi - ends.from) * direction;
             let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);

@@ -1,0 +1,235 @@
+//! The force in a joint as a limit.
+//!
+//! At a place the reaction is a sum of what does not depend on the motion (weight, loads, springs), of inertia forces by the squared speed
+//! and by the acceleration, and of viscous friction:
+//!
+//! ```text
+//! R = r₀ + r₁·v + r₂·v² + r₃·a = c + r₃·a,   |R| ≤ F
+//! ```
+//!
+//! Friction that opposes the motion is in r₀ with the sign that it has in the motion, also where that begins and ends.
+//!
+//! With e = r₃/|r₃| it leaves at each speed one interval of accelerations, a = (−c·e ± √(F² − (c×e)²))/|r₃|, or none where |c×e| > F.
+//! Where r₃ vanishes, as at the dead centre of a slider whose mass is all that is moved, the limit is one of the speed: |c| ≤ F.
+
+use std::ops::Deref;
+
+use jred::Error;
+use jred::machine::MAX_JOINTS;
+
+use super::field::{Field, speed};
+use super::track::Track;
+use crate::way::Place;
+
+/// Share of the largest speed at which forces are those without a speed, but with the friction of the motion.
+const CREEP: f64 = 1e-100;
+
+/// Kinds of terms of a reaction: without motion, by v, by v², by a.
+const TERMS: usize = 4;
+
+/// The largest force in each joint of a mechanism (N), in the order of its joints; none at first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointForces([f64; MAX_JOINTS]);
+
+impl Default for JointForces {
+    fn default() -> Self {
+        Self([f64::INFINITY; MAX_JOINTS])
+    }
+}
+
+impl JointForces {
+    /// With a largest force (N) of a joint, the smaller one of two.
+    #[must_use]
+    pub fn with(mut self, joint: usize, force: f64) -> Self {
+        if let Some(own) = self.0.get_mut(joint) {
+            *own = own.min(force);
+        }
+        self
+    }
+
+    /// Without a limit of a joint.
+    #[must_use]
+    pub fn without(mut self, joint: usize) -> Self {
+        if let Some(own) = self.0.get_mut(joint) {
+            *own = f64::INFINITY;
+        }
+        self
+    }
+
+    /// Whether a joint has a limit.
+    pub fn is_some(&self) -> bool {
+        self.limits().next().is_some()
+    }
+
+    /// How many joints have one.
+    pub fn count(&self) -> usize {
+        self.limits().count()
+    }
+
+    /// The joints that have one, with it.
+    fn limits(&self) -> impl Iterator<Item = (usize, f64)> {
+        let all = self.0.iter().copied().enumerate();
+        all.filter(|(_, force)| force.is_finite())
+    }
+}
+
+/// The reaction of a joint at a place, and its limit.
+#[derive(Clone, Copy, Debug)]
+pub struct JointForce {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Its largest force (N).
+    pub limit: f64,
+    /// r₀ to r₃ (N, N·s/rad, N·s²/rad², N·s²/rad), along the way.
+    terms: [[f64; 2]; TERMS],
+}
+
+/// The sum of vectors, each times its factor.
+fn sum<const N: usize>(factors: [f64; N], vectors: [[f64; 2]; N]) -> [f64; 2] {
+    let parts = factors.into_iter().zip(vectors);
+    parts.fold([0.0; 2], |[x, y], (k, [u, v])| [x + k * u, y + k * v])
+}
+
+impl JointForce {
+    /// Force (N) at a speed and an acceleration along the way.
+    pub fn at(&self, v: f64, acceleration: f64) -> f64 {
+        let [x, y] = sum([1.0, v, v * v, acceleration], self.terms);
+        x.hypot(y)
+    }
+
+    /// How much the acceleration changes it (N·s²/rad, or N·s²/m): |r₃|.
+    pub fn by_acceleration(&self) -> f64 {
+        let [.., [x, y]] = self.terms;
+        x.hypot(y)
+    }
+
+    /// Least and largest acceleration at a speed; the least is the larger one where none is left.
+    fn accelerations(&self, v: f64) -> [f64; 2] {
+        let [.., along] = self.terms;
+        let [x, y] = sum([1.0, v, v * v, 0.0], self.terms);
+        let size = self.by_acceleration();
+        if size <= 0.0 {
+            let open = x.hypot(y) <= self.limit;
+            return if open {
+                [f64::NEG_INFINITY, f64::INFINITY]
+            } else {
+                [f64::MAX, f64::MIN]
+            };
+        }
+        let [e_x, e_y] = along.map(|r| r / size);
+        let (inline, across) = (x * e_x + y * e_y, (x * e_y - y * e_x).abs());
+        let half = if across <= self.limit {
+            ((self.limit - across) * (self.limit + across)).sqrt()
+        } else {
+            self.limit - across
+        };
+        [(-inline - half) / size, (-inline + half) / size]
+    }
+}
+
+/// A place of the way with the forces that are limited there. Between three places every quantity is the parabola through them.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot<'c> {
+    place: Place,
+    forces: &'c [[JointForce; 3]],
+    weights: [f64; 3],
+}
+
+impl Deref for Spot<'_> {
+    type Target = Place;
+
+    fn deref(&self) -> &Place {
+        &self.place
+    }
+}
+
+impl<'c> Spot<'c> {
+    /// A place, and the forces at three places with the weights that they have at this one.
+    pub const fn new(place: Place, forces: &'c [[JointForce; 3]], weights: [f64; 3]) -> Self {
+        Self {
+            place,
+            forces,
+            weights,
+        }
+    }
+
+    /// The forces.
+    pub fn forces(&self) -> impl Iterator<Item = JointForce> {
+        let weights = self.weights;
+        self.forces.iter().map(move |three| JointForce {
+            terms: std::array::from_fn(|k| sum(weights, three.map(|force| force.terms[k]))),
+            ..three[0]
+        })
+    }
+
+    /// The joints with the accelerations that their forces leave at z = ½·v².
+    pub fn intervals(&self, z: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let v = if self.forces.is_empty() {
+            0.0
+        } else {
+            speed(z)
+        };
+        self.forces()
+            .map(move |force| (force.joint, force.accelerations(v)))
+    }
+}
+
+impl Field<'_, '_> {
+    /// The forces that are limited, at a position.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there, or its forces are not determined.
+    pub fn forces(&self, phi: f64) -> Result<Vec<JointForce>, Error> {
+        let forces = &self.limits.forces;
+        if !forces.is_some() {
+            return Ok(Vec::new());
+        }
+        let way = self.way;
+        let machine = way.file.machine_at(&way.now(), phi)?;
+        let reactions = |v: f64, a: f64| {
+            let found = machine.forces(phi, v * way.direction, a * way.direction)?;
+            Ok::<_, Error>(found.reactions)
+        };
+        // Each term is the largest where it is taken from, so that none is lost in another one.
+        let (top, _) = self.top();
+        let unit = if top.is_finite() { top } else { 1.0 };
+        let square = unit * unit;
+        let slow = reactions(CREEP * unit, 0.0)?;
+        let pushed = reactions(CREEP * unit, square)?;
+        let [once, twice] = [reactions(unit, 0.0)?, reactions(2.0 * unit, 0.0)?];
+        let own = |(joint, limit): (usize, f64)| {
+            let all = [&slow, &pushed, &once, &twice].map(|found| found.get(joint));
+            let [slow, pushed, once, twice] =
+                all.map(|found| found.map_or([0.0; 2], |own| own.force));
+            let at = |factors: [f64; 3], unit: f64| {
+                sum(factors, [slow, once, twice]).map(|force| force / unit)
+            };
+            JointForce {
+                joint,
+                limit,
+                terms: [
+                    slow,
+                    at([-1.5, 2.0, -0.5], unit),
+                    at([0.5, -1.0, 0.5], square),
+                    sum([-1.0, 1.0], [slow, pushed]).map(|force| force / square),
+                ],
+            }
+        };
+        Ok(forces.limits().map(own).collect())
+    }
+}
+
+/// The place of the way at which a force exceeds its limit most in a motion without speed and acceleration: the position, and the force.
+pub fn without_motion(track: &Track) -> Option<(f64, JointForce)> {
+    let share = |force: &JointForce| force.at(0.0, 0.0) / force.limit;
+    let at = |u: f64| track.cells.iter().map(move |cell| cell.spot(u));
+    let spots = [0.0, 0.5, 1.0].into_iter().flat_map(at);
+    let all = spots.flat_map(|spot| {
+        let phi = spot.phi;
+        spot.forces()
+            .map(move |force| (phi, force))
+            .collect::<Vec<_>>()
+    });
+    let worst = all.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1)));
+    worst.filter(|(_, force)| share(force) > 1.0)
+}

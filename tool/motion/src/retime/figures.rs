@@ -1,0 +1,59 @@
+//! What a motion asks of the motor, and which of it is to be least.
+
+use jred_sizing::catalogue::Drive;
+use jred_sizing::motor::winding::CurrentCurve;
+
+/// Temperature of the winding (°C) at which the copper loss is taken.
+pub const WINDING: f64 = 20.0;
+
+jred_machine::words! {
+    /// What is to be least, over the cycle.
+    pub enum Goal default Rms {
+        /// RMS torque: the heat in the motor.
+        Rms = "rms",
+        /// Copper loss and the mechanical work that the motor delivers; what flows back is not deducted.
+        Energy = "energy",
+        /// Largest torque.
+        Peak = "peak",
+    }
+}
+
+/// Copper loss per square of the torque of a drive's motor (W/(N·m)²), its winding at 20 °C, up to the torque where the iron saturates.
+/// `None`: resistance or torque constant is not stated.
+pub fn copper(drive: &Drive) -> Option<f64> {
+    let constant = CurrentCurve::of(drive.motor)?.torque_constant();
+    let resistance = drive.motor.winding.loss_resistance(WINDING)?;
+    Some(resistance / (constant * constant))
+}
+
+/// What a motion asks of the motor, or of the input of the drive train.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// RMS torque over the cycle (N·m).
+    pub rms: f64,
+    /// Largest magnitude of the torque (N·m).
+    pub peak: f64,
+    /// Mechanical work that the motor delivers in a cycle (J); what flows back is not deducted.
+    pub drawn: f64,
+    /// Copper loss in a cycle (J).
+    pub copper: Option<f64>,
+    /// Largest speed (rad/s).
+    pub speed: f64,
+    /// Largest share of the drive's short-time torque; infinite beyond its largest speed.
+    pub used: f64,
+    /// RMS torque as a share of the S1 torque at the mean speed; 0 where that is not known.
+    pub rms_used: f64,
+    /// Largest speed as a share of the motor's; 0 where that is not known.
+    pub speed_used: f64,
+}
+
+impl Figures {
+    /// The figure that is to be least.
+    pub fn of(&self, goal: Goal) -> f64 {
+        match goal {
+            Goal::Rms => self.rms,
+            Goal::Peak => self.peak,
+            Goal::Energy => self.drawn + self.copper.unwrap_or(0.0),
+        }
+    }
+}
