@@ -296,11 +296,6 @@ fn a_tool_speed_with_a_limited_jerk() {
     let share = |node: &Node| node.omega / limit(node.phi);
     let most = both.trace.nodes().iter().map(share).fold(0.0, f64::max);
     assert!((most - 1.0).abs() <= WITHIN, "{most}");
-    assert!(
-        both.phases
-            .iter()
-            .any(|phase| phase.limit == Binding::ToolSpeed)
-    );
 }
 
 /// Too little way to slow down in: the message names the limit and the place.
