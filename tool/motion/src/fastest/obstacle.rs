@@ -105,8 +105,6 @@ pub enum NoMotion {
         rms: f64,
         /// What it may be.
         allowed: f64,
-        /// Least torque (N·m) at which the machine moves slowly, on the way of any move.
-        slow: f64,
     },
     /// No motion within limits of jerk, torque rate or RMS torque was found.
     NotFound {
@@ -277,12 +275,11 @@ impl NoMotion {
                 short(*before),
                 short(*after)
             ),
-            Self::RmsTooLarge { rms, allowed, slow } => write!(
+            Self::RmsTooLarge { rms, allowed } => write!(
                 f,
-                "no motion with an RMS torque of {} N m or less was found: the least, at whatever speed, was {} N m, and moving slowly takes at least {} N m against weight and friction",
+                "no motion with an RMS torque of {} N m or less was found: the least that was found is {} N m. Weight and friction may keep it above the limit",
                 short(*allowed),
-                short(*rms),
-                short(*slow)
+                short(*rms)
             ),
             Self::NotFound {
                 bound,

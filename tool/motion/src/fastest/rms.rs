@@ -164,7 +164,6 @@ pub(super) fn within<E>(
         return Err(Refused::Limit(NoMotion::RmsTooLarge {
             rms: least,
             allowed: limit,
-            slow,
         }));
     };
     let mut last = dear;
