@@ -361,6 +361,14 @@ fn a_plan_is_the_motion() {
         beyond += usize::from(error > 1.05 * f64::from(errors.acceleration) + 1e-3);
     }
     assert!(beyond <= 2, "{beyond}");
+}
+
+/// An error that is no share is refused; one that whole numbers cannot keep is said.
+#[test]
+fn the_error_of_a_plan_is_looked_at() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", press_text());
+    let (press, plan) = (press.to_str().unwrap(), folder.path("p.jred"));
     let refused = |more: &[&str], says: &str| {
         let mut arguments = vec!["retime", press];
         arguments.extend(more);
