@@ -34,8 +34,8 @@ use jred_report::list::inspection;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::motor::envelope::{Envelope, Prepared};
 use jred_sizing::select::fit::fit_input;
+use jred_sizing::select::named::named;
 use jred_sizing::study::chosen::ChosenDrive;
-use jred_sizing::study::common::named;
 
 /// How a command ended without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -173,6 +173,11 @@ pub struct Size {
     /// Which drives are considered and how they are ranked.
     #[command(flatten)]
     pub search: search::Search,
+    /// Judge this drive alone: MOTOR+GEARBOX, or MOTOR for a direct drive, followed by " on AMPLIFIER" if there are several.
+    #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with_all = [
+        "pareto", "rank", "why", "maker", "motor", "gearbox", "ratio", "direct_only", "max_mass", "max_price"
+    ])]
+    pub drive: Option<String>,
     /// Number of ranked drives to list; in CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
     #[arg(long, default_value_t = 10)]
     pub top: usize,
@@ -221,8 +226,13 @@ pub struct Rules {
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 done; 2 bad input, or there is no steady cycle.")]
 pub struct Steady {
-    /// Machine file.
-    pub file: PathBuf,
+    /// Machine file. Further ones are machines on the same motor shaft, each behind its own drive train, which make whole turns while the first one makes
+    /// one.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// By how much a further machine's drive link is ahead of the start in its `[simulation]`, e.g. "180 deg"; one for each of them, in their order.
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
+    pub phase: Vec<f64>,
     /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02 or 2%: find its inertia.
     #[arg(long, value_parser = fluctuation)]
     pub delta: Option<f64>,

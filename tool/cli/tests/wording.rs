@@ -7,9 +7,11 @@ mod catalogues;
 mod help;
 mod listings;
 mod machine_files;
+mod mechanism_files;
 mod motions;
 mod options;
 mod reports;
+mod sizings;
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! Steady cycles and flywheels against closed forms, simulations and a search by hand.
 
 mod refusals;
+mod together;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

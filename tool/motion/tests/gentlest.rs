@@ -11,7 +11,7 @@ use jred_motion::retime::{Goal, Obstacle, Request, Retimed, retime};
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
-use jred_sizing::study::common::named;
+use jred_sizing::select::named::named;
 
 use crate::support::near;
 

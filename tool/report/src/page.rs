@@ -6,12 +6,11 @@
 use askama::Template;
 use jred::Error;
 
+use crate::list;
 use crate::list::listing::{self, Explanation};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::simulation::Simulation;
-use jred_machine::number::columns::Columns;
 use jred_machine::number::rounding::{rounded, short};
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
@@ -381,9 +380,10 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 }
 
 /// The page with the plots of a simulation.
-pub fn simulation_page(file: &MachineFile, simulation: &Simulation, run: &Columns) -> String {
-    let sections = figures::simulation(file, simulation, run).into_iter();
+pub fn simulation_page(shown: &list::simulation::Shown) -> String {
+    let file = shown.machines.first;
+    let run = (shown.found).columns_of_drive(file.machine.mechanism().coordinate());
+    let sections = figures::simulation(file, shown.simulation, &run).into_iter();
     let sections = sections.map(|(heading, svg)| Section::of(heading, svg));
-    let about = "Motion under the motor of the machine file, (7.12) and (7.13)";
-    MotionPage::page(file, "simulation", about, "", sections.collect())
+    MotionPage::page(file, "simulation", shown.about(), "", sections.collect())
 }

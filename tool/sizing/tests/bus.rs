@@ -5,6 +5,7 @@
 mod answers;
 mod conflict;
 pub(crate) mod drive;
+mod periods;
 mod phases;
 
 use crate::support::{budget, near, within};

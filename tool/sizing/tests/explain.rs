@@ -54,6 +54,74 @@ fn lossy(catalogue: &mut Catalogue) -> Drive<'_> {
     }
 }
 
+/// A carriage on a turning arm has its share of J under its own name, m·r², and the arm keeps its own; so have torques by its inertia, and
+/// the sum is the motor's torque.
+#[test]
+fn a_carriage_has_its_own_share() {
+    let text = r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "rotary-table"
+table = { diameter = "2 m", mass = "4 kg" }
+[motion]
+type = "cycle"
+[[motion.segment]]
+law = "polynomial-345"
+move = "360 deg"
+duration = "1 s"
+[[carriage]]
+name = "trolley"
+on = "table"
+mass = "3 kg"
+at = ["0.2 m", "0 mm"]
+stroke = ["0 mm", "800 mm"]
+[carriage.motion]
+type = "cycle"
+[[carriage.motion.segment]]
+law = "polynomial-345"
+move = "800 mm"
+duration = "0.4 s"
+[[carriage.motion.segment]]
+law = "polynomial-345"
+move = "-800 mm"
+duration = "0.6 s"
+"#;
+    let file = parse(text);
+    let duty = duty_of(&file);
+    let mut catalogue = catalogue();
+    let drive = lossy(&mut catalogue);
+    let ratio = drive.ratio();
+    let contributions = Contributions::new(&file, &duty, &drive).unwrap();
+    let carriage = &file.schedule.carriages()[0];
+    let of = |part: &str, effect: Effect| {
+        let all = contributions.torques.iter();
+        let mut found = all.filter(|c| c.part == part && c.effect == effect);
+        let one = found.next().unwrap_or_else(|| panic!("{part} {effect:?}"));
+        assert!(found.next().is_none());
+        &one.torque
+    };
+    let [table, trolley] = ["table", "trolley"].map(|part| of(part, Effect::Acceleration));
+    let second = of("trolley", Effect::Carriage);
+    let mut most = [0.0f64; 2];
+    for (k, i) in duty.instants.iter().enumerate() {
+        let s = carriage.motion.at(i.t);
+        let r = 0.2 + s.phi;
+        within("table", table[k], 2.0 * i.alpha / ratio, 1e-9);
+        within("trolley", trolley[k], 3.0 * r * r * i.alpha / ratio, 1e-9);
+        let coriolis = 2.0 * 3.0 * r * s.omega * i.omega / ratio;
+        within("second axis", second[k], coriolis, 1e-9);
+        most = [most[0].max(trolley[k].abs()), most[1].max(coriolis.abs())];
+    }
+    assert!(most.iter().all(|torque| *torque > 1.0), "{most:?}");
+    let breakdown = Breakdown::new(&file, &duty, &drive).unwrap();
+    let share = |name: &str| {
+        let found = breakdown.inertia.iter().find(|share| share.name == name);
+        found.unwrap().inertia
+    };
+    within("least", share("table").max, 2.0 / (ratio * ratio), 1e-12);
+    within("most", share("trolley").max, 3.0 / (ratio * ratio), 1e-9);
+}
+
 fn total(shares: &[Share], of: impl Fn(&Share) -> f64) -> f64 {
     shares.iter().map(of).sum()
 }

@@ -10,6 +10,7 @@ use crate::output;
 use jred::Reducible as _;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Proven, Task};
+use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -22,8 +23,8 @@ fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
         None => return Ok(Vec::new()),
         Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
         Some(list) => {
-            let coordinate = file.machine.mechanism().coordinate();
-            read::drive_positions(list, file.machine.domain(), coordinate).map_err(|why| {
+            let drive = Axis::of_drive(file.machine.mechanism().coordinate());
+            read::drive_positions(list, file.machine.domain(), [&drive; 2]).map_err(|why| {
                 miette!(
                     help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
                     "--pieces {list:?} cannot be used: {why}"

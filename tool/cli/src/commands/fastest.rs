@@ -18,6 +18,7 @@ use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
+use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
@@ -63,7 +64,8 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(Asked::Share(share)) => Reserve::of_motor(share),
         Some(Asked::Rules) => Reserve::of(&file.rules),
     };
-    let limits = limits(options, &file, &chosen.limits)?.with_reserve(reserve);
+    let mut asked = asked(options);
+    let limits = limits(options, &file, (&chosen.limits, &mut asked))?.with_reserve(reserve);
     let rms = rms(options, &file, &chosen)?;
     let cycle = match task {
         Some(task) => {
@@ -85,6 +87,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let answer = list::fastest::Answer {
         file: &file,
         drive: &chosen.name,
+        asked,
         actuator: &chosen.actuator,
         cycle: &cycle,
         reserve,
@@ -143,7 +146,7 @@ fn of_motion(
                 help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
                 "the motion of {} {end} with {} {unit}, so its moves are not known",
                 file.name,
-                jred_machine::number::rounding::short(axis.rate(speed.abs()))
+                short(axis.rate(speed.abs()))
             )
         }
     })?;
@@ -212,8 +215,33 @@ fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Resu
     Ok(given.map(|rate| axis.drive_rate(rate)))
 }
 
-/// The limits of the command line, and those of the gearbox.
-fn limits(options: &Options, file: &MachineFile, gearbox: &Limits) -> Result<Limits> {
+/// The options that were given, but for those of which the answer speaks anyway: moves, drive and reserve.
+fn asked(options: &Options) -> Vec<String> {
+    let ends = options.ends.map(|ends| ends.word().to_owned());
+    let given = [
+        ("from-speed", &options.from_speed),
+        ("to-speed", &options.to_speed),
+        ("max-speed", &options.max_speed),
+        ("max-acceleration", &options.max_acceleration),
+        ("max-deceleration", &options.max_deceleration),
+        ("max-jerk", &options.max_jerk),
+        ("max-torque-rate", &options.max_torque_rate),
+        ("ends", &ends),
+        ("max-rms", &options.max_rms),
+    ];
+    let given = given.into_iter();
+    let given = given.filter_map(|(name, text)| Some(format!("--{name} {}", text.as_ref()?)));
+    let forces = options.max_reaction.iter();
+    let forces = forces.map(|text| format!("--max-reaction {text}"));
+    given.chain(forces).collect()
+}
+
+/// The limits of the command line, and those of the gearbox; adds to what was asked where the tool's speed is limited.
+fn limits(
+    options: &Options,
+    file: &MachineFile,
+    (gearbox, asked): (&Limits, &mut Vec<String>),
+) -> Result<Limits> {
     let axis = file.axis();
     let read = |name: &str, text: &Option<String>, read: read::Reader| {
         rate(name, text.as_deref(), read, &axis)
@@ -245,7 +273,11 @@ fn limits(options: &Options, file: &MachineFile, gearbox: &Limits) -> Result<Lim
     Ok(Limits {
         speed: read("max-speed", &options.max_speed, read::largest_speed)?,
         tool: match &options.max_tool_speed {
-            Some(text) => Some(tool_speed(text, file)?),
+            Some(text) => {
+                let (limit, words) = tool_speed(text, file)?;
+                asked.push(words);
+                Some(limit)
+            }
             None => None,
         },
         forces: forces(&options.max_reaction, file)?,
@@ -286,8 +318,8 @@ fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
     Ok(forces)
 }
 
-/// "slider, 60 mm/s, 300 deg, 360 deg".
-fn tool_speed(text: &str, file: &MachineFile) -> Result<ToolSpeed> {
+/// "slider, 60 mm/s, 300 deg, 360 deg"; the limit, and where it holds.
+fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let given = format!("--max-tool-speed {}", plain::quoted(text));
     let mechanism = file.machine.mechanism();
     let links = &mechanism.link_names()[..mechanism.own_links()];
@@ -314,23 +346,48 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<ToolSpeed> {
         ));
     };
     let refused = |why: String| miette!("{given} cannot be used: {why}");
-    let speed = read::largest_speed(speed, Coordinate::Length).map_err(refused)?;
+    let most = read::largest_speed(speed, Coordinate::Length).map_err(refused)?;
+    let domain = mechanism.domain();
+    let turns = domain == Domain::Turn;
+    let drive = Axis::of_drive(mechanism.coordinate());
+    // A part of a turn comes again with every turn, a length along the axis does not.
+    let spoken = if turns { drive } else { file.axis() };
     let ends = format!("{from}, {to}");
-    let ends = read::drive_positions(&ends, mechanism.domain(), mechanism.coordinate());
+    let ends = read::drive_positions(&ends, domain, [&drive, &spoken]);
     let &[start, end] = ends.map_err(refused)?.as_slice() else {
         return Err(refused("it needs two positions".to_owned()));
     };
-    let between = [start, end];
-    let turns = mechanism.domain() == Domain::Turn;
+    let between = if turns {
+        [start, end]
+    } else {
+        // The axis may go back where the drive link goes on.
+        [start.min(end), start.max(end)]
+    };
     let width = between[1] - between[0];
-    if width == 0.0 || (!turns && width < 0.0) || width.abs() > mechanism.domain().span() {
+    if width == 0.0 || width.abs() > domain.span() {
         return Err(miette!(
             help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
             "{given}: from {from} to {to} is no part of the way"
         ));
     }
-    let limit = ToolSpeed::new(mechanism, place, speed, between);
+    let over = if width < 0.0 {
+        let rest = spoken.coordinate.shown(domain.span() + width);
+        format!(
+            ", over the end of the turn, {} {} in all (for the other part swap the two positions)",
+            short(rest),
+            spoken.coordinate.unit()
+        )
+    } else {
+        String::new()
+    };
+    let words = format!(
+        "--max-tool-speed {point}, {speed}, from {} to {}{over}",
+        spoken.place(start),
+        spoken.place(end)
+    );
+    let limit = ToolSpeed::new(mechanism, place, most, between);
     let limit = limit.map_err(core_report)?;
+    let limit = limit.map(|limit| (limit, words));
     limit.ok_or_else(|| {
         miette!(
             help = "choose a point or a link that moves with the drive link",
@@ -352,7 +409,7 @@ fn motor_coordinate(file: &MachineFile) -> Coordinate {
 fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<Rms>> {
     match options.max_rms.as_deref() {
         None => Ok(None),
-        Some("s1") => {
+        Some(text) if text.eq_ignore_ascii_case("s1") => {
             if !chosen.actuator.envelope.continuous_torque(0.0).is_finite() {
                 return Err(miette!(
                     help = "give the torque: --max-rms \"2 N m\"",

@@ -74,17 +74,19 @@ pub fn retime(options: &Retime) -> Result<Done> {
         }
     }
     written += &plan::write(&options.plan, &file, &retimed.trace)?;
-    let shown = list::retime::Shown {
+    let mut shown = list::retime::Shown {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,
         retimed: &retimed,
-        written,
+        written: String::new(),
     };
     if let Some(path) = &options.report {
         let page = page::retime_page(&shown, motion).map_err(core_report)?;
         output::write(path, page.as_bytes())?;
+        written += &["report written to ", &plain::path(path), "\n"].concat();
     }
+    shown.written = written;
     print_parts([list::retime::write(&shown, options.format)])?;
     let best = &retimed.best;
     let exceeds = best.used.max(best.rms_used) > 1.0;

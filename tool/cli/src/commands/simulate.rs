@@ -1,5 +1,7 @@
 //! `jred simulate`: the motion under a motor.
 
+use std::path::PathBuf;
+
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
@@ -27,10 +29,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         return Err(miette!("no machine file is given"));
     };
     let file = read::read(path)?;
-    let others: Vec<MachineFile> = others
-        .iter()
-        .map(|path| read::read(path))
-        .collect::<Result<_>>()?;
+    let others = read_all(others)?;
     output::check([("--plot", &options.plot)])?;
     let simulation = file.simulation.as_ref().ok_or_else(|| {
         miette!(
@@ -49,24 +48,27 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         }
     };
     add_forces(&mut found, &machines, [options.points, options.reactions])?;
-    if let Some(path) = &options.plot {
-        let columns = found.columns_of_drive(file.machine.mechanism().coordinate());
-        let page = page::simulation_page(&file, simulation, &columns);
-        output::write(path, page.as_bytes())?;
-    }
     let shown = list::simulation::Shown {
         machines: &machines,
         simulation,
         found: &found,
         drive: drive.as_ref().map(|(name, loads)| (name.as_str(), loads)),
     };
+    if let Some(path) = &options.plot {
+        output::write(path, page::simulation_page(&shown).as_bytes())?;
+    }
     let done = print_parts(shown.write(options.format))?;
     // The rows up to there are written before the reason is.
     found.ended.map_or(Ok(done), |error| Err(error.into()))
 }
 
+/// Further machines.
+pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<MachineFile>> {
+    paths.iter().map(|path| read::read(path)).collect()
+}
+
 /// Where the drive links of further machines start.
-fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>> {
+pub(super) fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>> {
     if !phases.is_empty() && phases.len() != others.len() {
         return Err(miette!(
             help = "give --phase once for each machine file after the first, in their order, \"0 deg\" if it has none",

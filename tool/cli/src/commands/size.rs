@@ -41,7 +41,8 @@ pub fn size(options: &Size) -> Result<Done> {
     }
     variator::refuse(&file, "size")?;
     let motion = file.required_motion()?;
-    let filter = options.search.filter();
+    let mut filter = options.search.filter();
+    filter.drive.clone_from(&options.drive);
     let mut catalogue = catalogue(&options.supply, &filter)?;
     output::check([("--report", &options.report), ("--meter", &options.meter)])?;
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);

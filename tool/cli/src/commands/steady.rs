@@ -3,8 +3,10 @@
 use miette::{Result, miette};
 
 use crate::commands::Done;
+use crate::commands::simulate::{read_all, starts};
 use crate::options;
-use crate::output::{self, print_parts};
+use crate::output::{self, print, print_parts};
+use jred_machine::analysis::simulate::Together;
 use jred_machine::analysis::steady::{self, Request};
 use jred_machine::model::characteristic::Characteristic;
 use jred_machine::model::machine::MachineFile;
@@ -14,6 +16,7 @@ use jred_machine::plain;
 use jred_machine::read;
 use jred_report::list;
 use jred_report::page;
+use jred_report::table::output::Format;
 
 /// Positions over a turn that the report draws at least.
 const DRAWN: usize = 360;
@@ -23,24 +26,39 @@ const DRAWN: usize = 360;
 /// # Errors
 /// Bad input, or no steady cycle.
 pub fn steady(options: &options::Steady) -> Result<Done> {
-    let file = read::read(&options.file)?;
+    let Some((path, others)) = options.files.split_first() else {
+        return Err(miette!("no machine file is given"));
+    };
+    let (file, others) = (read::read(path)?, read_all(others)?);
     output::check([("--report", &options.report)])?;
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
+    let starts = starts(&others, &options.phase)?;
+    let machines = Together::alone(&file).with(others.iter().zip(starts), &simulation)?;
     let request = Request {
         delta: options.delta,
         positions: options.positions as usize,
     };
-    let steady = steady::steady(&file, &simulation, &request)?;
+    let steady = steady::steady_together(&machines, &simulation, &request)?;
     if let Some(path) = &options.report {
         let finer = Request {
             positions: request.positions.max(DRAWN),
             ..request
         };
-        let page = page::steady_page(&file, &steady::steady(&file, &simulation, &finer)?);
+        let page = page::steady_page(
+            &machines,
+            &steady::steady_together(&machines, &simulation, &finer)?,
+        );
         output::write(path, page.as_bytes())?;
     }
-    print_parts(list::steady::write(&file, &steady, options.format))?;
+    print_parts(list::steady::write(&machines, &steady, options.format))?;
+    if let Some(path) = options
+        .report
+        .as_ref()
+        .filter(|_| options.format == Format::Table)
+    {
+        print(&format!("report written to {}\n", plain::path(path)))?;
+    }
     Ok(Done::Holds)
 }
 
@@ -52,7 +70,7 @@ fn simulation(options: &options::Steady, file: &MachineFile) -> Result<Simulatio
                 help = "give --torque \"20 N m\", or add a [simulation] with start_angle, duration, output_step and the motor: torque, \
                         torque_speed, dc_motor or induction_motor; docs/machine-file.md shows how",
                 "{} has no [simulation], which gives the motor",
-                plain::path(&options.file)
+                file.name
             )
         });
     };

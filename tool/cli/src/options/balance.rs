@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::MOST_STEPS;
 use super::word::word;
@@ -12,6 +12,7 @@ use jred_report::list::inspection::Format;
 /// `jred balance`
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 done; 2 bad input.")]
+#[command(group = ArgGroup::new("sought").required(true).multiple(true).args(["counterweight", "spring"]))]
 pub struct Balance {
     /// Machine file.
     pub file: PathBuf,
@@ -20,11 +21,7 @@ pub struct Balance {
     pub least: Goal,
     /// A link that may carry a counterweight, the most it may weigh, and how far its parts may be from the origin of the link's frame, e.g.
     /// "crank, 20 kg, 250 mm"; may be repeated.
-    #[arg(
-        long,
-        value_name = "LINK, MASS, REACH",
-        required_unless_present = "spring"
-    )]
+    #[arg(long, value_name = "LINK, MASS, REACH")]
     pub counterweight: Vec<String>,
     /// A `[[spring]]` of the machine file by its name: its ends stay, its stiffness and its free length are sought; may be repeated.
     #[arg(long, value_name = "NAME")]

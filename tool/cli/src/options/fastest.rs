@@ -21,7 +21,7 @@ pub enum Asked {
 }
 
 fn asked(text: &str) -> Result<Asked, String> {
-    if text == "rules" {
+    if text.eq_ignore_ascii_case("rules") {
         return Ok(Asked::Rules);
     }
     read::reserve_argument(text).map(Asked::Share)

@@ -166,6 +166,7 @@ impl Search {
             direct_only: self.direct_only,
             max_mass: self.max_mass,
             max_price: self.max_price,
+            drive: None,
         }
     }
 }

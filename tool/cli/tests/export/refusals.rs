@@ -10,7 +10,7 @@ fn what_goes_by_the_motion_is_refused() {
     let run = export_of(&lift, &["--torque-error", "1 N m"], None).ends(2);
     run.says(&[
         "load \"suction cup pressed on the part\" acts in segment 1: that goes by [motion], and a table is over the position",
-        "remove its segments, during, direction and at_rest, the payload or the carriage, for this command",
+        "remove its segments or during, for this command",
     ]);
 }
 

@@ -196,6 +196,64 @@ fn slow_through_the_work() {
             &with("slider, 60 rpm, 300 deg, 360 deg"),
             &with("slider, 0 mm/s, 300 deg, 360 deg"),
             &with("slider, 60 mm/s, 300 deg, 300 deg"),
+            &with("slider, 60 mm/s, 30 deg, 300 deg"),
+            &with("slider, 60 mm/s, 300 deg, 30 deg"),
+        ]),
+    );
+}
+
+/// On an axis in mm the part of the way is in mm or in degrees, either end first; a named drive and all options are in answer and page; limits in
+/// capitals; a motion that turns for ever holds no end.
+#[test]
+fn fastest_says_what_was_asked() {
+    let press = Desk::machine("press.toml");
+    let (before, rest) = press.split_once("[motion]").unwrap();
+    let (_, after) = rest.split_once("# Start from rest").unwrap();
+    let turns = "[motion]\ntype = \"constant-speed\"\nspeed = \"90 rpm\"\n\n#";
+    let axis = Desk::machine("vertical-axis.toml");
+    let desk = Desk::new()
+        .with("press.toml", press.clone())
+        .with("turning.toml", [before, turns, after].concat())
+        .with(
+            "axis.toml",
+            axis.replace(
+                "lead = \"10 mm\"",
+                "lead = \"10 mm\"\nstroke = [\"-400 mm\", \"10 mm\"]",
+            )
+            .replace("along = \"x\" }", "along = \"x\" }\nstart = \"0 mm\""),
+        )
+        .with("endless.toml", axis);
+    let motor = ["--torque", "20 N m", "--motor-speed", "2000 rpm"];
+    let turning = [["fastest", "turning.toml"].as_slice(), &motor].concat();
+    let with = |file: &'static str, limit: &'static str| {
+        let path = ["--from", "0 mm", "--to", "-300 mm"];
+        let limit = ["--max-tool-speed", limit];
+        [["fastest", file].as_slice(), &motor, &path, &limit].concat()
+    };
+    compare(
+        "fastest-asked",
+        &desk.runs(&[
+            &turning,
+            &with("axis.toml", "nut, 0.1 m/s, -200 mm, -100 mm"),
+            &with("axis.toml", "nut, 0.1 m/s, -100 mm, -200 mm"),
+            &with("axis.toml", "nut, 0.1 m/s, -7200 deg, -3600 deg"),
+            &with("axis.toml", "nut, 0.1 m/s, -100 mm, -2 m"),
+            &with("endless.toml", "nut, 0.1 m/s, -2 mm, -1 mm"),
+            &[
+                "fastest",
+                "press.toml",
+                "--drive",
+                "sgm7a-25a+npt025mf-4",
+                "--reserve",
+                "RULES",
+                "--max-speed",
+                "400 rpm",
+            ],
+            &[
+                turning.as_slice(),
+                &["--from", "0 deg", "--to", "90 deg", "--max-rms", "S1"],
+            ]
+            .concat(),
         ]),
     );
 }

@@ -11,11 +11,12 @@ use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 use crate::number::figures::Figures;
-use crate::number::parabola;
 
+mod refined;
 mod smooth;
 mod stretches;
 
+use refined::{MOST_INSTANTS, MOST_PARTS, insert_extremes, refine_bends};
 pub use smooth::{MOST_RAISED, Smooth};
 pub(crate) use stretches::{passages, smooth_stretches};
 
@@ -104,92 +105,6 @@ impl From<usize> for Sampling {
 /// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction
 /// and cogging hold that.
 const UNHELD: f64 = 0.01;
-
-/// Most parts of a step where the torque bends sharply.
-const MOST_PARTS: f64 = 64.0;
-
-/// Most instants of a motion, unless it has more stretches and steps: those of two cycles fit into 500 MB.
-const MOST_INSTANTS: f64 = 1e6;
-
-/// Inserts instants of zero weight where the input torque bends sharply, starting at index `first`. Between instants at a
-/// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it. A step is
-/// cut into at most so many parts.
-fn refine_bends(
-    moving: &mut Moving,
-    first: usize,
-    (missed, most_parts): (f64, f64),
-    instants: &mut Vec<Instant>,
-) -> Result<(), Error> {
-    let stretch = instants.get(first..).unwrap_or_default();
-    let torques = stretch.iter().map(|i| i.input_torque.abs());
-    let most = missed * torques.fold(0.0, f64::max);
-    let mut fine = Vec::new();
-    for four in stretch.windows(4) {
-        let [a, b, c, d] = four else {
-            continue;
-        };
-        let bend = |x: &Instant, y: &Instant, z: &Instant| {
-            (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
-        };
-        let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
-        // A stretch without torque misses nothing.
-        let parts = if missed > most {
-            (missed / most).sqrt().ceil().min(most_parts) as u32
-        } else {
-            1
-        };
-        for k in 1..parts {
-            let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
-            fine.push(Instant::new(moving, t, 0.0)?);
-        }
-    }
-    instants.extend(fine);
-    if let Some(stretch) = instants.get_mut(first..) {
-        // Stable sorting takes half as much memory again.
-        stretch.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
-    }
-    Ok(())
-}
-
-/// Inserts instants of zero weight at the extremes of what no motor changes, each where it is between the instants.
-fn insert_extremes(
-    moving: &mut Moving,
-    instants: &mut Vec<Instant>,
-    smooth: &mut Smooth,
-) -> Result<(), Error> {
-    let quantities: [fn(&Instant) -> f64; 6] = [
-        |i| i.terms.total(),
-        |i| i.input_inertia,
-        |i| i.input_speed,
-        |i| i.input_alpha,
-        |i| i.input_torque,
-        |i| i.input_torque * i.input_speed,
-    ];
-    for quantity in quantities {
-        for sign in [-1.0, 1.0] {
-            let value = |instant: &Instant| sign * quantity(instant);
-            let by = |a: &usize, b: &usize| value(&instants[*a]).total_cmp(&value(&instants[*b]));
-            let Some(most) = (0..instants.len()).max_by(by) else {
-                continue;
-            };
-            let Some(around) = smooth.around(most, instants.len()) else {
-                continue;
-            };
-            let mut at = |t: f64| Instant::new(moving, t, 0.0);
-            let t = parabola::peak(
-                |t| Ok::<_, Error>(value(&at(t)?)),
-                around.map(|k| instants[k].t),
-            )?;
-            let peak = at(t)?;
-            if value(&peak) > value(&instants[most]) {
-                let place = instants.partition_point(|i| i.t < t);
-                smooth.insert(place);
-                instants.insert(place, peak);
-            }
-        }
-    }
-    Ok(())
-}
 
 /// The direction of the move that begins from rest with this stretch, if static friction has to be overcome there.
 fn starts(file: &MachineFile, motion: &Motion, [from, to]: [f64; 2]) -> Option<f64> {

@@ -133,6 +133,7 @@ impl Findings {
         let frames = mechanism.frames(start)?;
         let joints = mechanism.joints(start, &frames)?;
         let machine = file.with_drive_train()?;
+        let machines = Machines::of(file)?;
         Ok(Self {
             title: file.title.clone(),
             kind: mechanism.kind(),
@@ -143,8 +144,8 @@ impl Findings {
             closure: closure(mechanism)?,
             travels: centres::travels(mechanism)?,
             transmission: transmission(file)?,
-            inertia: agreement::inertia(&machine)?,
-            agreement: agreement::agreement(file, &Machines::of(file)?)?,
+            inertia: agreement::inertia(file, &machine, &machines)?,
+            agreement: agreement::agreement(file, &machines)?,
             motion: MotionFindings::of(file),
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
@@ -155,7 +156,7 @@ impl Findings {
                         .map(|words| format!("warning: {words}")),
                 )
                 .chain(change_points(mechanism))
-                .chain(file.scheduled())
+                .chain(file.scheduled().map(|item| item.what))
                 .collect(),
         })
     }

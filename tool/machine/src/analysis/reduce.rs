@@ -12,6 +12,7 @@ use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 use crate::number::columns::{Column, Columns, Quantity};
 
+mod carriages;
 mod curves;
 mod energy;
 mod largest;
@@ -121,7 +122,8 @@ fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R)
     let missing = file.scheduled_where(|when| {
         (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
     });
-    missing.chain(file.carriages().filter(|_| !timed)).collect()
+    let carriages = file.carriages().filter(|_| !timed);
+    missing.chain(carriages.map(|item| item.what)).collect()
 }
 
 /// Columns that belong together.
@@ -149,7 +151,14 @@ pub struct At {
 pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     let moves = file.motion.is_some() || request.state.is_some();
     let in_time = request.over == Over::Time || request.state.is_some();
-    columns(file, request, [moves, in_time], rows(file, request))
+    // Rows at states of the request have no time, at which a carriage could be somewhere.
+    let of_motion = request.state.is_none();
+    columns(
+        file,
+        request,
+        [moves, in_time, of_motion],
+        rows(file, request),
+    )
 }
 
 /// The columns asked for at these positions, in their order; where no state is given, that of the request, or of the motion where it passes
@@ -160,7 +169,12 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
 pub fn reduce_at(file: &MachineFile, request: &Request, at: &[At]) -> Result<Columns, Error> {
     let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
     let moves = file.motion.is_some() || given;
-    columns(file, request, [moves, given], rows_at(file, request, at))
+    columns(
+        file,
+        request,
+        [moves, given, !given],
+        rows_at(file, request, at),
+    )
 }
 
 fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<Item = Row> {
@@ -171,15 +185,20 @@ fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<It
     })
 }
 
-/// The columns of these rows: whether some have a motion, and velocities and accelerations in time.
+/// The columns of these rows: whether some have a motion, and velocities and accelerations in time, and whether that is the motion of the
+/// file.
 fn columns(
     file: &MachineFile,
     request: &Request,
-    [moves, in_time]: [bool; 2],
+    [moves, in_time, of_motion]: [bool; 3],
     rows: impl Iterator<Item = Row>,
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let sets = sets(&source, request.sets, [moves, in_time])?;
+    let mut sets = sets(&source, request.sets, [moves, in_time])?;
+    if of_motion && file.schedule.flows() {
+        let shares = request.sets.curves && request.sets.links;
+        sets.push(Box::new(carriages::Carriages { shares }));
+    }
     let mut heads = match request.over {
         Over::Angle => vec![],
         Over::Time => vec![time_column()],

@@ -20,6 +20,7 @@ pub use machine::beside_name;
 pub use observe::{Nobody, Observer, Working};
 pub use simulated::{Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit};
 
+use crate::model::by_motion::ByMotion;
 use crate::model::machine::MachineFile;
 use crate::model::motor::Motor;
 use crate::model::simulation::Simulation;
@@ -80,7 +81,7 @@ pub fn simulate_under(
 fn check(machines: &Together) -> Result<(), SimulationError> {
     let mut all = machines.all();
     match all.find_map(|machine| machine.file.scheduled().next()) {
-        Some(what) => Err(SimulationError::Scheduled { what }),
+        Some(ByMotion { what, cure }) => Err(SimulationError::Scheduled { what, cure }),
         None => Ok(()),
     }
 }

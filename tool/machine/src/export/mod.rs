@@ -32,6 +32,7 @@ use jred::image::identify;
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error, Machine, Phase};
 
+use crate::model::by_motion::ByMotion;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::mechanism::AnyMechanism;
@@ -128,6 +129,22 @@ impl<E: Into<Error>> From<E> for Failure {
     }
 }
 
+/// Refuses what goes by the motion.
+fn check_timeless(file: &MachineFile) -> Result<(), Failure> {
+    if let Some(ByMotion { what, cure }) = file.scheduled().next() {
+        return Err(Failure::Impossible {
+            message: format!(
+                "{what}: that goes by [motion], and a table is over the position of the drive link alone"
+            ),
+            help: format!(
+                "{cure}, for this command, and give the firmware what acts in one part of the motion as a torque of its own; a payload that \
+                 comes and goes is a table each"
+            ),
+        });
+    }
+    Ok(())
+}
+
 impl Export {
     /// Searches for the requested table and its alternatives.
     ///
@@ -139,16 +156,7 @@ impl Export {
 
     /// The same; `provable` leaves out what only `auto` would take and no proof is of.
     fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
-        if let Some(what) = file.scheduled().next() {
-            return Err(Failure::Impossible {
-                message: format!(
-                    "{what}: that goes by [motion], and a table is over the position of the drive link alone"
-                ),
-                help: "remove its segments, during, direction and at_rest, the payload or the carriage, for this command, and give the firmware \
-                       what acts in one part of the motion as a torque of its own; a payload that comes and goes is a table each"
-                    .to_owned(),
-            });
-        }
+        check_timeless(file)?;
         let machine = task.whole_machine(file)?;
         let coordinate = file.machine.mechanism().coordinate();
         let goal = Goal {

@@ -80,14 +80,21 @@ impl Carriage {
         self.mass.mass * speed * (carried[0] * along[0] + carried[1] * along[1] + 0.5 * speed)
     }
 
-    /// Power of the second axis (W), m·(r̈ − g)·e·ṡ, where the drive link moves with ω and α.
-    pub fn power(&self, frame: &Frame, t: f64, [omega, alpha]: [f64; 2], gravity: [f64; 2]) -> f64 {
+    /// Force of the second axis on it along its guide (N), m·(r̈ − g)·e, positive towards larger s, where the drive link moves with ω
+    /// and α. Friction of the guide is not in it.
+    pub fn effort(
+        &self,
+        frame: &Frame,
+        t: f64,
+        [omega, alpha]: [f64; 2],
+        gravity: [f64; 2],
+    ) -> f64 {
         let [along, _] = self.directions(frame);
         let carried = frame
             .point(self.placed(t).at)
             .map(|c| c.acceleration(omega, alpha));
         let own = self.force(frame, t, omega);
         let force = |k: usize| self.mass.mass * (carried[k] - gravity[k]) - own[k];
-        (force(0) * along[0] + force(1) * along[1]) * self.at(t).omega
+        force(0) * along[0] + force(1) * along[1]
     }
 }

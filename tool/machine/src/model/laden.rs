@@ -19,6 +19,18 @@ pub struct Attached {
 }
 
 impl Attached {
+    /// The mass without its link, in the link's frame.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    pub fn alone(&self) -> Result<Link, Error> {
+        Ok(Link::new(MassProperties {
+            mass: self.mass,
+            inertia: self.inertia,
+            com: self.at,
+        })?)
+    }
+
     /// The link with the mass on it: one rigid body.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
-use crate::model::schedule::{Now, Schedule, When};
+use crate::model::schedule::{Now, Schedule};
 use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
@@ -121,9 +121,14 @@ impl MachineFile {
     /// # Errors
     /// The mechanism cannot be placed at `phi`, where there are carriages.
     pub fn machine_at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
-        let number = self.schedule.number(now);
-        let machine = self.schedule.machine(number).unwrap_or(&self.machine);
+        let machine = self.machine_among(now);
         self.schedule.flowing(Cow::Borrowed(machine), now, phi)
+    }
+
+    /// The same without carriages.
+    pub fn machine_among(&self, now: &Now) -> &Machine<AnyMechanism> {
+        let number = self.schedule.number(now);
+        self.schedule.machine(number).unwrap_or(&self.machine)
     }
 
     /// Share of carriages in the process torque of a machine of [`machine_at`](Self::machine_at), at its position: of their motion along
@@ -190,60 +195,6 @@ impl MachineFile {
         reduction.potential_slope += weight;
         reduction.process += weight;
         Ok(reduction)
-    }
-
-    /// Refuses a machine whose loads or payloads go by the motion of the file, for a command that seeks another motion.
-    ///
-    /// # Errors
-    /// It has such a load or payload.
-    pub fn refuse_scheduled(&self, command: &str) -> miette::Result<()> {
-        match self.scheduled().next() {
-            None => Ok(()),
-            Some(what) => Err(miette::miette!(
-                help = "remove its segments, during, direction and at_rest, the payload or the carriage, for this command; `jred size` contains them",
-                "{what}: that goes by [motion], but `jred {command}` seeks another motion"
-            )),
-        }
-    }
-
-    /// The same for a command that seeks another motion one way at a time: what goes by the direction alone stays.
-    ///
-    /// # Errors
-    /// A load or payload goes by the time of the motion, or has a value of its own at rest.
-    pub fn refuse_timed(&self, command: &str) -> miette::Result<()> {
-        let loads = self.schedule.loads().iter();
-        let at_rest = loads.filter(|load| load.at_rest.is_some());
-        let mut at_rest = at_rest.map(|load| format!("load \"{}\" {}", load.name, load.words));
-        let timed = self.scheduled_where(|when| when.spans.is_some());
-        let timed = timed.chain(self.carriages()).next();
-        match timed.or_else(|| at_rest.next()) {
-            None => Ok(()),
-            Some(what) => Err(miette::miette!(
-                help = "remove its segments, during and at_rest, the payload or the carriage, for this command; `jred size` contains them",
-                "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
-            )),
-        }
-    }
-
-    /// What the schedule says, item by item, such as `load "punch" acts in segment 2`.
-    pub fn scheduled(&self) -> impl Iterator<Item = String> {
-        self.scheduled_where(|_| true).chain(self.carriages())
-    }
-
-    /// The carriages, such as `carriage "trolley" is moved along beam by its own motion`.
-    pub fn carriages(&self) -> impl Iterator<Item = String> {
-        let carriages = self.schedule.carriages().iter();
-        carriages.map(|c| format!("carriage \"{}\" {}", c.name, c.words))
-    }
-
-    /// The same of what acts, or is carried, at such times.
-    pub fn scheduled_where(&self, such: impl Fn(&When) -> bool) -> impl Iterator<Item = String> {
-        let loads = self.schedule.loads().iter();
-        let loads = loads.map(|load| ("load", &load.name, &load.words, &load.when));
-        let payloads = self.schedule.payloads().iter();
-        let payloads = payloads.map(|p| ("payload", &p.name, &p.words, &p.when));
-        let all = loads.chain(payloads).filter(move |(.., when)| such(when));
-        all.map(|(what, name, words, _)| format!("{what} \"{name}\" {words}"))
     }
 
     /// Torque (N·m) of the drive link against the weight of payloads from tables, −m·g·r′; zero without such.

@@ -1,6 +1,7 @@
 //! A machine as a machine file describes it, in SI units, with what the file asks of its drive.
 
 pub mod axis;
+pub mod by_motion;
 pub mod carriage;
 pub mod characteristic;
 pub mod coordinate;

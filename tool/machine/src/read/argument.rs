@@ -252,11 +252,7 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
                 part.trim()
             ));
         } else {
-            let phi = match read(part, position_kind) {
-                Some((axis, _)) if Some(axis) == other => axis_position(part, domain, axis)
-                    .map_err(|why| format!("{:?}: {why}", part.trim()))?,
-                _ => drive_position(part, domain, drive.coordinate)?,
-            };
+            let phi = position_of(part, domain, axis)?;
             rows.push(At { phi, state: None });
             known = 1;
         }
@@ -264,16 +260,24 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
     Ok(rows)
 }
 
-/// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides.
+/// A position of the drive link, or of an axis of another kind.
+fn position_of(part: &str, domain: Domain, [drive, spoken]: [&Axis; 2]) -> Result<f64, String> {
+    let is_spoken = spoken.coordinate != drive.coordinate
+        && quantity::read(part.trim(), position_kind(spoken.coordinate)).is_ok();
+    if is_spoken {
+        let read = axis_position(part, domain, spoken);
+        return read.map_err(|why| format!("{:?}: {why}", part.trim()));
+    }
+    drive_position(part, domain, drive.coordinate)
+}
+
+/// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides; those of an axis of another
+/// kind are read as well.
 ///
 /// # Errors
 /// A message for the command line: no position, one outside the stroke, or one that is named twice, as 60 deg and 420 deg are.
-pub fn drive_positions(
-    text: &str,
-    domain: Domain,
-    coordinate: Coordinate,
-) -> Result<Vec<f64>, String> {
-    let position = |part: &str| drive_position(part, domain, coordinate);
+pub fn drive_positions(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<f64>, String> {
+    let position = |part: &str| position_of(part, domain, axis);
     let parts: Vec<&str> = text.split(',').collect();
     let positions: Vec<f64> = parts
         .iter()

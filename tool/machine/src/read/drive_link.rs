@@ -18,6 +18,9 @@ use crate::units::kind::{
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Speed (rad/s or m/s) below which nothing moves: a turn in twenty years.
+const STANDS: f64 = 1e-8;
+
 /// Type and range of the drive link's motion, or of another coordinate that is prescribed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DriveLink {
@@ -79,8 +82,9 @@ impl DriveLink {
         )
     }
 
-    /// A speed (rad/s or m/s) with its unit.
+    /// A speed (rad/s or m/s) with its unit; a rounding error is zero.
     pub(super) fn pace(self, speed: f64) -> String {
+        let speed = if speed.abs() < STANDS { 0.0 } else { speed };
         match self.coordinate {
             Coordinate::Angle => format!("{} rpm", figure(speed / RPM)),
             Coordinate::Length => format!("{} m/s", figure(speed)),
@@ -105,12 +109,14 @@ impl DriveLink {
 
     /// Whether `position` lies on the stroke; on a turn, every position does.
     pub(super) fn reaches(self, position: f64) -> bool {
+        self.beyond(position) <= ROUNDING * self.domain.span()
+    }
+
+    /// How far `position` lies beyond the stroke.
+    pub(super) fn beyond(self, position: f64) -> f64 {
         match self.domain {
-            Domain::Turn => true,
-            Domain::Stroke { from, to } => {
-                let slack = ROUNDING * (to - from);
-                (from - slack..=to + slack).contains(&position)
-            }
+            Domain::Turn => 0.0,
+            Domain::Stroke { from, to } => (from - position).max(position - to).max(0.0),
         }
     }
 

@@ -22,14 +22,10 @@ use crate::units::kind::{
     LENGTH, TIME, VELOCITY,
 };
 
+mod closing;
 mod states;
 
-/// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
-/// or of the stroke, unless the file says how much it may miss.
-const CLOSED: f64 = 1e-5;
-
-/// Share of the largest speed by which the first and the last speed of a cycle may differ.
-const SPEED_CLOSED: f64 = 0.01;
+use closing::{CLOSED, check_speed_closes, closed};
 
 /// A time step this many times the usual one is a gap in the recording.
 const GAP: f64 = 20.0;
@@ -301,7 +297,7 @@ fn check_stroke(motion: &Motion, times: &[f64], columns: &Columns, drive: DriveL
         drive.range()
     ))
     .at(columns.place(row), "leaves the stroke")
-    .help("give a motion that stays within the stroke of the mechanism"))
+    .help("give a motion that stays within the stroke, or lengthen it"))
 }
 
 /// The times from the first row on (s).
@@ -367,87 +363,5 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
     Ok(Some(smoothing.si * TAU))
 }
 
-/// The first and the last speed of a cycle are one.
-fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
-    let [first, .., last] = speeds else {
-        return Ok(());
-    };
-    let most = speeds.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    if (last - first).abs() <= SPEED_CLOSED * most {
-        return Ok(());
-    }
-    let [first, last] = [*first, *last].map(|v| columns.shown(SPEED, v));
-    Err(
-        Problem::new(format!("the cycle starts with {first} and ends with {last}"))
-            .at(columns.place(0), "first speed")
-            .at(columns.place(columns.rows() - 1), "last speed")
-            .help(
-                "a cyclic motion ends with the speed it starts with, and its last row is at the end of the cycle: cut \
-                 the recording where the speeds match; for a motion that does not repeat write cyclic = false in \
-                 [motion]",
-            ),
-    )
-}
-
 /// How the machine differs after the motion has gone on from a start by a way.
 type Repeats<'a> = dyn Fn(f64, f64) -> Result<Option<Difference>> + 'a;
-
-/// What a cycle goes on by (rad or m): whole turns, or nothing on a stroke, if its way from the start misses them by no more than `most`;
-/// else any way after which the machine is the same.
-fn closed(
-    [start, way]: [f64; 2],
-    most: f64,
-    columns: &Columns,
-    prescribed: &Prescribed,
-    repeats: &Repeats,
-) -> std::result::Result<f64, Place> {
-    let drive = prescribed.axis;
-    let turn = prescribed.per_turn();
-    let whole = turn.map_or(0.0, |turn| (way / turn).round() * turn);
-    let gap = way - whole;
-    if gap.abs() <= most {
-        return Ok(whole);
-    }
-    let mut differs = String::new();
-    if turn.is_some() {
-        let Some(difference) = repeats(start, way).map_err(Place::Machine)? else {
-            return Ok(way);
-        };
-        differs = format!(
-            "{}, and the machine is not the same there: {}",
-            motion::closed::of_the_drive(prescribed),
-            motion::closed::in_words(&difference)
-        );
-    }
-    let shown = |gap: f64| {
-        let unit = drive.coordinate.unit();
-        format!("{} {unit}", figure(drive.coordinate.shown(gap)))
-    };
-    let message = match turn {
-        None => format!(
-            "the last position is {} away from the first one",
-            shown(gap)
-        ),
-        Some(_) => format!(
-            "the last position is {} {} a whole number of turns from the first one{differs}",
-            shown(gap.abs()),
-            if gap > 0.0 { "beyond" } else { "short of" }
-        ),
-    };
-    Err(Problem::new(message)
-        .at(columns.place(0), "first position")
-        .at(columns.place(columns.rows() - 1), "last position")
-        .help(format!(
-            "a cyclic motion ends where it started or whole turns further, and its last row is at the end of the \
-             cycle; for a motion that does not repeat write cyclic = false in [motion]; if the difference is \
-             measurement error, write close_within = \"{}\": it is then spread over the cycle as a constant speed",
-            format_args!("{} {}", figure(rounded_up(drive.coordinate.shown(gap.abs()))), drive.coordinate.unit())
-        ))
-        .into())
-}
-
-/// A little more, with two digits.
-fn rounded_up(gap: f64) -> f64 {
-    let unit = 10f64.powf(gap.log10().floor() - 1.0);
-    (gap / unit * 1.05).ceil() * unit
-}

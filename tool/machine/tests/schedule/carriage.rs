@@ -5,8 +5,10 @@ use std::path::Path;
 
 use jred::machine::Mechanism as _;
 use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::schedule::Now;
+use jred_machine::number::columns::Columns;
 use jred_machine::read;
 
 use super::duty;
@@ -156,11 +158,8 @@ fn its_torque_is_lagranges() {
     assert!(largest > 1.0 && relative > 0.2, "{largest} {relative}");
 }
 
-/// Along a turning arm at constant speed: d(J·ω)/dt = T, so T = 2·m·r·ṙ·ω.
-#[test]
-fn on_a_turning_arm_the_momentum_changes() {
-    let text = format!(
-        r#"{ARM}
+/// A carriage that goes out along the arm and comes back while it makes one turn.
+const OUT_AND_BACK: &str = r#"
 [motion]
 type = "constant-speed"
 speed = "60 rpm"
@@ -179,8 +178,124 @@ duration = "0.4 s"
 law = "polynomial-345"
 move = "-800 mm"
 duration = "0.6 s"
-"#
-    );
+"#;
+
+/// Rows over the time of the motion, and the numbers of a column.
+fn over_time(file: &MachineFile) -> (Columns, impl Fn(&Columns, &str) -> Vec<f64>) {
+    let request = Request {
+        over: Over::Time,
+        positions: 97,
+        sets: Sets {
+            curves: true,
+            links: true,
+            ..Sets::default()
+        },
+        state: None,
+    };
+    let columns = reduce(file, &request).unwrap();
+    let pick = |columns: &Columns, name: &str| {
+        let k = columns.names().iter().position(|known| known == name);
+        let k = k.unwrap_or_else(|| panic!("{name}: {:?}", columns.names()));
+        columns.rows().iter().map(|row| row[k].unwrap()).collect()
+    };
+    (columns, pick)
+}
+
+/// What the carriage's own axis must do, on an arm that turns evenly under gravity: s̈ − r·ω² along the guide and its weight; what the arm's
+/// drive must do: 2·m·r·ṙ·ω and the weight's lever. J is 2 kg·m² and m·r².
+#[test]
+fn columns_size_the_second_axis() {
+    let arm = ARM.replace("\"0 m/s^2\"]", "\"-9 m/s^2\"]");
+    let file = parse(&format!("{arm}{OUT_AND_BACK}"));
+    let (columns, pick) = over_time(&file);
+    let part = |symbol: &str| pick(&columns, &format!("carriage on table {symbol}"));
+    let (places, speeds) = (part("s [m]"), part("v [m/s]"));
+    let (accelerations, forces) = (part("a [m/s^2]"), part("F [N]"));
+    let [times, torques, whole] =
+        ["t [s]", "T_drive [N m]", "J_red [kg m^2]"].map(|name| pick(&columns, name));
+    let [table, own] = ["table", "carriage on table"]
+        .map(|part| pick(&columns, &format!("J_red {part} [kg m^2]")));
+    let (mut farthest, mut fastest) = (0.0f64, 0.0f64);
+    for (k, t) in times.iter().enumerate() {
+        // The law 3-4-5 of the move out, h·(10·z³ − 15·z⁴ + 6·z⁵), and back.
+        let (z, h, from, lasts) = if *t < 0.4 {
+            (t / 0.4, 0.8, 0.0, 0.4)
+        } else {
+            ((t - 0.4) / 0.6, -0.8, 0.8, 0.6)
+        };
+        let s = from + h * z.powi(3) * (10.0 - 15.0 * z + 6.0 * z * z);
+        let v = h / lasts * 30.0 * z * z * (1.0 - z).powi(2);
+        let a = h / (lasts * lasts) * 60.0 * z * (1.0 - z) * (1.0 - 2.0 * z);
+        within("s", places[k], s, 1e-12);
+        within("v", speeds[k], v, 1e-11);
+        within("a", accelerations[k], a, 1e-9);
+        let r = 0.2 + s;
+        let (sin, cos) = (TAU * t).sin_cos();
+        within("F", forces[k], MASS * (a - r * TAU * TAU + 9.0 * sin), 1e-8);
+        let torque = 2.0 * MASS * r * v * TAU + MASS * 9.0 * r * cos;
+        within("T", torques[k], torque, 1e-8);
+        within("J table", table[k], 2.0, 1e-12);
+        within("J own", own[k], MASS * r * r, 1e-11);
+        within("J", whole[k], table[k] + own[k], 1e-12);
+        (farthest, fastest) = (farthest.max(s), fastest.max(v.abs()));
+    }
+    assert!(farthest > 0.79 && fastest > 3.0, "{farthest} {fastest}");
+}
+
+/// Its force does the work that its own energy and the arm's drive do not: both powers are the rate of the whole energy.
+#[test]
+fn both_drives_give_the_energy() {
+    let file = parse(&rod(LEANING));
+    let (columns, pick) = over_time(&file);
+    let part = |symbol: &str| pick(&columns, &format!("tool slide {symbol}"));
+    let [force, speed] = ["F [N]", "v [m/s]"].map(part);
+    let motion = file.motion.as_ref().unwrap();
+    let energy = |t: f64| {
+        let [kinetic, potential] = energy(&file, motion.at(t).phi, motion.at(t).omega, t);
+        let bare = parse(&rod("")).bare_reduction(motion.at(t).phi).unwrap();
+        let own = 0.5 * bare.inertia * motion.at(t).omega.powi(2) + bare.potential_energy;
+        kinetic + potential + own
+    };
+    let [torque, omega] = ["T_drive [N m]", "omega [rad/s]"].map(|name| pick(&columns, name));
+    let mut most = 0.0f64;
+    for (k, t) in pick(&columns, "t [s]").into_iter().enumerate() {
+        // Away from the corners of both motions.
+        let corners = [0.0, 0.45, 0.55, 0.8, 0.9, 1.0];
+        if corners.iter().any(|corner| (t - corner).abs() < 4e-3) {
+            continue;
+        }
+        let e = 1e-3;
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| energy(t + k * e));
+        let rate = (8.0 * (c - b) - (d - a)) / (12.0 * e);
+        let power = torque[k] * omega[k] + force[k] * speed[k];
+        assert!((power - rate).abs() < 2e-5, "t = {t}: {power} {rate}");
+        most = most.max((force[k] * speed[k]).abs());
+    }
+    assert!(most > 5.0, "{most}");
+}
+
+/// `jred check` counts it: over the time of the motion, J is that of the arm and m·r².
+#[test]
+fn the_check_counts_it() {
+    let file = parse(&format!("{ARM}{OUT_AND_BACK}"));
+    let inertia = Findings::of(&file).unwrap().inertia;
+    let [least, mean, largest] = inertia.laden.unwrap();
+    within("least", least, 2.0 + MASS * 0.04, 1e-12);
+    within("largest", largest, 2.0 + MASS, 1e-12);
+    // ∫(0.2 + 0.8·p(z))²dz of p = 10·z³ − 15·z⁴ + 6·z⁵: ∫p = ½, ∫p² = 181/462.
+    let square = 0.04 + 0.16 + 0.64 * 181.0 / 462.0;
+    within("mean", mean, 2.0 + MASS * square, 1e-4);
+    for own in inertia.reduced {
+        within("of the arm alone", own, 2.0, 1e-12);
+    }
+    let bare = parse(&rod(""));
+    assert!(Findings::of(&bare).unwrap().inertia.laden.is_none());
+}
+
+/// Along a turning arm at constant speed: d(J·ω)/dt = T, so T = 2·m·r·ṙ·ω.
+#[test]
+fn on_a_turning_arm_the_momentum_changes() {
+    let text = format!("{ARM}{OUT_AND_BACK}");
     let file = parse(&text);
     let found = duty(&file);
     let carriage = &file.schedule.carriages()[0];
@@ -271,7 +386,7 @@ fn contradictions_are_refused() {
         (
             "move = \"130 mm\"",
             "move = \"145 mm\"",
-            "leaves the stroke",
+            "ends at s = 155 mm",
         ),
         ("on = \"rod\"", "on = \"rot\"", "rod"),
         ("type = \"cycle\"", "type = \"constant-speed\"", "cycle"),
@@ -281,6 +396,16 @@ fn contradictions_are_refused() {
         let found = refused(from, to);
         assert!(found.contains(words), "{from}: {found}");
     }
+    // What is said of it names none of the keys of loads.
+    let why = parse(&rod(LEANING))
+        .refuse_scheduled("fastest")
+        .unwrap_err();
+    let cure = why.help().unwrap().to_string();
+    assert!(
+        cure.starts_with("remove the carriage, or fix it to the link with a [[mass]]")
+            && !cure.contains("segments"),
+        "{cure}"
+    );
     let (_, without) = LEANING.split_once("[[carriage]]").unwrap();
     let text = format!("gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n{}", {
         let machine = rod("");

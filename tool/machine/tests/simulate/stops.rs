@@ -161,5 +161,23 @@ driven = { radius = "60 mm", inertia = "0 kg m^2" }
         near("time", rest.time, coasting + braking, budget::CLOSED_MOTION);
         near("way", rest.way, way, budget::CLOSED_MOTION);
         assert!(found.ended.is_none());
+        // What the motor gives until then, and what the brake takes away: neither is in the other.
+        let last = found.columns.rows().last().unwrap();
+        let names = found.columns.names();
+        let work = |name: &str| Some(last[names.iter().position(|own| own == name)?].unwrap());
+        let given = friction * omega * 0.35;
+        near(
+            "motor",
+            work("motor work [J]").unwrap(),
+            given,
+            budget::CLOSED_MOTION,
+        );
+        let taken = (torque > 0.0).then(|| -3.0 * torque * 0.5 * slower * braking);
+        assert_eq!(work("brake work [J]").is_some(), taken.is_some());
+        if let (Some(found), Some(taken)) = (work("brake work [J]"), taken) {
+            near("brake", found, taken, budget::CLOSED_MOTION);
+        }
+        let rest = work("energy balance [J]").unwrap();
+        within("balance", rest, 0.0, budget::BALANCE * given);
     }
 }

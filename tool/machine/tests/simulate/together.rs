@@ -50,6 +50,21 @@ fn run(first: &MachineFile, others: &[(&MachineFile, f64)]) -> (Simulated, Colum
     (found, columns)
 }
 
+/// A machine beside another is spoken of in its own words: the carriage of a belt axis in mm, 192 mm a turn of its pulley.
+#[test]
+fn each_machine_has_its_own_words() {
+    let first = table(0.8, 40, 1.0);
+    let axis = parse(include_str!("../../../../machines/belt-axis.toml")).unwrap();
+    let (_, rows) = run(&first, &[(&axis, 0.0)]);
+    let (table, carriage) = (rows.get("phi [deg]"), rows.get("machine 2 x [mm]"));
+    for (phi, x) in table.iter().zip(&carriage) {
+        // Gears of 2 and 3: the pulley makes two turns where the table makes three.
+        let turns = (phi - 10.0) / 360.0 * 2.0 / 3.0;
+        within("x", *x - carriage[0], 192.0 * turns, 1e-9 * 192.0);
+    }
+    assert!((carriage[carriage.len() - 1] - carriage[0]).abs() > 10.0);
+}
+
 /// T = J_M·α_s + Σ (J_k·α_s/i_k² + τ_k/|i_k|)/η, gears turning the tables against the shaft: −2 and −3.
 #[test]
 fn two_tables_accelerate_as_by_hand() {

@@ -2,10 +2,10 @@
 
 use jred::machine::motion::State;
 
+use super::NoMotion;
 use super::field::{Field, speed};
 use super::sweep::Piece;
 use super::track::{Ends, Track};
-use super::NoMotion;
 use crate::trace::{Node, Trace};
 
 /// Most parts of a cell in the next round.

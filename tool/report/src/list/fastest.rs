@@ -23,6 +23,15 @@ use jred_sizing::study::cell::Cell;
 /// Name and version of the form in JSON.
 const SCHEMA: &str = "jred-fastest/1";
 
+/// Durations that differ by a smaller share are shown as the same.
+const SAME: f64 = 5e-4;
+
+/// Share of the largest speed that is a rounding error: speeds are roots of energies.
+const STANDS: f64 = 1e-8;
+
+/// Share of a move's time below which a phase is none.
+const LEAST_PHASE: f64 = 1e-9;
+
 /// What a motion is refined to: less is chance.
 const LEAST_EXCESS: f64 = 1e-9;
 
@@ -36,6 +45,8 @@ pub struct Answer<'a> {
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
+    /// What was asked for, option by option.
+    pub asked: Vec<String>,
     /// What it leaves unused of motor and gearbox.
     pub reserve: Reserve,
     /// Whether the drive is one of the catalogue, which `jred size` can judge.
@@ -116,15 +127,19 @@ impl Answer<'_> {
             let _ = write!(says, ", {} s at rest", short(cycle.dwells));
         }
         if let Some(before) = cycle.before {
-            let _ = write!(
-                says,
-                "; {} s in the file, {} {}",
-                short(before),
-                percent((1.0 - whole / before).abs()),
-                if whole <= before { "less" } else { "more" }
-            );
+            let _ = write!(says, "; {} s in the file, ", short(before));
+            let share = whole / before - 1.0;
+            if share.abs() < SAME {
+                says += "the same";
+            } else {
+                let side = if share < 0.0 { "less" } else { "more" };
+                let _ = write!(says, "{} {side}", percent(share.abs()));
+            }
         }
         line(&mut text, "duration", &says);
+        if !self.asked.is_empty() {
+            line(&mut text, "asked for", &self.asked.join("; "));
+        }
         self.motor(&mut text);
         line(&mut text, "reserve", &self.reserve());
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
@@ -177,14 +192,19 @@ impl Answer<'_> {
         } else {
             String::new()
         };
+        let holding = if self.is_endless() {
+            String::new()
+        } else {
+            let holding = shown(load.holding, load.peaks[0]);
+            format!("; {holding} {effort} to hold the end")
+        };
         line(
             text,
             "motor torque",
             &format!(
-                "RMS {} {effort}{continuous}; peak {} {effort}; {} {effort} to hold the end",
+                "RMS {} {effort}{continuous}; peak {} {effort}{holding}",
                 short(load.rms),
-                short(load.peaks[0]),
-                shown(load.holding, load.peaks[0])
+                short(load.peaks[0])
             ),
         );
         line(
@@ -206,6 +226,13 @@ impl Answer<'_> {
         };
         match load.pause {
             Some(0.0) => {}
+            _ if self.is_endless() => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS torque exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
+                ),
+            ),
             Some(pause) => line(
                 text,
                 "warning",
@@ -222,6 +249,11 @@ impl Answer<'_> {
                 ),
             ),
         }
+    }
+
+    /// Whether the motion turns for ever.
+    fn is_endless(&self) -> bool {
+        self.cycle.moves.iter().any(|made| made.task.endless)
     }
 
     fn reserve(&self) -> String {
@@ -255,7 +287,9 @@ impl Answer<'_> {
     fn one_move(&self, number: usize, made: &Made) -> String {
         let axis = self.file.axis();
         let unit = axis.coordinate.unit();
-        let position = |phi: f64| short(axis.shown(phi));
+        let ends = [made.task.from, made.task.to].map(|phi| axis.shown(phi).abs());
+        let farthest = ends[0].max(ends[1]);
+        let position = |phi: f64| shown(axis.shown(phi), farthest);
         let mut text = format!(
             "move {number}: {} {unit} to {} {unit} in {} s",
             position(made.task.from),
@@ -282,12 +316,23 @@ impl Answer<'_> {
             let mut cells = vec![Cell::from(&*phase.limit.name_in(mechanism))];
             let positions = phase.phi.map(&position);
             let times = phase.t.map(|t| shown(t, made.fastest.time));
-            let speeds = phase.speed.map(|v| shown(axis.rate(v), fastest));
+            let speeds = phase.speed.map(|v| {
+                let speed = axis.rate(v);
+                short(if speed <= STANDS * fastest {
+                    0.0
+                } else {
+                    speed
+                })
+            });
             let texts = positions.into_iter().chain(times).chain(speeds);
             cells.extend(texts.map(|text| Cell::from(text.as_str())));
             cells
         };
-        let rows: Vec<Vec<Cell>> = made.fastest.phases.iter().map(row).collect();
+        // Where a turn closes a phase may have no length.
+        let least = LEAST_PHASE * made.fastest.time;
+        let phases = made.fastest.phases.iter();
+        let phases = phases.filter(|phase| phase.t[1] - phase.t[0] > least);
+        let rows: Vec<Vec<Cell>> = phases.map(row).collect();
         text += &Reading::table(&columns, &rows, 7);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;
@@ -309,6 +354,7 @@ impl Answer<'_> {
         map.insert("schema".into(), SCHEMA.into());
         map.insert("title".into(), self.file.title.clone().into());
         map.insert("drive".into(), self.drive.into());
+        map.insert("asked".into(), json!(self.asked));
         map.insert("duration".into(), cycle.trace.duration().into());
         map.insert("duration_before".into(), json!(cycle.before));
         map.insert("at_rest".into(), cycle.dwells.into());

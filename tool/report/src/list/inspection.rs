@@ -80,22 +80,7 @@ pub(crate) fn untitled(findings: &Findings) -> String {
         );
     }
     write_motion(findings, &mut text);
-    let [min, mean, max] = findings.inertia.reduced;
-    let _ = writeln!(
-        text,
-        "{}: {} to {} {}, mean {}, of which flywheel and drive train {}",
-        c.inertia(),
-        short(min),
-        short(max),
-        c.inertia_unit(),
-        short(mean),
-        short(findings.inertia.flywheel)
-    );
-    let _ = writeln!(
-        text,
-        "mass of the links: {} kg",
-        short(findings.inertia.mass)
-    );
+    write_inertia(findings, &mut text);
     let _ = writeln!(
         text,
         "drive {} by d'Alembert's principle and by the reduced equation differ by {} of the largest term{}",
@@ -126,6 +111,38 @@ pub(crate) fn untitled(findings: &Findings) -> String {
     }
     text += &verdict(findings);
     text
+}
+
+/// The reduced inertia, over the range and over the time of the motion, and the mass.
+fn write_inertia(findings: &Findings, text: &mut String) {
+    let c = findings.coordinate;
+    let [min, mean, max] = findings.inertia.reduced;
+    let _ = writeln!(
+        text,
+        "{}: {} to {} {}, mean {}, of which flywheel and drive train {}",
+        c.inertia(),
+        short(min),
+        short(max),
+        c.inertia_unit(),
+        short(mean),
+        short(findings.inertia.flywheel)
+    );
+    if let Some([min, mean, max]) = findings.inertia.laden {
+        let _ = writeln!(
+            text,
+            "{} over the time of the motion, with payloads and carriages: {} to {} {}, mean {}",
+            c.inertia(),
+            short(min),
+            short(max),
+            c.inertia_unit(),
+            short(mean)
+        );
+    }
+    let _ = writeln!(
+        text,
+        "mass of the links: {} kg",
+        short(findings.inertia.mass)
+    );
 }
 
 /// What is violated, or else what was checked.

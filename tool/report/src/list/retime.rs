@@ -77,21 +77,31 @@ fn columns(shown: &Shown) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
+/// What the motion is, with which drive, and how its moves begin and end.
+pub(crate) fn subject(shown: &Shown) -> String {
+    let words = words(shown);
+    let drive = shown.drive.as_ref().map_or_else(
+        || "at the input of the drive train".to_owned(),
+        |drive| format!("with {drive}"),
+    );
+    let ramp = shown.request.ramp;
+    let ends = if ramp > 0.0 {
+        let share = percent(ramp);
+        format!(", its acceleration zero at the ends of moves, with ramps of {share} of their time")
+    } else {
+        String::new()
+    };
+    format!(
+        "the motion with the least {}, {drive}{ends}",
+        goal(shown.request.goal, words)
+    )
+}
+
 /// As the terminal shows it.
 pub(crate) fn text(shown: &Shown) -> String {
     let words = words(shown);
-    let Shown {
-        request, retimed, ..
-    } = shown;
-    let mut text = format!(
-        "{}: the motion with the least {}, {}\n\n",
-        shown.file.title,
-        goal(request.goal, words),
-        shown.drive.as_ref().map_or_else(
-            || "at the input of the drive train".to_owned(),
-            |drive| format!("with {drive}")
-        )
-    );
+    let Shown { retimed, .. } = shown;
+    let mut text = format!("{}: {}\n\n", shown.file.title, subject(shown));
     let [copper, limits] = columns(shown);
     let mut heads = vec![
         "motion".to_owned(),

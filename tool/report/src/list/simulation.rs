@@ -7,7 +7,7 @@ use jred_machine::analysis::simulate::{Simulated, Together};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{short, shown};
 use jred_machine::units::RPM;
 use jred_motion::driven::{Loads, Peak};
 
@@ -42,20 +42,33 @@ impl<'s> Shown<'s> {
         }
     }
 
-    fn title(&self) -> String {
-        let simulation = self.simulation;
-        let kind = if simulation.control.is_some() {
+    fn kind(&self) -> &'static str {
+        if self.simulation.control.is_some() {
             "motion under its controller"
         } else {
             "free motion"
-        };
+        }
+    }
+
+    /// What a page is about, below the title of the first machine.
+    pub(crate) fn about(&self) -> String {
+        let motor = self.drive.map_or_else(
+            || "the motor of the machine file".to_owned(),
+            |(name, _)| format!("the drive {name}"),
+        );
+        let beside = self.machines.beside_in_words();
+        format!("{} with {motor}{beside}", self.kind())
+    }
+
+    fn title(&self) -> String {
+        let simulation = self.simulation;
+        let kind = self.kind();
         let drive = self
             .drive
             .map_or_else(String::new, |(name, _)| format!(" with the drive {name}"));
-        let titles: Vec<&str> = self.machines.all().map(|m| m.file.title.as_str()).collect();
         format!(
             "{}: {kind}{drive}, Dormand-Prince 8(5,3), tolerance {:e}",
-            titles.join(" + "),
+            self.machines.title(),
             simulation.tolerance
         )
     }
@@ -80,7 +93,7 @@ impl<'s> Shown<'s> {
         if let Some(following) = self.found.following {
             lines.push(format!(
                 "largest following error: {} {} at {} s, {}",
-                short(axis.shown_way(following.error).abs()),
+                self.way(&axis, following.error),
                 axis.coordinate.unit(),
                 short(following.time),
                 axis.place(following.position)
@@ -92,6 +105,14 @@ impl<'s> Shown<'s> {
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
         lines
+    }
+
+    /// The size of a way; zero if it is only a rounding error compared with the way of the whole motion.
+    fn way(&self, axis: &Axis, way: f64) -> String {
+        let positions = self.found.states.iter().map(|[phi, ..]| *phi);
+        let first = positions.clone().next().unwrap_or(0.0);
+        let most = positions.fold(0.0f64, |most, phi| most.max((phi - first).abs()));
+        shown(axis.shown_way(way).abs(), axis.shown_way(most))
     }
 
     fn effort_unit(&self) -> &'static str {

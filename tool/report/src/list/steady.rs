@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
+use jred_machine::analysis::simulate::Together;
 use jred_machine::analysis::steady::{Cycle, Flywheel, Start, Steady};
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::RPM;
 
@@ -16,7 +16,7 @@ const SCHEMA: &str = "jred-steady/1";
 
 /// The result in one of the formats, part by part; CSV is the course alone.
 pub fn write<'s>(
-    file: &MachineFile,
+    machines: &Together,
     steady: &'s Steady,
     format: Format,
 ) -> Box<dyn Iterator<Item = String> + 's> {
@@ -26,11 +26,11 @@ pub fn write<'s>(
     let course = &last.figures.course;
     match format {
         Format::Csv => parts(course, Format::Csv, ""),
-        Format::Table => parts(course, Format::Table, &text(file, steady)),
+        Format::Table => parts(course, Format::Table, &text(machines, steady)),
         Format::Json => {
             let mut before = Map::new();
             before.insert("schema".into(), SCHEMA.into());
-            before.insert("title".into(), file.title.clone().into());
+            before.insert("title".into(), machines.title().into());
             let own = steady.cycle.as_ref();
             before.insert("cycle".into(), own.map_or(Value::Null, cycle_json));
             let why = own.err().map(ToString::to_string);
@@ -43,8 +43,8 @@ pub fn write<'s>(
 }
 
 /// As the terminal shows it, without the course.
-pub(crate) fn text(file: &MachineFile, steady: &Steady) -> String {
-    let mut text = format!("{}: steady cycle\n\n", file.title);
+pub(crate) fn text(machines: &Together, steady: &Steady) -> String {
+    let mut text = format!("{}: steady cycle\n\n", machines.title());
     match &steady.cycle {
         Ok(cycle) => {
             if steady.flywheel.is_some() {

@@ -31,7 +31,7 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
 
 /// What the curves over the position do not contain, as a sentence after a caption; empty if that is nothing.
 pub(super) fn not_contained(file: &MachineFile) -> String {
-    let missing: Vec<String> = file.scheduled().collect();
+    let missing: Vec<String> = file.scheduled().map(|item| item.what).collect();
     if missing.is_empty() {
         return String::new();
     }

@@ -2,6 +2,7 @@
 
 use jred::Error;
 use jred::machine::motion::State;
+use jred_machine::analysis::simulate::Together;
 use jred_machine::analysis::steady::Steady;
 use jred_machine::model::axis::Axis as Place;
 use jred_machine::model::coordinate::Coordinate;
@@ -266,7 +267,10 @@ pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
     Ok(MotionPage::page(
         file,
         "fastest motion",
-        "The motion in minimum time within the limits of the drive",
+        format!(
+            "The motion in minimum time within the limits of the drive, {}",
+            answer.drive
+        ),
         &answer.text(),
         sections,
     ))
@@ -297,14 +301,18 @@ pub fn retime_page(shown: &list::retime::Shown, own: &Motion) -> Result<String, 
     Ok(MotionPage::page(
         file,
         "gentlest motion",
-        "The motion that takes the least of the drive, beside that of the file and the best laws",
+        format!(
+            "{}, beside the motion of the file and the best laws",
+            list::retime::subject(shown)
+        ),
         &list::retime::text(shown),
         vec![over_time(file, &courses, &[])],
     ))
 }
 
 /// The page about the steady cycle; `steady` has the positions that are drawn.
-pub fn steady_page(file: &MachineFile, steady: &Steady) -> String {
+pub fn steady_page(machines: &Together, steady: &Steady) -> String {
+    let file = machines.first;
     let own = steady.cycle.as_ref().ok();
     let wheel = steady.flywheel.as_ref().filter(|wheel| wheel.inertia > 0.0);
     let mut runs = Vec::new();
@@ -338,8 +346,11 @@ pub fn steady_page(file: &MachineFile, steady: &Steady) -> String {
     MotionPage::page(
         file,
         "steady cycle",
-        "The cycle that repeats under the motor",
-        &list::steady::text(file, steady),
+        format!(
+            "The cycle that repeats under the motor{}",
+            machines.beside_in_words()
+        ),
+        &list::steady::text(machines, steady),
         sections,
     )
 }

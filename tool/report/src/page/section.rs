@@ -47,7 +47,7 @@ pub(super) struct MotionPage<'a> {
     title: &'a str,
     /// Of the window.
     subject: &'static str,
-    about: &'static str,
+    about: String,
     version: &'static str,
     file: &'a str,
     /// What the terminal shows.
@@ -60,7 +60,7 @@ impl<'a> MotionPage<'a> {
     pub(super) fn page(
         file: &'a MachineFile,
         subject: &'static str,
-        about: &'static str,
+        about: impl Into<String>,
         listing: &str,
         sections: Vec<Section>,
     ) -> String {
@@ -68,7 +68,7 @@ impl<'a> MotionPage<'a> {
         let page = Self {
             title: &file.title,
             subject,
-            about,
+            about: capital(about.into()),
             version: env!("CARGO_PKG_VERSION"),
             file: &file.name,
             listing: listing.trim_end().to_owned(),
@@ -77,6 +77,14 @@ impl<'a> MotionPage<'a> {
         // Rendering into a string fails only if a template is wrong, which the tests would show.
         page.render().unwrap_or_default()
     }
+}
+
+/// With a capital at its beginning.
+fn capital(mut text: String) -> String {
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
 }
 
 /// The columns of a quantity over another, of several courses that each have a name.

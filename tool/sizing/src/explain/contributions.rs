@@ -1,7 +1,7 @@
 //! The torque of a drive, divided by parts and by effects, at every instant of its cycle.
 
+use jred::Error;
 use jred::machine::Mechanism as _;
-use jred::{Error, Link};
 
 use crate::catalogue::Drive;
 use crate::cycle::form::loads;
@@ -182,22 +182,25 @@ fn machine(
     };
     let frames = mechanism.frames(instant.phi)?;
     let names = mechanism.link_names();
-    let links = mechanism.links().iter().zip(&frames).zip(names);
-    for ((link, frame), name) in links {
-        let [inertia, slope, _] = Link::reduced_inertia(link, frame);
+    // A carriage's share is its own, not that of the link that carries it.
+    let unladen = file.machine_among(now).mechanism();
+    let links = unladen.links().iter().copied().zip(&frames).zip(names);
+    let links = links.map(|((link, frame), name)| (link, frame, (PartKind::Link, name.as_str())));
+    let mut parts: Vec<_> = links.collect();
+    for carriage in file.schedule.carriages() {
+        if let Some((t, frame)) = now.t.zip(frames.get(carriage.mass.link)) {
+            let part = (PartKind::Load, carriage.name.as_str());
+            parts.push((carriage.placed(t).alone()?, frame, part));
+        }
+    }
+    for (link, frame, part) in parts {
+        let [inertia, slope, _] = link.reduced_inertia(frame);
         let [_, weight] = link.potential_energy(frame, machine.gravity());
-        contributions.add(
-            (PartKind::Link, name),
-            Effect::Acceleration,
-            inertia * alpha / total,
-        );
-        contributions.add(
-            (PartKind::Link, name),
-            Effect::Velocity,
-            0.5 * slope * omega * omega / total,
-        );
-        contributions.add((PartKind::Link, name), Effect::Weight, weight / total);
-        contributions.add_inertia(name, inertia / (total * total));
+        contributions.add(part, Effect::Acceleration, inertia * alpha / total);
+        let velocity = 0.5 * slope * omega * omega;
+        contributions.add(part, Effect::Velocity, velocity / total);
+        contributions.add(part, Effect::Weight, weight / total);
+        contributions.add_inertia(part.1, inertia / (total * total));
     }
     contributions.add(
         (PartKind::Drive, "flywheel"),

@@ -4,6 +4,7 @@ use glob::{MatchOptions, Pattern};
 use miette::{Result, miette};
 
 use crate::catalogue::Catalogue;
+use crate::select::named::{is_named, named};
 use crate::select::rank::Objective;
 use crate::select::size::{Candidate, Group, Selection};
 
@@ -24,6 +25,8 @@ pub struct Filter {
     pub max_mass: Option<f64>,
     /// Largest price, in the currency of the catalogue.
     pub max_price: Option<f64>,
+    /// This drive alone, by its name as [`named`] reads it.
+    pub drive: Option<String>,
 }
 
 /// Drives removed by a filter because the catalogue lacks data.
@@ -48,8 +51,14 @@ impl Filter {
     /// Removes the motors and gearboxes that no drive may have.
     ///
     /// # Errors
-    /// Nothing left.
+    /// Nothing left; no drive of that name.
     pub fn thin(&self, catalogue: &mut Catalogue) -> Result<()> {
+        if let Some(name) = &self.drive {
+            let (_, drive) = named(catalogue, name)?;
+            let motor = drive.motor.key.clone();
+            let gearbox = drive.gearbox.map(|gearbox| gearbox.key.clone());
+            catalogue.keep(|m| m.key == motor, |g| Some(&g.key) == gearbox.as_ref());
+        }
         let (motors, gearboxes) = (catalogue.motors.len(), catalogue.gearboxes.len());
         let [least, most] = self.ratio.unwrap_or([0.0, f64::INFINITY]);
         catalogue.keep(
@@ -86,7 +95,8 @@ impl Filter {
     /// without data for a limited mass or price.
     pub fn sift(&self, selection: &mut Selection) -> Unknown {
         let mut unknown = Unknown::default();
-        if self.allows_direct() && self.max_mass.is_none() && self.max_price.is_none() {
+        let whole = self.max_mass.is_some() || self.max_price.is_some() || self.drive.is_some();
+        if self.allows_direct() && !whole {
             return unknown;
         }
         let mut sifted = [Vec::new(), Vec::new()];
@@ -105,6 +115,9 @@ impl Filter {
 
     fn passes(&self, selection: &Selection, candidate: &Candidate, unknown: &mut Unknown) -> bool {
         if candidate.drive.gearbox.is_none() && !self.allows_direct() {
+            return false;
+        }
+        if (self.drive.as_ref()).is_some_and(|name| !is_named(&candidate.drive, name)) {
             return false;
         }
         let below = |most: Option<f64>, objective: Objective, unknown: &mut usize| {

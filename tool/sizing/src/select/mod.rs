@@ -2,6 +2,7 @@
 
 pub mod filter;
 pub mod fit;
+pub mod named;
 pub mod pareto;
 pub mod rank;
 pub mod ratio;

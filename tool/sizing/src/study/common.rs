@@ -2,20 +2,20 @@
 
 use std::sync::{Arc, OnceLock};
 
-use miette::{IntoDiagnostic as _, Report, Result, miette};
+use miette::{IntoDiagnostic as _, Report, Result};
 
 use super::edit::{Document, Edit};
 use crate::catalogue::Catalogue;
 use crate::catalogue::{Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::select::fit::fit_input;
+use crate::select::named::named;
 use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_machine::text::file::Files;
-use jred_machine::units::closest;
 
 /// The common part of a study.
 #[derive(Debug)]
@@ -145,54 +145,6 @@ impl Study {
         let quantity = self.document.quantities().get(quantity);
         quantity.is_some_and(|q| AROUND.iter().any(|section| q.path.starts_with(section)))
     }
-}
-
-/// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
-/// the first that goes with the motor).
-///
-/// # Errors
-/// A drive that the catalogue does not have.
-pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive<'c>)> {
-    let (rest, amplifier) = match text.split_once(" on ") {
-        Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
-        None => (text, None),
-    };
-    let (motor, gearbox) = match rest.split_once('+') {
-        Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim())),
-        None => (rest.trim(), None),
-    };
-    let wanted = |drive: &Drive| {
-        drive.motor.key == motor
-            && drive.gearbox.map(|g| g.key.as_str()) == gearbox
-            && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
-    };
-    if let Some(found) = catalogue.drives().find(|(_, drive)| wanted(drive)) {
-        return Ok(found);
-    }
-    let motors: Vec<&str> = catalogue.motors.iter().map(|m| m.key.as_str()).collect();
-    let gearboxes: Vec<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
-    let amplifiers: Vec<&str> = catalogue
-        .amplifiers
-        .iter()
-        .map(|a| a.key.as_str())
-        .collect();
-    let (word, keys) = match (gearbox, amplifier) {
-        _ if !motors.contains(&motor) => (motor, motors),
-        (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
-        (_, Some(amplifier)) => (amplifier, amplifiers),
-        (Some(gearbox), None) => (gearbox, gearboxes),
-        (None, None) => (motor, motors),
-    };
-    let near = closest(word, &keys).map_or_else(
-        || "`jred size FILE --refused` lists every drive".to_owned(),
-        |near| format!("did you mean \"{near}\"?"),
-    );
-    Err(miette!(
-        help = near,
-        "the catalogue has no {} for the drive {}",
-        plain::quoted(word),
-        plain::quoted(text)
-    ))
 }
 
 /// The prepared duty of a machine.

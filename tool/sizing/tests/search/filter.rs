@@ -97,6 +97,19 @@ fn filters_leave_what_they_say() {
                 .is_some_and(|m| m + d.gearbox.map_or(0.0, |g| g.mass.unwrap()) <= 6.0)
         },
     );
+    for (name, gearbox) in [
+        ("sgmsh-15a", None),
+        ("sgmsh-15a+npt035mf-10", Some("npt035mf-10")),
+    ] {
+        let found = count(
+            &Filter {
+                drive: Some(name.to_owned()),
+                ..Filter::default()
+            },
+            &|d| d.motor.key == "sgmsh-15a" && d.gearbox.map(|g| g.key.as_str()) == gearbox,
+        );
+        assert_eq!(found, 1, "{name}");
+    }
     count(
         &Filter {
             max_price: Some(700.0),

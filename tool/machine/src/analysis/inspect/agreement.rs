@@ -33,6 +33,8 @@ const HAIR: f64 = 1e-13;
 pub struct Inertia {
     /// J_red (or m_red): smallest, mean over the range, largest, flywheel and drive train included.
     pub reduced: [f64; 3],
+    /// The same over the time of the motion, with the payloads and carriages of each instant; `None` without these.
+    pub laden: Option<[f64; 3]>,
     /// Flywheel and drive train, contained in it.
     pub flywheel: f64,
     /// Mass of all links (kg).
@@ -51,23 +53,18 @@ pub struct Agreement {
     pub energy: Option<f64>,
 }
 
-/// Of a machine with its drive train.
-pub(super) fn inertia(machine: &Machine<AnyMechanism>) -> Result<Inertia, Error> {
-    let values = whole_range(machine.domain(), STEPS)
+/// Of a machine file, whose machine with its drive train this is, and its machines with the drive train.
+pub(super) fn inertia(
+    file: &MachineFile,
+    machine: &Machine<AnyMechanism>,
+    machines: &Machines,
+) -> Result<Inertia, Error> {
+    let over_range = whole_range(machine.domain(), STEPS)
         .map(|phi| Ok(machine.bare_reduction(phi)?.inertia))
         .collect::<Result<Vec<f64>, Error>>()?;
-    // The trapezoidal rule: over a turn both ends are the same position.
-    let ends = values
-        .first()
-        .zip(values.last())
-        .map_or(0.0, |(a, b)| 0.5 * (a + b));
-    let mean = (values.iter().sum::<f64>() - ends) / STEPS as f64;
     Ok(Inertia {
-        reduced: [
-            values.iter().copied().fold(f64::INFINITY, f64::min),
-            mean,
-            values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        ],
+        reduced: extremes(&over_range),
+        laden: laden_inertia(file, machines)?,
         flywheel: machine.flywheel(),
         mass: machine
             .mechanism()
@@ -76,6 +73,39 @@ pub(super) fn inertia(machine: &Machine<AnyMechanism>) -> Result<Inertia, Error>
             .map(jred::Link::mass)
             .sum(),
     })
+}
+
+/// Least, mean and largest of values at equal steps, both ends among them.
+fn extremes(values: &[f64]) -> [f64; 3] {
+    // The trapezoidal rule: over a turn both ends are the same position.
+    let ends = values
+        .first()
+        .zip(values.last())
+        .map_or(0.0, |(a, b)| 0.5 * (a + b));
+    let steps = values.len().saturating_sub(1).max(1);
+    [
+        values.iter().copied().fold(f64::INFINITY, f64::min),
+        (values.iter().sum::<f64>() - ends) / steps as f64,
+        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
+/// Over the time of the motion, with payloads and carriages; `None` without these.
+fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64; 3]>, Error> {
+    let schedule = &file.schedule;
+    let Some(motion) =
+        (file.motion.as_ref()).filter(|_| schedule.flows() || !schedule.payloads().is_empty())
+    else {
+        return Ok(None);
+    };
+    let values = (0..=STEPS).map(|k| {
+        let t = motion.duration() * k as f64 / STEPS as f64;
+        let state = motion.at(t);
+        let machine = machines.at(&Now::of(t, state.omega), state.phi)?;
+        Ok(machine.bare_reduction(state.phi)?.inertia)
+    });
+    let values = values.collect::<Result<Vec<f64>, Error>>()?;
+    Ok(Some(extremes(&values)))
 }
 
 /// Of a machine file, and its machines with the drive train.
@@ -219,7 +249,8 @@ impl<'m> Part<'m> {
                 };
                 // Its inertia force is none that a load of the machine gives.
                 power -= load.reduce(frame, state.phi).process * state.omega;
-                power += carriage.power(frame, inside, [state.omega, state.alpha], gravity);
+                let effort = carriage.effort(frame, inside, [state.omega, state.alpha], gravity);
+                power += effort * carriage.at(inside).omega;
             }
         }
         Ok(power)

@@ -95,6 +95,8 @@ impl Set for Curves {
             point.coulomb,
         ];
         if self.links {
+            // Without carriages, which have columns of their own.
+            let machine = source.machines.among(&place.now);
             let each = machine.link_inertias(place.phi)?;
             values.extend(each.iter().map(|j| j[0]));
             values.push(source.machine.flywheel());

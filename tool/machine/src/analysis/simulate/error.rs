@@ -20,12 +20,13 @@ pub enum SimulationError {
     /// The machine goes by the motion of the file, which a free motion does not follow.
     #[error("{what}: that goes by [motion], which a free motion does not follow")]
     #[diagnostic(help(
-        "remove its segments, during, direction and at_rest, the payload or the carriage, for this command; `jred reduce --over time` and \
-         `jred size` contain them"
+        "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
     ))]
     Scheduled {
         /// The load, payload or carriage.
         what: String,
+        /// How to do without it.
+        cure: String,
     },
     /// A machine cannot run on one shaft with others.
     #[error("the machine \"{title}\" cannot run on one shaft with others: {why}")]

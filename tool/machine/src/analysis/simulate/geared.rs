@@ -8,6 +8,8 @@
 //! J = Σ J_k·r_k²                                         at the first drive link
 //! ```
 
+use std::f64::consts::TAU;
+
 use jred::{Domain, Error, Reducible as _, Reduction};
 
 use super::SimulationError;
@@ -46,6 +48,20 @@ impl<'a> Geared<'a> {
     /// Speed per speed of the first drive link.
     pub const fn ratio(&self) -> f64 {
         self.ratio
+    }
+
+    /// Positions of the first drive link within a turn where this machine is not smooth.
+    pub(in crate::analysis) fn edges(&self) -> impl Iterator<Item = f64> + use<'a> {
+        let Self {
+            file,
+            offset,
+            ratio,
+        } = *self;
+        let turns = ratio.abs().round().max(1.0) as u32;
+        let edges = (0..).map_while(|k| file.machine.edge(k));
+        edges.flat_map(move |edge| {
+            (0..turns).map(move |k| (edge + TAU * f64::from(k) - offset) / ratio)
+        })
     }
 
     /// The reduced link where the first drive link is at `phi`.
@@ -112,6 +128,34 @@ impl<'a> Together<'a> {
             });
         }
         Ok(self)
+    }
+
+    /// The same machines with another first one, which differs in its inertia alone.
+    #[must_use]
+    pub fn with_first<'b>(&self, first: &'b MachineFile) -> Together<'b>
+    where
+        'a: 'b,
+    {
+        Together {
+            first,
+            beside: self.beside.clone(),
+        }
+    }
+
+    /// The titles of all.
+    pub fn title(&self) -> String {
+        let titles: Vec<&str> = self.all().map(|m| m.file.title.as_str()).collect();
+        titles.join(" + ")
+    }
+
+    /// Such as `, on one shaft with Feeder and Conveyor`; nothing of one alone.
+    pub fn beside_in_words(&self) -> String {
+        let beside = self.beside.iter().map(|m| m.file.title.as_str());
+        let beside: Vec<&str> = beside.collect();
+        if beside.is_empty() {
+            return String::new();
+        }
+        format!(", on one shaft with {}", beside.join(" and "))
     }
 
     /// The machines beside the first.

@@ -222,14 +222,18 @@ impl<'a, M: Motor> Plant<'a, M> {
         })
     }
 
-    /// The torque at the first drive link that keeps the speed `omega` at the position `phi`.
+    /// The torque at the first drive link that keeps the speed `omega` at the position `phi`, without the losses of drive trains.
     pub(in crate::analysis) fn resisting(
         &self,
         direction: f64,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let point = Geared::first(self.machines.first).point(self.inside(phi))?;
-        Ok(resisting(&point, direction, omega))
+        let points = self.points(phi)?;
+        let each = points.all().map(|(machine, point)| {
+            let ratio = machine.ratio();
+            ratio * resisting(point, direction * ratio, omega * ratio)
+        });
+        Ok(each.sum())
     }
 
     /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy.
@@ -374,7 +378,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         ];
         let beside = self.machines.beside().iter().enumerate();
         let positions = beside.map(|(k, machine)| {
-            let column = machine.file.machine.mechanism().coordinate().column();
+            let column = machine.file.axis().column();
             Column::other(format!("{} {}", beside_name(k), column.name), column.unit)
         });
         own.into_iter().chain(positions).collect()
@@ -399,7 +403,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         let beside = self.machines.beside().iter();
         let positions = beside.map(|machine| {
             let [phi, ..] = machine.state([phi, omega, alpha]);
-            machine.file.machine.mechanism().coordinate().shown(phi)
+            machine.file.axis().shown(phi)
         });
         Ok(Row {
             figures: own.into_iter().chain(positions).collect(),

@@ -5,7 +5,7 @@ mod rows;
 mod start;
 mod stops;
 
-pub(in crate::analysis) use rows::{Row, cells, heads};
+pub(in crate::analysis) use rows::{Row, Works, cells, heads};
 
 use jred::Error;
 
@@ -30,7 +30,7 @@ const EDGE: f64 = 1e-13;
 pub(super) const HAIR: f64 = 1e-12;
 
 /// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work
-/// of the motor, the work of the process loads, and the losses (J).
+/// of the motor, and of the brake after it, the work of the process loads, and the losses (J).
 ///
 /// `direction` is the one of the drive link, which friction opposes: +1, −1, or 0 where friction holds it.
 pub(in crate::analysis) trait Plant<const N: usize> {
@@ -110,6 +110,7 @@ pub(super) fn run<const N: usize>(
         direction: 0.0,
         inside: [f64::NEG_INFINITY, f64::INFINITY],
         halt: None,
+        driven: None,
         rest: None,
         stuck: None,
         controlling: Controlling::default(),
@@ -123,7 +124,8 @@ pub(super) fn run<const N: usize>(
         run.misses(0.0, &y)?;
     }
     let figures = plant.heads().into_iter().chain(run.observer.columns());
-    let mut columns = Columns::new(heads(figures.collect()));
+    let has_brake = (simulation.halt).is_some_and(|halt| halt.brake_torque != 0.0);
+    let mut columns = Columns::new(heads(figures.collect(), has_brake));
     let mut states = Vec::new();
     let steps = (simulation.duration / simulation.output_step)
         .round()
@@ -153,7 +155,15 @@ pub(super) fn run<const N: usize>(
         t = end;
         let energy = row.kinetic + row.potential;
         let start = *start_energy.get_or_insert(energy);
-        let works = std::array::from_fn(|i| y[N - 3 + i]);
+        // Once it is switched off the motor does nothing: what is done at its shaft then is the brake's.
+        let [at_shaft, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
+        let motor = run.driven.filter(|_| has_brake).unwrap_or(at_shaft);
+        let works = Works {
+            motor,
+            brake: has_brake.then_some(at_shaft - motor),
+            process,
+            losses,
+        };
         columns.push(cells(t, row, works, start).0);
     }
     Ok(Simulated {
@@ -184,6 +194,8 @@ struct Run<'a, P> {
     inside: [f64; 2],
     /// When and where the motor was switched off.
     halt: Option<[f64; 2]>,
+    /// Work of the motor until then (J).
+    driven: Option<f64>,
     rest: Option<Rest>,
     stuck: Option<Stuck>,
     controlling: Controlling,
@@ -216,6 +228,7 @@ impl<P> Run<'_, P> {
             if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {
                 let [phi, omega] = self.plant.link(t, &y)?;
                 self.halt = Some([t, phi]);
+                self.driven = Some(y[N - 3]);
                 if omega == 0.0 {
                     self.rests([t, phi]);
                 }

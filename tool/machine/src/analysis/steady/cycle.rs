@@ -234,7 +234,7 @@ impl Missing {
     pub(super) fn at(turning: &Turning, x: f64) -> Result<Self, SteadyError> {
         let phi = turning.at(x).rem_euclid(TAU);
         let state = [phi, turning.direction * HAIR];
-        let coordinate = turning.file.machine.mechanism().coordinate();
+        let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {
             place: coordinate.place(phi),
             phi,

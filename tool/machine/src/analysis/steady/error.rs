@@ -22,12 +22,26 @@ pub enum SteadyError {
     /// The machine goes by the motion of the file, which a steady cycle does not follow.
     #[error("{what}: that goes by [motion], which a steady cycle does not follow")]
     #[diagnostic(help(
-        "remove its segments, during, direction and at_rest, the payload or the carriage, for this command; `jred reduce --over time` and \
-         `jred size` contain them"
+        "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
     ))]
     Scheduled {
         /// The load, payload or carriage.
         what: String,
+        /// How to do without it.
+        cure: String,
+    },
+    /// Machines on one shaft that do not repeat together.
+    #[error(
+        "the machine \"{title}\" makes {turns} turns while the drive link of the first one makes one, and a cycle is one turn of the first"
+    )]
+    #[diagnostic(help(
+        "name the slowest machine first; the others must make whole turns in one of its turns. `jred simulate` takes any ratio"
+    ))]
+    NotWhole {
+        /// The machine.
+        title: String,
+        /// Its turns.
+        turns: String,
     },
     /// No motor is given.
     #[error("[simulation] gives no motor")]

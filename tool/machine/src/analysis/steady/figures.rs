@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use super::SteadyError;
 use super::turn::{Reached, State, Turning, starting};
-use crate::analysis::simulate::Together;
-use crate::analysis::simulate::run::{Plant as _, cells, heads};
+use crate::analysis::simulate::run::{Plant as _, Works, cells, heads};
 use crate::analysis::simulate::watch::{At, Watch};
 use crate::number::columns::Columns;
 use crate::number::numerics;
@@ -90,7 +89,7 @@ impl Figures {
             let [torque, speed] = plant.motor(turning.direction * omega);
             torque * speed
         };
-        let mut course = Columns::new(heads(plant.heads()));
+        let mut course = Columns::new(heads(plant.heads(), false));
         let mut start = None;
         let (mut imbalance, mut turned_over) = (0.0f64, 0.0f64);
         for (_, (x, y)) in nodes.iter().enumerate().filter(|(k, _)| listed.contains(k)) {
@@ -99,7 +98,13 @@ impl Figures {
             let row = plant.row(turning.direction, y[1], &state)?;
             turned_over = turned_over.max(row.kinetic);
             let start = *start.get_or_insert(row.kinetic + row.potential);
-            let (cells, balance) = cells(y[1], row, [y[2], y[3], y[4]], start);
+            let works = Works {
+                motor: y[2],
+                brake: None,
+                process: y[3],
+                losses: y[4],
+            };
+            let (cells, balance) = cells(y[1], row, works, start);
             imbalance = imbalance.max(balance.abs());
             course.push(cells);
         }
@@ -131,7 +136,7 @@ impl Figures {
 
     /// Refuses a cycle in which a follower leaves its cam or a rope is slack.
     pub(super) fn check_contacts(&self, turning: &Turning) -> Result<(), SteadyError> {
-        let watch = Watch::new(&Together::alone(turning.file));
+        let watch = Watch::new(&turning.machines);
         if watch.is_idle() {
             return Ok(());
         }

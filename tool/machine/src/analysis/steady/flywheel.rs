@@ -55,8 +55,14 @@ impl Flywheel {
     ) -> Result<Self, SteadyError> {
         let guess = Cell::new(own.map(|cycle| cycle.figures.begin));
         let evenness = |inertia: f64| -> Result<f64, SteadyError> {
-            let file = with_flywheel(turning.file, inertia)?;
-            let turning = Turning::new(&file, simulation, turning.plant.motor, turning.direction)?;
+            let file = with_flywheel(turning.machines.first, inertia)?;
+            let machines = turning.machines.with_first(&file);
+            let turning = Turning::new(
+                &machines,
+                simulation,
+                turning.plant.motor,
+                turning.direction,
+            )?;
             let Found::Cycle(begin) = cycle::near(&turning, guess.get())? else {
                 // It stops: no evenness at all.
                 return Ok(-1.0 / delta);
@@ -79,13 +85,19 @@ impl Flywheel {
                 Self::seek(turning, classical, [delta, lacking], &evenness)?
             }
         };
-        let file = with_flywheel(turning.file, inertia)?;
-        let with = Turning::new(&file, simulation, turning.plant.motor, turning.direction)?;
+        let file = with_flywheel(turning.machines.first, inertia)?;
+        let machines = turning.machines.with_first(&file);
+        let with = Turning::new(
+            &machines,
+            simulation,
+            turning.plant.motor,
+            turning.direction,
+        )?;
         let cycle = match cycle::near(&with, guess.get())? {
             Found::Cycle(begin) => Cycle::at(&with, begin, positions)?,
             Found::Loses(from) => return Err(cycle::standstill(&with, from)?),
         };
-        let ratio = turning.file.drive_train.ratio();
+        let ratio = turning.machines.first.drive_train.ratio();
         Ok(Self {
             delta,
             inertia,

@@ -5,12 +5,11 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Error, Reducible as _};
+use jred::Error;
 
 use super::SteadyError;
 use crate::analysis::simulate::Together;
 use crate::analysis::simulate::machine::{Instant, Plant};
-use crate::model::machine::MachineFile;
 use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
 use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
@@ -37,7 +36,7 @@ pub(super) enum Reached {
 
 /// A machine that turns one way, from a position.
 pub(super) struct Turning<'a> {
-    pub(super) file: &'a MachineFile,
+    pub(super) machines: Together<'a>,
     pub(super) plant: Plant<'a, OwnMotor<'a>>,
     /// +1 or −1.
     pub(super) direction: f64,
@@ -52,13 +51,13 @@ pub(super) struct Turning<'a> {
 
 impl<'a> Turning<'a> {
     pub(super) fn new(
-        file: &'a MachineFile,
+        machines: &Together<'a>,
         simulation: &'a Simulation,
         motor: OwnMotor<'a>,
         direction: f64,
     ) -> Result<Self, Error> {
         let start = simulation.start_angle;
-        let edges = (0..).map_while(|k| file.machine.edge(k));
+        let edges = machines.all().flat_map(|machine| machine.edges());
         let from_start = edges.map(|phi| ((phi - start) * direction).rem_euclid(TAU));
         let mut edges: Vec<f64> = from_start.chain([0.0, TAU]).collect();
         edges.sort_by(f64::total_cmp);
@@ -68,15 +67,23 @@ impl<'a> Turning<'a> {
             *last = TAU;
         }
         let mut load = [0.0f64; 2];
-        for k in 0..24 {
-            let point = file.bare_reduction(start + TAU * f64::from(k) / 24.0)?;
-            load[0] = load[0].max(point.load_torque().abs() + point.coulomb);
-            load[1] = load[1].max(point.viscous);
+        for machine in machines.all() {
+            let mut own = [0.0f64; 2];
+            for k in 0..24 {
+                let [phi, ..] = machine.state([start, 0.0, 0.0]);
+                let phi = phi + TAU * f64::from(k) / 24.0;
+                let point = machine.file.bare_reduction(phi)?;
+                own[0] = own[0].max(point.load_torque().abs() + point.coulomb);
+                own[1] = own[1].max(point.viscous);
+            }
+            let ratio = machine.ratio().abs();
+            load[0] += ratio * own[0];
+            load[1] += ratio * ratio * own[1];
         }
-        let plant = Plant::new(Together::alone(file), simulation, motor);
+        let plant = Plant::new(machines.clone(), simulation, motor);
         let [inertia, _] = plant.inertia(start)?;
         Ok(Self {
-            file,
+            machines: machines.clone(),
             plant,
             direction,
             start,

@@ -273,9 +273,12 @@ impl Chain<'_> {
             if joined || (after - before).abs() <= CONTINUOUS * most {
                 continue;
             }
-            let pace = |speed: f64| match speed {
-                0.0 => "at rest".to_owned(),
-                speed => format!("at {}", self.drive.pace(speed)),
+            let pace = |speed: f64| {
+                if speed.abs() <= CONTINUOUS * most {
+                    "at rest".to_owned()
+                } else {
+                    format!("at {}", self.drive.pace(speed))
+                }
             };
             let again = if next > index { "" } else { " the next cycle" };
             let takes = self.written[index].0.is_open() || self.written[next].0.is_open();
@@ -299,18 +302,21 @@ impl Chain<'_> {
 
     /// No move leaves the stroke of the drive link, at its end or on the way.
     fn check_stroke(&self, motion: &Motion, drive: DriveLink) -> Result<()> {
-        for reach in motion.reaches() {
-            let position = reach.position;
-            if !reach.of_drive || drive.reaches(position) {
-                continue;
-            }
-            let index = reach.segment;
+        let reaches = motion.reaches();
+        let outside = |reach: &&Reach| reach.of_drive && !drive.reaches(reach.position);
+        for first in reaches.iter().filter(outside) {
+            let index = first.segment;
             let Some(part) = self.parts.get(index) else {
                 continue;
             };
-            let place = drive.coordinate.place(position);
-            let of_segment = |other: &Reach| other.segment == index;
-            let end = motion.reaches().into_iter().rfind(of_segment);
+            // The first that is outside may lie on the way, where a law has several pieces: the farthest is what to shorten.
+            let of_segment = |reach: &&Reach| reach.segment == index;
+            let beyond = |reach: &Reach| drive.beyond(reach.position);
+            let reach = reaches.iter().filter(of_segment).filter(outside);
+            let reach = reach.max_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+            let reach = reach.unwrap_or(first);
+            let place = drive.coordinate.place(reach.position);
+            let end = reaches.iter().rfind(of_segment);
             let verb = if end == Some(reach) {
                 "ends"
             } else {
@@ -322,9 +328,7 @@ impl Chain<'_> {
                     format!("{what}, outside the stroke, {}", drive.range()),
                     "leaves the stroke",
                 )
-                .help(
-                    "shorten this move, start elsewhere, or lengthen the stroke of the mechanism",
-                ));
+                .help("shorten this move, start elsewhere, or lengthen the stroke"));
         }
         Ok(())
     }

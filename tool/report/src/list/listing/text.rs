@@ -296,8 +296,8 @@ fn marked(key: &str, from_maker: bool) -> String {
 fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
-        // Rounding errors compared with the largest value are shown as zero.
-        let noise = 1e-10 * figures.peak();
+        // Less than the sixth digit of the largest value is shown as zero.
+        let noise = 5e-6 * figures.peak();
         let cells = figures
             .values()
             .map(|x| rounded(if x.abs() <= noise { 0.0 } else { x / unit }));

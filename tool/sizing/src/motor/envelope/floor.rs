@@ -65,3 +65,6 @@ impl Envelope {
         corners.filter(|speed| speed.is_finite()).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,114 @@
+//! What of a machine goes by the motion of its file, in words, and the refusals of commands that cannot follow it.
+
+use std::fmt;
+
+use crate::model::machine::MachineFile;
+use crate::model::schedule::When;
+
+/// A load, payload or carriage that goes by the motion.
+#[derive(Clone, Debug)]
+pub struct ByMotion {
+    /// Such as `load "punch" acts in segment 2`.
+    pub what: String,
+    /// How to do without: `remove its segments or during`.
+    pub cure: String,
+}
+
+impl fmt::Display for ByMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.what)
+    }
+}
+
+/// What a payload or a carriage can be instead.
+const FIXED: &str = "or fix it to the link with a [[mass]]";
+
+/// What of a schedule matters to a command.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Which {
+    All,
+    /// What goes by the time or by rest, not by the direction alone.
+    Timed,
+}
+
+impl MachineFile {
+    /// Refuses a machine of which something goes by the motion of the file, for a command that seeks another motion.
+    ///
+    /// # Errors
+    /// It has such a load, payload or carriage.
+    pub fn refuse_scheduled(&self, command: &str) -> miette::Result<()> {
+        match self.scheduled().next() {
+            None => Ok(()),
+            Some(ByMotion { what, cure }) => Err(miette::miette!(
+                help = format!("{cure}, for this command; `jred size` contains it"),
+                "{what}: that goes by [motion], but `jred {command}` seeks another motion"
+            )),
+        }
+    }
+
+    /// The same for a command that seeks another motion one way at a time: what goes by the direction alone stays.
+    ///
+    /// # Errors
+    /// A load, payload or carriage goes by the time of the motion, or a load has a value of its own at rest.
+    pub fn refuse_timed(&self, command: &str) -> miette::Result<()> {
+        match self.by_motion(Which::Timed).next() {
+            None => Ok(()),
+            Some(ByMotion { what, cure }) => Err(miette::miette!(
+                help = format!("{cure}, for this command; `jred size` contains it"),
+                "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
+            )),
+        }
+    }
+
+    /// What the schedule says, item by item.
+    pub fn scheduled(&self) -> impl Iterator<Item = ByMotion> {
+        self.by_motion(Which::All)
+    }
+
+    /// The carriages, such as `carriage "trolley" moves along beam by its own motion`.
+    pub fn carriages(&self) -> impl Iterator<Item = ByMotion> {
+        let carriages = self.schedule.carriages().iter();
+        carriages.map(|c| ByMotion {
+            what: format!("carriage \"{}\" {}", c.name, c.words),
+            cure: format!("remove the carriage, {FIXED}"),
+        })
+    }
+
+    /// What acts, or is carried, at such times, in words.
+    pub fn scheduled_where(&self, such: impl Fn(&When) -> bool) -> impl Iterator<Item = String> {
+        let loads = self.schedule.loads().iter();
+        let loads = loads.map(|load| ("load", &load.name, &load.words, &load.when));
+        let payloads = self.schedule.payloads().iter();
+        let payloads = payloads.map(|p| ("payload", &p.name, &p.words, &p.when));
+        let all = loads.chain(payloads).filter(move |(.., when)| such(when));
+        all.map(|(what, name, words, _)| format!("{what} \"{name}\" {words}"))
+    }
+
+    fn by_motion(&self, which: Which) -> impl Iterator<Item = ByMotion> {
+        let loads = self.schedule.loads().iter().filter_map(move |load| {
+            let keys = [
+                (load.when.spans.is_some(), "segments or during"),
+                (
+                    load.when.travel.is_some() && which == Which::All,
+                    "direction",
+                ),
+                (load.at_rest.is_some(), "at_rest"),
+            ];
+            let keys = keys
+                .into_iter()
+                .filter_map(|(there, key)| there.then_some(key));
+            let keys: Vec<&str> = keys.collect();
+            (!keys.is_empty()).then(|| ByMotion {
+                what: format!("load \"{}\" {}", load.name, load.words),
+                cure: format!("remove its {}", keys.join(" and ")),
+            })
+        });
+        let payloads = self.schedule.payloads().iter();
+        let payloads = payloads.filter(move |p| which == Which::All || p.when.spans.is_some());
+        let payloads = payloads.map(|payload| ByMotion {
+            what: format!("payload \"{}\" {}", payload.name, payload.words),
+            cure: format!("remove the payload, {FIXED}"),
+        });
+        loads.chain(payloads).chain(self.carriages())
+    }
+}

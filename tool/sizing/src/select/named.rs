@@ -1,0 +1,63 @@
+//! A drive of the catalogue by its name.
+
+use miette::{Result, miette};
+
+use crate::catalogue::{Catalogue, Drive, DriveId};
+use jred_machine::plain;
+use jred_machine::units::closest;
+
+/// Motor, gearbox and amplifier of a drive's name, by their keys: `MOTOR+GEARBOX on AMPLIFIER`.
+fn keys(text: &str) -> (&str, Option<&str>, Option<&str>) {
+    let (rest, amplifier) = match text.split_once(" on ") {
+        Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
+        None => (text, None),
+    };
+    match rest.split_once('+') {
+        Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim()), amplifier),
+        None => (rest.trim(), None, amplifier),
+    }
+}
+
+/// Whether a drive has this name; without an amplifier in it, on any.
+pub fn is_named(drive: &Drive, text: &str) -> bool {
+    let (motor, gearbox, amplifier) = keys(text);
+    drive.motor.key == motor
+        && drive.gearbox.map(|g| g.key.as_str()) == gearbox
+        && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
+}
+
+/// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
+/// the first that goes with the motor).
+///
+/// # Errors
+/// A drive that the catalogue does not have.
+pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive<'c>)> {
+    let (motor, gearbox, amplifier) = keys(text);
+    if let Some(found) = catalogue.drives().find(|(_, drive)| is_named(drive, text)) {
+        return Ok(found);
+    }
+    let motors: Vec<&str> = catalogue.motors.iter().map(|m| m.key.as_str()).collect();
+    let gearboxes: Vec<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
+    let amplifiers: Vec<&str> = catalogue
+        .amplifiers
+        .iter()
+        .map(|a| a.key.as_str())
+        .collect();
+    let (word, keys) = match (gearbox, amplifier) {
+        _ if !motors.contains(&motor) => (motor, motors),
+        (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
+        (_, Some(amplifier)) => (amplifier, amplifiers),
+        (Some(gearbox), None) => (gearbox, gearboxes),
+        (None, None) => (motor, motors),
+    };
+    let near = closest(word, &keys).map_or_else(
+        || "`jred size FILE --refused` lists every drive".to_owned(),
+        |near| format!("did you mean \"{near}\"?"),
+    );
+    Err(miette!(
+        help = near,
+        "the catalogue has no {} for the drive {}",
+        plain::quoted(word),
+        plain::quoted(text)
+    ))
+}
