@@ -196,10 +196,11 @@ JRED_RANGE_(q15)
  *     jred_stage  jred_n_follower_next(jred_n_follower *, uint32_t percent, jred_n_planned *);       in every tick, with the rate wanted
  *     jred_status jred_n_follower_plan(jred_n_follower *, jred_plan *);                              what the plan says of itself
  *
- * A null pointer, or zeros, is no follower: its set-point is 0, and it waits.
+ * A null pointer, or zeros, is no follower: its set-point is 0, which no drive should go to, and its stage JRED_NO_FOLLOWER.
  */
 typedef int32_t jred_stage;
 enum {
+    JRED_NO_FOLLOWER = -1,
     JRED_WAITING = 0, /* not started: at the start */
     JRED_RUNNING = 1,
     JRED_HELD = 2, /* on the way, with the rate 0 */

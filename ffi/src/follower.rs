@@ -72,6 +72,7 @@ impl<N: Number> Follow<N> {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CStage {
+    NoFollower = -1,
     Waiting = 0,
     Running = 1,
     Held = 2,
@@ -159,7 +160,7 @@ fn next<N: CNumber>(
             };
             (stage.into(), content)
         }
-        None => (CStage::Waiting, CPlanned::default()),
+        None => (CStage::NoFollower, CPlanned::default()),
     };
     if let Some(planned) = planned {
         planned.write(content);

@@ -106,8 +106,8 @@ int main(void) {
     jred_f32_planned planned = {1, 1, 1.0f, 1.0f, true};
     jred_plan plan;
     press_model none = {{0, {0}}};
-    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_WAITING && planned.phase == 0 && planned.omega == 0.0f && !planned.limited);
-    CLAIM(jred_f32_follower_next(NULL, 100, NULL) == JRED_WAITING);
+    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_NO_FOLLOWER && planned.phase == 0 && planned.omega == 0.0f && !planned.limited);
+    CLAIM(jred_f32_follower_next(NULL, 100, NULL) == JRED_NO_FOLLOWER);
     EXPECT(jred_f32_follower_repeat(NULL), JRED_NULL);
     EXPECT(jred_f32_follower_repeat(&follower), JRED_NOT_LOADED);
     EXPECT(jred_f32_follower_plan(&follower, &plan), JRED_NOT_LOADED);

@@ -269,7 +269,7 @@ fn a_follower_is_none_before_it_is_made() {
         let mut found = CPlanned::default();
         assert_eq!(
             jred_f32_follower_next(follow, 100, &raw mut found),
-            CStage::Waiting
+            CStage::NoFollower
         );
         assert_eq!(found, CPlanned::default());
         assert_eq!(jred_f32_follower_repeat(follow), status(Status::NotLoaded));
@@ -312,7 +312,7 @@ fn a_follower_is_none_before_it_is_made() {
         // Nobody, and nowhere.
         assert_eq!(
             jred_f32_follower_next(core::ptr::null_mut(), 100, core::ptr::null_mut()),
-            CStage::Waiting
+            CStage::NoFollower
         );
         assert_eq!(
             jred_f32_follower_repeat(core::ptr::null_mut()),

@@ -85,6 +85,7 @@ fn the_header_has_every_status() {
 #[test]
 fn the_header_has_every_stage() {
     for (name, stage) in [
+        ("NO_FOLLOWER", CStage::NoFollower),
         ("WAITING", CStage::Waiting),
         ("RUNNING", CStage::Running),
         ("HELD", CStage::Held),
