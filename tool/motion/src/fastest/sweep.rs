@@ -97,18 +97,31 @@ fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
     u
 }
 
-/// A piece along the limit of the speed.
-fn along_cap(cell: &Cell, index: usize, u: [f64; 2]) -> Piece {
-    Piece {
+/// Times by which the limit of z may change in one piece along it.
+const MOST_RATIO: f64 = 1.5;
+
+/// The pieces along the limit of the speed from one share of a cell to a larger one. Between their ends z is a cubic, which would fall below zero on the way
+/// to a limit many times as large.
+fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<Piece>) {
+    let u = [from, to];
+    let z = u.map(|u| cell.cap(u));
+    let middle = from.midpoint(to);
+    let is_steep = z[0].max(z[1]) > MOST_RATIO * z[0].min(z[1]);
+    if is_steep && from < middle && middle < to {
+        along_cap(cell, index, [from, middle], pieces);
+        along_cap(cell, index, [middle, to], pieces);
+        return;
+    }
+    pieces.push(Piece {
         cell: index,
         step: Step {
             u,
-            z: u.map(|u| cell.cap(u)),
+            z,
             a: u.map(|u| cell.cap_slope(u)),
             time: None,
         },
         along: Along::Cap,
-    }
+    });
 }
 
 /// Where `f` becomes positive on the way from `from` to `to`: at the start, inside, or nowhere.
@@ -156,7 +169,9 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
                     first_positive(falls, u, 0.0).unwrap_or(0.0)
                 };
                 if to < u {
-                    pieces.push(along_cap(cell, index, [to, u]));
+                    let first = pieces.len();
+                    along_cap(cell, index, [to, u], &mut pieces);
+                    pieces[first..].reverse();
                 }
                 (u, z, on_cap) = (to, cell.cap(to), false);
                 continue;
@@ -365,7 +380,7 @@ impl Upper<'_> {
                 let leaves = first_positive(falls, from, end).filter(|_| may_leave);
                 let to = leaves.unwrap_or(end);
                 if to > from {
-                    pieces.push(along_cap(cell, index, [from, to]));
+                    along_cap(cell, index, [from, to], pieces);
                 }
                 (to, leaves.is_none())
             }

@@ -66,22 +66,27 @@ impl Cell {
     }
 
     /// The largest z at a share of the cell.
+    ///
+    /// Its reciprocal is a parabola: towards a place where the tool stands its limit grows beyond all bounds, and the reciprocal falls to zero as a parabola.
     pub fn cap(&self, u: f64) -> f64 {
-        let [a, b, c] = self.caps;
         if self.is_level() {
-            return a;
+            return self.caps[0];
         }
+        let [a, b, c] = self.caps.map(f64::recip);
         let w = weights(u);
-        w[0] * a + w[1] * b + w[2] * c
+        let least = a.min(b).min(c);
+        (w[0] * a + w[1] * b + w[2] * c).max(least).recip()
     }
 
     /// Its slope by the way.
     pub fn cap_slope(&self, u: f64) -> f64 {
-        if self.is_level() {
+        let cap = self.cap(u);
+        if self.is_level() || !cap.is_finite() {
             return 0.0;
         }
-        let [a, b, c] = self.caps;
-        ((4.0 * u - 3.0) * a + (4.0 - 8.0 * u) * b + (4.0 * u - 1.0) * c) / self.length
+        let [a, b, c] = self.caps.map(f64::recip);
+        let slope = (4.0 * u - 3.0) * a + (4.0 - 8.0 * u) * b + (4.0 * u - 1.0) * c;
+        -slope * cap * cap / self.length
     }
 
     fn is_level(&self) -> bool {
