@@ -12,6 +12,10 @@ fn keys(text: &str) -> (&str, Option<&str>, Option<&str>) {
         Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
         None => (text, None),
     };
+    let rest = [", direct", "+direct"]
+        .into_iter()
+        .find_map(|end| rest.trim().strip_suffix(end))
+        .unwrap_or(rest);
     match rest.split_once('+') {
         Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim()), amplifier),
         None => (rest.trim(), None, amplifier),
@@ -51,7 +55,7 @@ pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive
         (None, None) => (motor, motors),
     };
     let near = closest(word, &keys).map_or_else(
-        || "`jred size FILE --refused` lists every drive".to_owned(),
+        || "`jred size FILE --all` lists every drive".to_owned(),
         |near| format!("did you mean \"{near}\"?"),
     );
     Err(miette!(

@@ -13,7 +13,6 @@ use crate::select::named::named;
 use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
-use jred_machine::plain;
 use jred_machine::read;
 use jred_machine::text::file::Files;
 
@@ -63,7 +62,7 @@ impl Study {
         rules: Option<RuleSet>,
         sampling: impl Into<Sampling>,
     ) -> Result<Self> {
-        let name = plain::path(path);
+        let name = jred_machine::plain::path(path);
         let files = Box::new(read::folder(path).to_owned());
         Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }
