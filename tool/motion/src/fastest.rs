@@ -4,8 +4,8 @@
 //! accelerations, and the fastest motion is at one end of it, or at a limit of the speed, all the time. It is found by two sweeps along
 //! the way (`sweep`), and by refining the cells of the way until the time does not change any more: there is no grid to choose.
 //!
-//! [`solve`] is exact for any torque-speed limits, for viscous and Coulomb friction and losses. If it finds no motion, there is none, but where
-//! limits of acceleration leave separate ranges of speed: `sweep` says why.
+//! [`solve`] is exact for any torque-speed limits, for viscous and Coulomb friction and losses. If it finds no motion, there is none, with
+//! two exceptions: limits that leave separate ranges of speed (`sweep` says why), and a force in a joint that only speed keeps within its limit.
 
 mod between;
 pub mod corners;

@@ -36,10 +36,12 @@ pub enum NoMotion {
         at_start: bool,
         /// What limits the acceleration there.
         limit: Binding,
+        /// In words, with the joint whose force it is.
+        name: Box<str>,
         /// Torque that keeps the machine moving there (N·m), and that the limit gives.
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
-        unit: &'static str,
+        unit: Coordinate,
         /// In whose words it is said.
         axis: Axis,
     },
@@ -51,10 +53,12 @@ pub enum NoMotion {
         at_end: bool,
         /// What limits the deceleration there.
         limit: Binding,
+        /// In words, with the joint whose force it is.
+        name: Box<str>,
         /// Torque that would hold the speed there (N·m), and that the limit gives; both negative: they brake.
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
-        unit: &'static str,
+        unit: Coordinate,
         /// In whose words it is said.
         axis: Axis,
     },
@@ -119,7 +123,7 @@ pub enum NoMotion {
         /// In whose words it is said.
         axis: Axis,
     },
-    /// The force in a joint exceeds its limit however slowly the machine moves.
+    /// The force in a joint exceeds its limit in a machine that moves slowly.
     JointForce {
         /// Name of the joint.
         joint: String,
@@ -151,6 +155,16 @@ impl From<Error> for NoMotion {
     }
 }
 
+/// A limit in words; that of a force with its joint.
+fn in_words(limit: Binding, field: &Field) -> Box<str> {
+    let name = limit.name_in(field.way.file.machine.mechanism());
+    if let Binding::JointForce(_) = limit {
+        format!("limit of the {name}").into()
+    } else {
+        name.into()
+    }
+}
+
 impl NoMotion {
     pub(super) fn of_force(file: &MachineFile, phi: f64, force: &JointForce) -> Self {
         let names = file.machine.mechanism().joint_names();
@@ -166,9 +180,9 @@ impl NoMotion {
         let axis = field.way.file.axis();
         let stages = field.way.file.drive_train.stages();
         let unit = if stages.is_empty() {
-            field.way.coordinate().effort_unit()
+            field.way.coordinate()
         } else {
-            Coordinate::Angle.effort_unit()
+            Coordinate::Angle
         };
         let place = |index: usize, u: f64| track.cells[index].spot(u);
         match obstacle {
@@ -179,6 +193,7 @@ impl NoMotion {
                     phi: place.phi,
                     at_start: index == 0 && u == 0.0,
                     limit,
+                    name: in_words(limit, field),
                     torques: field.needed_and_given(&place, limit, false),
                     unit,
                     axis,
@@ -191,6 +206,7 @@ impl NoMotion {
                     phi: place.phi,
                     at_end: index + 1 == track.cells.len() && u >= 1.0,
                     limit,
+                    name: in_words(limit, field),
                     torques: field.needed_and_given(&place, limit, true),
                     unit,
                     axis,
@@ -219,7 +235,7 @@ impl NoMotion {
                 axis,
             } => write!(
                 f,
-                "the force in joint \"{joint}\" is {} N at {} however slowly the machine moves; its limit is {} N",
+                "the force in joint \"{joint}\" is {} N at {} in a machine that moves slowly; its limit is {} N, and a motion that keeps it by its speed alone is not computed",
                 short(*force),
                 axis.place(*phi),
                 short(*limit)
@@ -277,7 +293,7 @@ impl NoMotion {
             ),
             Self::RmsTooLarge { rms, allowed } => write!(
                 f,
-                "no motion with an RMS torque of {} N m or less was found: the least that was found is {} N m. Weight and friction may keep it above the limit",
+                "no motion with an RMS torque of {} N m or less was found: the search met {} N m at the least. A slower motion may have less, and weight and friction may keep it above the limit",
                 short(*allowed),
                 short(*rms)
             ),
@@ -337,12 +353,14 @@ impl fmt::Display for NoMotion {
                 phi,
                 at_start,
                 limit,
+                name,
                 torques: [needed, given],
                 unit,
                 axis,
             } => {
                 let place = axis.place(*phi);
                 let [needed, given] = [needed, given].map(|torque| short(*torque));
+                let unit = unit.effort_unit();
                 let what = if *at_start {
                     "the machine cannot start at"
                 } else {
@@ -350,7 +368,7 @@ impl fmt::Display for NoMotion {
                 };
                 match limit {
                     Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
-                        write!(f, "{what} {place}: the {} is in the way", limit.name())
+                        write!(f, "{what} {place}: the {name} is in the way")
                     }
                     Binding::GearboxTorque => write!(
                         f,
@@ -366,12 +384,14 @@ impl fmt::Display for NoMotion {
                 phi,
                 at_end,
                 limit,
+                name,
                 torques: [needed, given],
                 unit,
                 axis,
             } => {
                 let place = axis.place(*phi);
                 let [needed, given] = [needed, given].map(|torque| short(torque.abs()));
+                let unit = unit.effort_unit();
                 let what = if *at_end {
                     "the machine cannot be stopped at"
                 } else {
@@ -379,12 +399,11 @@ impl fmt::Display for NoMotion {
                 };
                 match limit {
                     Binding::JointForce(_) => {
-                        write!(f, "{what} {place}: the {} is in the way", limit.name())
+                        write!(f, "{what} {place}: the {name} is in the way")
                     }
                     Binding::Deceleration | Binding::Acceleration => write!(
                         f,
-                        "{what} {place}: its loads brake harder than the {} allows",
-                        limit.name()
+                        "{what} {place}: its loads brake harder than the {name} allows"
                     ),
                     _ => write!(
                         f,

@@ -38,8 +38,10 @@ impl Rms {
     }
 }
 
-/// Shares s that are tried until the RMS torque is small enough. Of a constant inertia alone s is 1/5.
-const SHARES: [f64; 10] = [0.2, 0.4, 0.6, 0.8, 0.9, 0.96, 0.99, 0.997, 0.9997, 0.999_99];
+/// Shares s that are tried until the RMS torque is small enough. Of a constant inertia alone s is 1/4.
+const SHARES: [f64; 10] = [
+    0.25, 0.4, 0.6, 0.8, 0.9, 0.96, 0.99, 0.997, 0.9997, 0.999_99,
+];
 
 /// Steps between two shares, and the share of the RMS torque at which the pieces of the motions stay what they are.
 const STEPS: u32 = 40;

@@ -27,6 +27,7 @@ impl NoMotion {
                 ..
             } => {
                 let missing = short(torques[0] - torques[1]);
+                let unit = unit.effort_unit();
                 match limit {
                     Binding::GearboxTorque => format!(
                         "take a gearbox with {missing} {unit} more at its output, or start with more speed"
@@ -52,7 +53,7 @@ impl NoMotion {
             Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
             Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
             Self::TooLong { .. } | Self::NotAccurate { .. } => {
-                "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed)".to_owned()
+                "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed); or limit the speed (--max-speed)".to_owned()
             }
             Self::LoadJumps { .. } => {
                 "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
