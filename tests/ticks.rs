@@ -1,7 +1,8 @@
-//! The tests of the library that `scripts/test tests-release` runs again, optimised: of all that wraps on purpose (angles,
+//! The tests of the library that `scripts/test tests-release` runs again, optimised: of all that wraps on purpose (angles, counters,
 //! fixed point, the reading of tables, ticks, pieces), and of the search for tables, which reads them. Elsewhere nothing may
 //! wrap, which `tests/main.rs` shows with overflow checked; then an optimised program computes the same.
 
+mod axis;
 mod duty;
 mod fixed_point;
 mod fixed_vs_float;
