@@ -136,7 +136,7 @@ impl CPlan {
     }
 }
 
-/// The set-point of a tick, and its stage; waiting without a follower.
+/// The set-point of a tick, and its stage; 0 without a follower.
 fn next<N: CNumber>(
     follow: Option<&mut Follow<N>>,
     percent: u32,

@@ -1,6 +1,6 @@
 //! What C sees is what Rust has.
 
-use jred::{Set, Spline, curves, include_image};
+use jred::{Q31, Set, Spline, curves, include_image};
 
 use crate::memory::Memory;
 
@@ -14,6 +14,17 @@ mod ticks;
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 type Press = Memory<Spline<f32>>;
+
+#[allow(improper_ctypes, reason = "C sees the memory of a model as bytes")]
+unsafe extern "C" {
+    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
+    fn jred_spline_q31_load(
+        memory: *mut Memory<Spline<Q31>>,
+        set: Set,
+        words: *const u32,
+        length: usize,
+    ) -> i32;
+}
 
 fn words(bytes: &[u8]) -> Vec<u32> {
     let (words, _) = bytes.as_chunks();

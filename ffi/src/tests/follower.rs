@@ -7,7 +7,7 @@ use jred::axis::plan::{Errors, Knot, encode, image_len};
 use jred::axis::{Follower, Plan, Rate};
 use jred::{Domain, Image, Q15, Q31, Rows16, Set, Spline, include_image};
 
-use super::{PRESS, Press, press, words};
+use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press, words};
 use crate::follower::{CPlan, CPlanned, CStage, Follow};
 use crate::memory::Memory;
 use crate::status::Status;
@@ -17,13 +17,6 @@ use crate::status::Status;
     reason = "C sees the memory of a model and of a follower as bytes"
 )]
 unsafe extern "C" {
-    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
-    fn jred_spline_q31_load(
-        memory: *mut Memory<Spline<Q31>>,
-        set: Set,
-        words: *const u32,
-        length: usize,
-    ) -> i32;
     fn jred_rows_q15_load(
         memory: *mut Memory<Rows16>,
         set: Set,

@@ -7,7 +7,7 @@ use jred::image::{encode, image_len};
 use jred::table::Shape;
 use jred::{Image, Model, Phase, Set, SliderCrankForm, Table, Validity, curves};
 
-use super::{PRESS, Press, press};
+use super::{PRESS, Press, jred_spline_f32_load, press};
 use crate::memory::Memory;
 use crate::status::Status;
 
@@ -39,7 +39,6 @@ unsafe extern "C" {
         omega: f32,
         torque: f32,
     ) -> f32;
-    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
 }
 
 /// An image of a slider-crank in closed form with a constant load and constant frictions; other numbers may stand for its own.

@@ -3,24 +3,17 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
-use jred::{Cubic, Image, Model, Phase, Q31, Set, Spline, curves};
+use jred::{Cubic, Image, Model, Phase, Set, Spline, curves};
 
-use super::{PRESS, Press, press};
+use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press};
 use crate::image::jred_image_info;
 use crate::memory::{ANY, Memory};
 use crate::status::Status;
 
 #[allow(improper_ctypes, reason = "C sees the memory of a model as bytes")]
 unsafe extern "C" {
-    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
     fn jred_cubic_f32_load(
         memory: *mut Memory<Cubic<f32>>,
-        set: Set,
-        words: *const u32,
-        length: usize,
-    ) -> i32;
-    fn jred_spline_q31_load(
-        memory: *mut Memory<Spline<Q31>>,
         set: Set,
         words: *const u32,
         length: usize,

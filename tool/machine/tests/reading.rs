@@ -89,3 +89,31 @@ pub(crate) fn says(report: &str, words: &[&str]) {
         assert!(report.contains(word), "{word:?} is not in\n{report}");
     }
 }
+
+/// A table of an inertia (kg·m²) and a friction (N·m) behind a pair of gears, of which 20 teeth drive so many; what is left of the stage and of the file
+/// follows.
+pub(crate) fn table_behind_gears(
+    [inertia, friction]: [f64; 2],
+    driven: u32,
+    rest: &str,
+) -> MachineFile {
+    parse(&format!(
+        r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "rotary-table"
+[mechanism.table]
+mass = "1 kg"
+inertia = "{inertia} kg m^2"
+[[load]]
+on = "table"
+opposing_moment = "{friction} N m"
+[[drive_train]]
+type = "gear-train"
+[[drive_train.stage]]
+driver = {{ teeth = 20, inertia = "0 kg m^2" }}
+driven = {{ teeth = {driven}, inertia = "0 kg m^2" }}
+{rest}"#
+    ))
+    .unwrap()
+}

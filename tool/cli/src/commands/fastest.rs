@@ -1,5 +1,7 @@
 //! `jred fastest`: moves in minimum time.
 
+mod limits;
+
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
@@ -7,23 +9,19 @@ use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{Done, drive_named, envelope, print};
 use crate::options::fastest::{Asked, Fastest as Options};
-use crate::options::retime::Ends;
 use crate::output;
 use crate::output::print_parts;
-use jred::machine::Mechanism as _;
-use jred::{Domain, Reducible as _};
-use jred_machine::analysis::reduce::joints_with_force;
+use jred::Reducible as _;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
-use jred_motion::fastest::{JointForces, Limits, NoMotion, Reserve, Rms, Task, ToolSpeed};
+use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task};
 use jred_motion::moves::{NoMoves, parts, ring};
 use jred_motion::way::Actuator;
 use jred_report::list;
@@ -34,6 +32,7 @@ use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
+use limits::limits;
 
 /// What moves the machine, by name, and what its gearbox limits.
 struct Chosen {
@@ -64,8 +63,8 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(Asked::Share(share)) => Reserve::of_motor(share),
         Some(Asked::Rules) => Reserve::of(&file.rules),
     };
-    let mut asked = asked(options);
-    let limits = limits(options, &file, (&chosen.limits, &mut asked))?.with_reserve(reserve);
+    let (limits, asked) = limits(options, &file, &chosen.limits)?;
+    let limits = limits.with_reserve(reserve);
     let rms = rms(options, &file, &chosen)?;
     let cycle = match task {
         Some(task) => {
@@ -213,188 +212,6 @@ fn quantity(
 fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
     let given = quantity(name, text, read, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
-}
-
-/// The options that were given, but for those of which the answer speaks anyway: moves, drive and reserve.
-fn asked(options: &Options) -> Vec<String> {
-    let ends = options.ends.map(|ends| ends.word().to_owned());
-    let given = [
-        ("from-speed", &options.from_speed),
-        ("to-speed", &options.to_speed),
-        ("max-speed", &options.max_speed),
-        ("max-acceleration", &options.max_acceleration),
-        ("max-deceleration", &options.max_deceleration),
-        ("max-jerk", &options.max_jerk),
-        ("max-torque-rate", &options.max_torque_rate),
-        ("ends", &ends),
-        ("max-rms", &options.max_rms),
-    ];
-    let given = given.into_iter();
-    let given = given.filter_map(|(name, text)| Some(format!("--{name} {}", text.as_ref()?)));
-    let forces = options.max_reaction.iter();
-    let forces = forces.map(|text| format!("--max-reaction {text}"));
-    given.chain(forces).collect()
-}
-
-/// The limits of the command line, and those of the gearbox; adds to what was asked where the tool's speed is limited.
-fn limits(
-    options: &Options,
-    file: &MachineFile,
-    (gearbox, asked): (&Limits, &mut Vec<String>),
-) -> Result<Limits> {
-    let axis = file.axis();
-    let read = |name: &str, text: &Option<String>, read: read::Reader| {
-        rate(name, text.as_deref(), read, &axis)
-    };
-    let acceleration = read(
-        "max-acceleration",
-        &options.max_acceleration,
-        read::largest_acceleration,
-    )?;
-    let deceleration = read(
-        "max-deceleration",
-        &options.max_deceleration,
-        read::largest_acceleration,
-    )?;
-    let jerk = read("max-jerk", &options.max_jerk, read::largest_jerk)?;
-    let torque_rate = quantity(
-        "max-torque-rate",
-        options.max_torque_rate.as_deref(),
-        read::largest_effort_rate,
-        motor_coordinate(file),
-    )?;
-    let has_rates = jerk.is_some() || torque_rate.is_some();
-    if options.ends == Some(Ends::Zero) && !has_rates {
-        return Err(miette!(
-            help = "give --max-jerk or --max-torque-rate as well",
-            "--ends zero alone has no fastest motion: the faster the acceleration rises from zero, the less time the motion takes"
-        ));
-    }
-    Ok(Limits {
-        speed: read("max-speed", &options.max_speed, read::largest_speed)?,
-        tool: match &options.max_tool_speed {
-            Some(text) => {
-                let (limit, words) = tool_speed(text, file)?;
-                asked.push(words);
-                Some(limit)
-            }
-            None => None,
-        },
-        forces: forces(&options.max_reaction, file)?,
-        acceleration,
-        deceleration: deceleration.or(acceleration),
-        jerk,
-        torque_rate,
-        level_ends: has_rates && options.ends != Some(Ends::Free),
-        ..*gearbox
-    })
-}
-
-/// "crank pin=2 kN", for each joint.
-fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
-    let mut forces = JointForces::default();
-    let joints = joints_with_force(file.machine.mechanism()).map_err(core_report)?;
-    for text in texts {
-        let given = format!("--max-reaction {}", plain::quoted(text));
-        let Some((name, force)) = text.rsplit_once('=') else {
-            return Err(miette!(
-                help = "write a joint and its largest force: \"crank pin=2 kN\"",
-                "{given} has no \"=\""
-            ));
-        };
-        let name = name.trim();
-        let Some((joint, _)) = joints.iter().find(|(_, own)| *own == name) else {
-            let all: Vec<&str> = joints.iter().map(|(_, name)| *name).collect();
-            return Err(miette!(
-                help = format!("these do: {}", all.join(", ")),
-                "{given}: the mechanism has no joint {} that carries a force",
-                plain::quoted(name)
-            ));
-        };
-        let force = read::drive_effort(force.trim(), Coordinate::Length)
-            .map_err(|why| miette!("{given} cannot be used: {why}"))?;
-        forces = forces.with(*joint, force);
-    }
-    Ok(forces)
-}
-
-/// "slider, 60 mm/s, 300 deg, 360 deg"; the limit, and where it holds.
-fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
-    let given = format!("--max-tool-speed {}", plain::quoted(text));
-    let mechanism = file.machine.mechanism();
-    let links = &mechanism.link_names()[..mechanism.own_links()];
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let &[point, speed, from, to] = parts.as_slice() else {
-        return Err(miette!(
-            help = "write a point, its largest speed, and two positions of the drive link: \"slider, 60 mm/s, 300 deg, 360 deg\"",
-            "{given} has {} instead of four",
-            counted(parts.len(), "part", "parts")
-        ));
-    };
-    let named = mechanism.points().iter().find(|own| own.name == point);
-    let link = || links.iter().position(|name| name == point);
-    let place = named
-        .map(|own| (own.link, own.at))
-        .or_else(|| Some((link()?, [0.0; 2])));
-    let Some(place) = place else {
-        let points = mechanism.points().iter().map(|own| own.name.as_str());
-        let all: Vec<&str> = points.chain(links.iter().map(String::as_str)).collect();
-        return Err(miette!(
-            help = format!("it has {}", all.join(", ")),
-            "{given}: the mechanism has no point and no link {}",
-            plain::quoted(point)
-        ));
-    };
-    let refused = |why: String| miette!("{given} cannot be used: {why}");
-    let most = read::largest_speed(speed, Coordinate::Length).map_err(refused)?;
-    let domain = mechanism.domain();
-    let turns = domain == Domain::Turn;
-    let drive = Axis::of_drive(mechanism.coordinate());
-    // A part of a turn comes again with every turn, a length along the axis does not.
-    let spoken = if turns { drive } else { file.axis() };
-    let ends = format!("{from}, {to}");
-    let ends = read::drive_positions(&ends, domain, [&drive, &spoken]);
-    let &[start, end] = ends.map_err(refused)?.as_slice() else {
-        return Err(refused("it needs two positions".to_owned()));
-    };
-    let between = if turns {
-        [start, end]
-    } else {
-        // The axis may go back where the drive link goes on.
-        [start.min(end), start.max(end)]
-    };
-    let width = between[1] - between[0];
-    if width == 0.0 || width.abs() > domain.span() {
-        return Err(miette!(
-            help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
-            "{given}: from {from} to {to} is no part of the way"
-        ));
-    }
-    let over = if width < 0.0 {
-        let rest = spoken.coordinate.shown(domain.span() + width);
-        format!(
-            ", over the end of the turn, {} {} in all (for the other part swap the two positions)",
-            short(rest),
-            spoken.coordinate.unit()
-        )
-    } else {
-        String::new()
-    };
-    let words = format!(
-        "--max-tool-speed {point}, {speed}, from {} to {}{over}",
-        spoken.place(start),
-        spoken.place(end)
-    );
-    let limit = ToolSpeed::new(mechanism, place, most, between);
-    let limit = limit.map_err(core_report)?;
-    let limit = limit.map(|limit| (limit, words));
-    limit.ok_or_else(|| {
-        miette!(
-            help = "choose a point or a link that moves with the drive link",
-            "{given}: {} does not move",
-            plain::quoted(point)
-        )
-    })
 }
 
 /// Whether the motor turns or slides.

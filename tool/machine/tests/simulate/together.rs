@@ -4,37 +4,20 @@ use jred_machine::analysis::simulate::{Simulated, Together, simulate_together};
 use jred_machine::model::machine::MachineFile;
 
 use super::imbalance;
-use crate::reading::parse;
+use crate::reading::{parse, table_behind_gears};
 use crate::support::{Columns, budget, near, near_column, press_text, within};
 
 /// A table behind a pair of gears, each with its friction.
 fn table(inertia: f64, driven: u32, friction: f64) -> MachineFile {
-    parse(&format!(
-        r#"
-gravity = ["0 m/s^2", "0 m/s^2"]
-[mechanism]
-type = "rotary-table"
-[mechanism.table]
-mass = "1 kg"
-inertia = "{inertia} kg m^2"
-[[load]]
-on = "table"
-opposing_moment = "{friction} N m"
-[[drive_train]]
-type = "gear-train"
-[[drive_train.stage]]
-driver = {{ teeth = 20, inertia = "0 kg m^2" }}
-driven = {{ teeth = {driven}, inertia = "0 kg m^2" }}
-efficiency = "90 %"
+    let rest = r#"efficiency = "90 %"
 [simulation]
 start_angle = "10 deg"
 duration = "1 s"
 output_step = "20 ms"
 torque = "-5 N m"
 rotor_inertia = "0.02 kg m^2"
-"#
-    ))
-    .unwrap()
+"#;
+    table_behind_gears([inertia, friction], driven, rest)
 }
 
 fn run(first: &MachineFile, others: &[(&MachineFile, f64)]) -> (Simulated, Columns) {

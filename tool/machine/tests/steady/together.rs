@@ -5,7 +5,7 @@ use jred_machine::analysis::steady::{Request, Steady, SteadyError, steady_togeth
 use jred_machine::model::machine::MachineFile;
 
 use super::{checked, checked_to, of};
-use crate::reading::parse;
+use crate::reading::{parse, table_behind_gears};
 use crate::support::{budget, near, press_text, within};
 
 fn together(
@@ -108,29 +108,13 @@ fn a_faster_machine_counts_by_its_ratio() {
 
 /// A table of this inertia and friction behind gears without loss, under a shunt motor.
 fn turning(inertia: f64, friction: f64, driven: u32) -> MachineFile {
-    parse(&format!(
-        r#"
-gravity = ["0 m/s^2", "0 m/s^2"]
-[mechanism]
-type = "rotary-table"
-[mechanism.table]
-mass = "1 kg"
-inertia = "{inertia} kg m^2"
-[[load]]
-on = "table"
-opposing_moment = "{friction} N m"
-[[drive_train]]
-type = "gear-train"
-[[drive_train.stage]]
-driver = {{ teeth = 20, inertia = "0 kg m^2" }}
-driven = {{ teeth = {driven}, inertia = "0 kg m^2" }}
+    let rest = r#"
 [simulation]
 start_angle = "0 deg"
 duration = "1 s"
 output_step = "20 ms"
 torque_speed = [["0 rad/s", "20 N m"], ["400 rad/s", "0 N m"]]
 rotor_inertia = "0.02 kg m^2"
-"#
-    ))
-    .unwrap()
+"#;
+    table_behind_gears([inertia, friction], driven, rest)
 }
