@@ -12,6 +12,8 @@
 //! at the drive link, and the losses of the drive train. T rises with a, in straight lines that meet where the power at a stage
 //! changes its direction.
 
+mod flows;
+
 use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
@@ -21,6 +23,8 @@ use jred_machine::model::schedule::Now;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
+
+use flows::Flows;
 
 /// What moves the machine: a drive at its supply.
 #[derive(Clone, Debug)]
@@ -61,15 +65,14 @@ pub struct Way<'a> {
     pub direction: f64,
     /// Signed ratio of the drive train.
     ratio: f64,
-    /// Whether no stage of the drive train has losses.
-    lossless: bool,
+    /// The torque of the motor.
+    motor: Flows,
+    /// That of the gearbox output, the input of the drive train.
+    gearbox: Flows,
 }
 
 /// The torque of the gearbox output as a linear form in the loads there.
 const GEARBOX_OUTPUT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
-
-/// Steps after which the acceleration of a torque is found: each leaves a straight line that it does not come back to.
-const MOST_LINES: u32 = 50;
 
 /// The machine at a place, worked out once for all speeds.
 #[derive(Clone, Copy, Debug)]
@@ -99,22 +102,25 @@ pub struct Demand {
 }
 
 impl Place {
-    /// What resists the motion at a speed without an acceleration (N·m).
-    fn resisting(&self, speed: f64) -> f64 {
-        0.5 * self.inertia_slope * speed * speed + self.load + self.viscous * speed + self.coulomb
+    /// What resists the motion at a speed without an acceleration (N·m), and the inertia (kg·m²).
+    fn load(&self, speed: f64) -> [f64; 2] {
+        let carried = 0.5 * self.inertia_slope * speed * speed;
+        let resisting = carried + self.load + self.viscous * speed + self.coulomb;
+        [resisting, self.inertia]
     }
 }
 
 impl<'a> Way<'a> {
     /// The way of a machine under a drive; `direction` is +1 or −1.
     pub fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
-        let stages = file.drive_train.stages();
+        let train = &file.drive_train;
         Self {
+            motor: Flows::new(train, &actuator.coefficients),
+            gearbox: Flows::new(train, &GEARBOX_OUTPUT),
+            ratio: train.ratio(),
             file,
             actuator,
             direction,
-            ratio: file.drive_train.ratio(),
-            lossless: stages.iter().all(|stage| stage.efficiency() >= 1.0),
         }
     }
 
@@ -171,30 +177,12 @@ impl<'a> Way<'a> {
     /// The motor torque that a place, a speed (not negative) and an acceleration ask for. At rest, friction is that of a motion
     /// that begins.
     pub fn demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
-        self.form(&self.actuator.coefficients, place, speed, acceleration)
+        self.motor.demand(place.load(speed), acceleration, speed).0
     }
 
-    /// Through which stages power flows back to the motor, a bit for each stage of the drive train and one for the gearbox: where one
-    /// changes, the demand bends.
-    pub fn backward_stages(&self, place: &Place, speed: f64, acceleration: f64) -> u32 {
-        if self.is_linear(&self.actuator.coefficients) {
-            return 0;
-        }
-        let mut torque = place.inertia * acceleration + place.resisting(speed);
-        let (mut alpha, mut sense) = (acceleration, 1.0);
-        let mut bits = 0;
-        for stage in self.file.drive_train.stages().iter().rev() {
-            let [driver, driven] = stage.inertias();
-            let delivered = torque + driven * alpha;
-            let back = delivered * sense < 0.0;
-            bits = bits << 1 | u32::from(back);
-            let efficiency = stage.efficiency();
-            let loss = if back { efficiency } else { 1.0 / efficiency };
-            sense *= stage.ratio();
-            alpha *= stage.ratio();
-            torque = delivered / stage.ratio() * loss + driver * alpha;
-        }
-        bits << 1 | u32::from(torque * sense < 0.0)
+    /// Which way power flows through the stages: where it changes, the demand bends.
+    pub fn flow(&self, place: &Place, speed: f64, acceleration: f64) -> usize {
+        self.motor.demand(place.load(speed), acceleration, speed).1
     }
 
     /// The motor torque that holds the machine at rest, without friction; positive against the way back.
@@ -211,75 +199,24 @@ impl<'a> Way<'a> {
 
     /// The torque at the gearbox output, the input of the drive train, that they ask for; positive where it drives.
     pub fn gearbox_demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
-        self.form(&GEARBOX_OUTPUT, place, speed, acceleration)
-    }
-
-    fn form(&self, c: &Coefficients, place: &Place, speed: f64, acceleration: f64) -> Demand {
-        let train = &self.file.drive_train;
-        let sense = self.ratio.signum();
-        let input = train.input(&TrainOutput {
-            torque: place.inertia * acceleration + place.resisting(speed),
-            torque_per_alpha: place.inertia,
-            omega: speed,
-            alpha: acceleration,
-            direction: 1.0,
-        });
-        // In the sense in which the input turns: its torque is positive where power flows to the machine.
-        let (torque, slope) = (input.torque * sense, input.torque_per_alpha * sense);
-        let (torque_loads, share) = if torque < 0.0 {
-            ([0.0, torque], 2)
-        } else {
-            ([torque, 0.0], 1)
-        };
-        let [driving, back] = torque_loads;
-        let ratio = self.ratio.abs();
-        Demand {
-            torque: c.torque(&[ratio * acceleration, driving, back, ratio * speed, 1.0]),
-            per_acceleration: c.0[0] * ratio + c.0[share] * slope,
-        }
+        self.gearbox
+            .demand(place.load(speed), acceleration, speed)
+            .0
     }
 
     /// The acceleration that a motor torque gives: the inverse of [`demand`](Self::demand).
     pub fn acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
-        self.inverse(&self.actuator.coefficients, place, speed, torque)
+        self.motor.acceleration(place.load(speed), torque, speed)
     }
 
     /// The acceleration that a torque at the gearbox output gives.
     pub fn gearbox_acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
-        self.inverse(&GEARBOX_OUTPUT, place, speed, torque)
-    }
-
-    /// From one straight line to the next by Newton's steps; on the right one the step is exact.
-    fn inverse(&self, c: &Coefficients, place: &Place, speed: f64, torque: f64) -> f64 {
-        let mut line = self.form(c, place, speed, 0.0);
-        let mut acceleration = (torque - line.torque) / line.per_acceleration;
-        if self.is_linear(c) {
-            return acceleration;
-        }
-        for _ in 0..MOST_LINES {
-            let next = self.form(c, place, speed, acceleration);
-            if next
-                .per_acceleration
-                .total_cmp(&line.per_acceleration)
-                .is_eq()
-            {
-                break;
-            }
-            acceleration += (torque - next.torque) / next.per_acceleration;
-            line = next;
-        }
-        acceleration
+        self.gearbox.acceleration(place.load(speed), torque, speed)
     }
 
     /// Whether the torque of the motor bends where power changes its direction.
     pub fn bends(&self) -> bool {
-        !self.is_linear(&self.actuator.coefficients)
-    }
-
-    /// Whether the torque is one straight line in the acceleration.
-    fn is_linear(&self, c: &Coefficients) -> bool {
-        let [_, driving, back, ..] = c.0;
-        self.lossless && driving.total_cmp(&back).is_eq()
+        !self.motor.is_lossless()
     }
 
     /// Least and largest acceleration that the motor can give at a place and speed; infinite where no limit is known.

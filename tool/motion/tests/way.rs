@@ -1,20 +1,32 @@
 //! The way against the duty, which counts in the drive link's own direction.
 
 use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 
 use crate::support::budget::SAME_SUMS;
-use crate::support::press_file;
+use crate::support::{Folder, edited, edited_press, press_file};
 
-/// The motor torque of every drive at every instant of the press's cycle in which it moves is the duty's, and the acceleration that
-/// this torque gives is the instant's.
+/// The motor torque of every drive at every instant of the press's cycle in which it moves is the duty's, which goes through the train
+/// stage by stage, and the acceleration that this torque gives is the instant's: behind its belt, and behind two more stages with losses,
+/// one of which turns the direction round.
 #[test]
 fn demand_is_that_of_the_duty_and_acceleration_its_inverse() {
-    let file = read::read(&press_file()).unwrap();
-    let duty = Duty::new(&file, file.required_motion().unwrap(), 200).unwrap();
+    behaves_as_the_duty(&read::read(&press_file()).unwrap());
+    let folder = Folder::new();
+    let stages = "[[drive_train]]\ntype = \"friction\"\nratio = -0.6\nslip = \"6 %\"\n\
+                  input_inertia = \"0.0004 kg m^2\"\noutput_inertia = \"0.002 kg m^2\"\n\n";
+    let text = edited_press("[[drive_train]]", &format!("{stages}[[drive_train]]"));
+    let text = edited(&text, "[motion]", &format!("{stages}[motion]"));
+    let text = edited(&text, "ratio = -0.6", "ratio = 1.2");
+    behaves_as_the_duty(&read::read(&folder.file("train.toml", text)).unwrap());
+}
+
+fn behaves_as_the_duty(file: &MachineFile) {
+    let duty = Duty::new(file, file.required_motion().unwrap(), 200).unwrap();
     let catalogue = Catalogue::built_in().unwrap();
     let mut checked = 0;
     for (_, drive) in catalogue.drives().step_by(37) {
@@ -25,7 +37,7 @@ fn demand_is_that_of_the_duty_and_acceleration_its_inverse() {
                 continue;
             }
             let direction = instant.omega.signum();
-            let way = Way::new(&file, actuator.clone(), direction);
+            let way = Way::new(file, actuator.clone(), direction);
             let place = way.place(instant.phi).unwrap();
             let speed = instant.omega.abs();
             let acceleration = instant.alpha * direction;

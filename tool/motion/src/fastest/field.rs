@@ -356,8 +356,8 @@ impl Field<'_, '_> {
             Binding::JointForce(joint) => (2, joint),
             _ => (3, 0),
         };
-        let back = self.way.backward_stages(place, v, a);
-        kind | (which as u32 & 0xff) << 4 | back << 12
+        let flow = self.way.flow(place, v, a) as u32;
+        kind | (which as u32 & 0xff) << 4 | flow << 12
     }
 }
 
