@@ -64,7 +64,7 @@ pub enum Stage {
 pub struct Planned<N: Number> {
     /// Position, speed and acceleration.
     pub motion: Motion<N>,
-    /// Whole turns since φ = 0; 0 on a stroke.
+    /// Whole turns since φ = 0; 0 on a stroke. They jump back at each repeat of a plan that goes on by whole turns: whoever needs the way counts the jumps.
     pub turns: i32,
     /// How far.
     pub stage: Stage,
@@ -119,7 +119,7 @@ impl<'a, N: Number> Follower<'a, N> {
     /// At the start of a plan, with a tick of `period` seconds; `ramp` is the time (s) that the rate takes from 0 to 100 %. The plan must be for the same model.
     ///
     /// # Errors
-    /// A period less than a microsecond, more than a quarter of a second or as long as the plan; a ramp that is negative, not finite or longer than 1000 s; one whose acceleration is
+    /// A period less than a microsecond, of a quarter of a second or more, or as long as the plan or longer; a ramp that is negative, not finite or longer than 1000 s; one whose acceleration is
     /// beyond what single precision, or in fixed point a factor, holds.
     pub fn new(
         plan: Plan<'a, N>,
@@ -158,7 +158,8 @@ impl<'a, N: Number> Follower<'a, N> {
         })
     }
 
-    /// The same, again and again without a pause, in cycles of its length.
+    /// The same, again and again without a pause, in cycles of its length. If the plan goes on by whole turns, [`turns`](Planned::turns) jumps back to those of its
+    /// start at each repeat; the phase, the speed and the acceleration go on.
     ///
     /// # Errors
     /// [`PlanError::Open`]: its end is not its start, or whole turns from it, or has another speed.

@@ -337,3 +337,52 @@ fn a_long_row_is_exact() {
         }
     }
 }
+
+/// The greatest speed and acceleration of the header are those of the polynomials: not less than any of 10,000 places of each row, and as much as one of them.
+#[test]
+fn the_greatest_rates_are_those_of_the_polynomials() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let check = |knots: &[Knot]| {
+        let words = image(knots, Domain::Turn);
+        let most = Plan::new(&words, &model).unwrap().most().map(f64::from);
+        let mut sampled = [0.0_f64; 2];
+        // The shortest row tells of the rounding of positions by half a unit at both ends.
+        let mut rounded = [0.0_f64; 2];
+        for pair in knots.windows(2) {
+            let h = pair[1].t - pair[0].t;
+            let unit = TAU / 2f64.powi(32);
+            rounded = [
+                rounded[0].max(2.0 * unit / h),
+                rounded[1].max(6.0 * unit / (h * h)),
+            ];
+            for k in 0..=10_000 {
+                let t = pair[0].t + h * f64::from(k) / 1e4;
+                let [_, v, a] = between(&pair[0], &pair[1], t);
+                sampled = [sampled[0].max(v.abs()), sampled[1].max(a.abs())];
+            }
+        }
+        for j in 0..2 {
+            let single = 1e-7 * sampled[j] + rounded[j];
+            assert!(most[j] >= sampled[j] - single, "{j}: {most:?} {sampled:?}");
+            assert!(
+                most[j] <= sampled[j] * (1.0 + 1e-6) + single,
+                "{j}: {most:?} {sampled:?}"
+            );
+        }
+        most
+    };
+    for knots in samples(20, 0xff62, &any_knots()) {
+        check(&knots);
+    }
+    // From rest to rest by the polynomial 3-4-5: 15/8 of the mean speed, 10/√3 of the way over the time squared.
+    let knot = |t, position| Knot {
+        t,
+        position,
+        ..Knot::default()
+    };
+    let [speed, acceleration] = check(&[knot(0.0, 0.0), knot(1.0, 1.0)]);
+    assert!((speed / 1.875 - 1.0).abs() < 1e-7, "{speed}");
+    assert!((acceleration * 3f64.sqrt() / 10.0 - 1.0).abs() < 1e-7);
+    // At constant jerk, where the derivative of the acceleration has no roots, or at constant acceleration, none that are finite.
+    check(&trapezoid());
+}

@@ -5,8 +5,9 @@ use core::ptr::{null, null_mut};
 
 use jred::image::{encode, image_len};
 use jred::table::Shape;
-use jred::{Image, Model, Phase, Set, SliderCrankForm, Table, Validity, curves};
+use jred::{Image, Model, Set, SliderCrankForm, Table, Validity, curves};
 
+use super::ticks::same_bits;
 use super::{PRESS, Press, jred_spline_f32_load, press};
 use crate::memory::Memory;
 use crate::status::Status;
@@ -69,29 +70,21 @@ fn a_closed_form_through_c_has_the_bits_of_one_in_rust() {
             jred_slider_crank_f32_load(&raw mut memory, 49, address, length),
             0
         );
-        for k in 0..1000_u32 {
-            let phase = k.wrapping_mul(4_294_967);
-            let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
-            let torque = model.torque(Phase::from_bits(phase), omega, alpha);
-            let back = model
-                .acceleration(Phase::from_bits(phase), omega, torque)
-                .value;
-            assert!((back - alpha).abs() < 1e-2, "{k}");
-            let same = |a: f32, b: f32| assert_eq!(a.to_bits(), b.to_bits(), "{k}");
-            let memory = &raw const memory;
-            same(
-                jred_slider_crank_f32_s49_torque(memory, phase, omega, alpha),
-                torque,
-            );
-            same(
-                jred_slider_crank_f32_any_torque(memory, phase, omega, alpha),
-                torque,
-            );
-            same(
-                jred_slider_crank_f32_s49_acceleration(memory, phase, omega, torque),
-                back,
-            );
-        }
+        let memory = &raw const memory;
+        same_bits(
+            &model,
+            [
+                &|phase, omega, alpha| {
+                    jred_slider_crank_f32_s49_torque(memory, phase, omega, alpha)
+                },
+                &|phase, omega, alpha| {
+                    jred_slider_crank_f32_any_torque(memory, phase, omega, alpha)
+                },
+            ],
+            &|phase, omega, torque| {
+                jred_slider_crank_f32_s49_acceleration(memory, phase, omega, torque)
+            },
+        );
     }
 }
 

@@ -3,6 +3,7 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
+use jred::table::Format;
 use jred::{Cubic, Image, Model, Phase, Set, Spline, curves};
 
 use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press};
@@ -28,6 +29,29 @@ unsafe extern "C" {
     fn jred_spline_f32_any_torque(memory: *const Press, phase: u32, omega: f32, alpha: f32) -> f32;
 }
 
+/// A function of C: phase and speed, and acceleration or torque.
+type Tick<'t> = &'t dyn Fn(u32, f32, f32) -> f32;
+
+/// A thousand ticks: torques and the acceleration of C have the bits of Rust, whose acceleration is that of the torque.
+pub(super) fn same_bits<F: Format<Number = f32>, const SET: Set>(
+    model: &Model<'_, F, SET>,
+    torques: [Tick<'_>; 2],
+    acceleration: Tick<'_>,
+) {
+    for k in 0..1000_u32 {
+        let phase = k.wrapping_mul(4_294_967);
+        let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
+        let torque = model.torque(Phase::from_bits(phase), omega, alpha);
+        let back = model.acceleration(Phase::from_bits(phase), omega, torque);
+        assert!((back.value - alpha).abs() < 1e-2, "{k}");
+        let same = |a: f32, b: f32| assert_eq!(a.to_bits(), b.to_bits(), "{k}");
+        for of_c in torques {
+            same(of_c(phase, omega, alpha), torque);
+        }
+        same(acceleration(phase, omega, torque), back.value);
+    }
+}
+
 #[test]
 fn a_tick_through_c_has_the_bits_of_one_in_rust() {
     let words = press();
@@ -39,27 +63,15 @@ fn a_tick_through_c_has_the_bits_of_one_in_rust() {
             jred_spline_f32_load(&raw mut memory, PRESS, words.as_ptr(), words.len()),
             0
         );
-        for k in 0..1000u32 {
-            let phase = k.wrapping_mul(4_294_967);
-            let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
-            let torque = model.torque(Phase::from_bits(phase), omega, alpha);
-            let back = model
-                .acceleration(Phase::from_bits(phase), omega, torque)
-                .value;
-            let same = |a: f32, b: f32| assert_eq!(a.to_bits(), b.to_bits(), "{k}");
-            same(
-                jred_spline_f32_s21_torque(&raw const memory, phase, omega, alpha),
-                torque,
-            );
-            same(
-                jred_spline_f32_any_torque(&raw const memory, phase, omega, alpha),
-                torque,
-            );
-            same(
-                jred_spline_f32_s21_acceleration(&raw const memory, phase, omega, torque),
-                back,
-            );
-        }
+        let memory = &raw const memory;
+        same_bits(
+            &model,
+            [
+                &|phase, omega, alpha| jred_spline_f32_s21_torque(memory, phase, omega, alpha),
+                &|phase, omega, alpha| jred_spline_f32_any_torque(memory, phase, omega, alpha),
+            ],
+            &|phase, omega, torque| jred_spline_f32_s21_acceleration(memory, phase, omega, torque),
+        );
     }
 }
 

@@ -35,8 +35,8 @@ const LONGEST: f64 = 8_388_608.0;
 /// Least exponent of a unit.
 const LEAST: i32 = -64;
 
-/// Parts of a row, at whose ends its speed and acceleration are looked at.
-const LOOKS: u32 = 16;
+/// Halvings of a part of a row in which its acceleration changes its sign: its speed is flat there.
+const HALVINGS: u32 = 40;
 
 /// The polynomial between two knots over the time u = t/H: its speed (2⁻³² of the range a second) and its coefficients of u² to u⁵ over H², in 2⁻³² of the
 /// range a second squared.
@@ -88,11 +88,8 @@ pub fn encode<'b>(
         let [from, to] = pair?;
         let (length, window) = window(k, [from, to], units)?;
         let segment = segment([from, to], length, window, from.omega, 0.5 * from.alpha[1]);
-        for look in 0..=LOOKS {
-            let u = f64::from(look) / f64::from(LOOKS) * length / window;
-            for (most, rate) in most.iter_mut().zip(segment.rates_at(u, window)) {
-                *most = most.max(math::abs(rate));
-            }
+        for (most, row) in most.iter_mut().zip(segment.most(length / window, window)) {
+            *most = most.max(row);
         }
         let [gained, _] = segment.sums();
         let faster = math::abs(from.omega) + window * gained;
@@ -255,6 +252,52 @@ impl Segment {
             2.0 * a + 3.0 * b + 4.0 * c + 5.0 * d,
             2.0 * a + 6.0 * b + 12.0 * c + 20.0 * d,
         ]
+    }
+
+    /// The greatest magnitudes of speed and acceleration up to this share of the window (s).
+    ///
+    /// The acceleration is greatest at an end or where its derivative 6·(b + 4c·u + 10d·u²) is 0; between those places it goes one way, and the speed is greatest where
+    /// it passes 0, or at an end.
+    fn most(&self, end: f64, window: f64) -> [f64; 2] {
+        let [_, b, c, d] = self.coefficients;
+        let root = math::sqrt((4.0 * c * c - 10.0 * b * d).max(0.0));
+        // Without cancellation; a root that is none is clamped to an end.
+        let sum = -2.0 * c - if c < 0.0 { -root } else { root };
+        let [one, other] = [sum / (10.0 * d), b / sum].map(|u| {
+            if u.is_finite() {
+                u.clamp(0.0, end)
+            } else {
+                0.0
+            }
+        });
+        let places = [0.0, one.min(other), one.max(other), end];
+        let mut most = [0.0_f64; 2];
+        let mut look = |u: f64| {
+            for (most, rate) in most.iter_mut().zip(self.rates_at(u, window)) {
+                *most = most.max(math::abs(rate));
+            }
+        };
+        places.into_iter().for_each(&mut look);
+        for (from, to) in places.into_iter().zip(places.into_iter().skip(1)) {
+            let rising = |u: f64| {
+                let [_, acceleration] = self.rates_at(u, window);
+                acceleration > 0.0
+            };
+            let (mut from, mut to, rises) = (from, to, rising(from));
+            if rises == rising(to) {
+                continue;
+            }
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (from + to);
+                if rising(middle) == rises {
+                    from = middle;
+                } else {
+                    to = middle;
+                }
+            }
+            look(from);
+        }
+        most
     }
 
     /// Speed and acceleration at a share of the window (s).

@@ -107,7 +107,7 @@ pub struct Errors {
 pub struct Place<N: Number> {
     /// Position, speed and acceleration.
     pub motion: Motion<N>,
-    /// Whole turns; 0 on a stroke.
+    /// Whole turns; 0 on a stroke. Counted within the plan: the next repeat of a plan that goes on by whole turns begins with those of its start again.
     pub turns: i32,
 }
 
@@ -199,7 +199,8 @@ impl<'a, N: Number> Plan<'a, N> {
         self.header.errors
     }
 
-    /// Its greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²), as magnitudes.
+    /// Its greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²), as magnitudes: those of its polynomials, to single precision (test
+    /// `the_greatest_rates_are_those_of_the_polynomials`).
     #[must_use]
     pub const fn most(&self) -> [f32; 2] {
         self.header.most

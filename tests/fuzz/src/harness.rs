@@ -43,12 +43,18 @@ pub struct Harness {
 }
 
 /// All of them.
-pub const ALL: [Harness; 6] = [
+pub const ALL: [Harness; 7] = [
     Harness {
         name: "image",
         kept: true,
         seeds: || files(&["examples/data", "examples/bits/data"], ".jred"),
         run: image,
+    },
+    Harness {
+        name: "plan",
+        kept: true,
+        seeds: plans,
+        run: crate::plan::plan,
     },
     Harness {
         name: "machine",
@@ -105,16 +111,16 @@ fn texts(bytes: &[u8], run: fn(&str) -> bool) -> bool {
     std::str::from_utf8(bytes).is_ok_and(run)
 }
 
+/// What plans are made from: that of the examples, and the kept ones.
+fn plans() -> Vec<Vec<u8>> {
+    let mut seeds = files(&["examples/data"], "_plan.jred");
+    seeds.extend(files(&["tests/fuzz/corpus/plan"], ""));
+    seeds
+}
+
 /// A table image: its CRC is made right, so that what is behind it is looked at; what is let in is ticked.
 fn image(bytes: &[u8]) -> bool {
-    let words = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
-    let mut words: Vec<u32> = words.collect();
-    let Some((last, before)) = words.split_last_mut() else {
-        return Image::new(&words).is_ok();
-    };
-    *last = crc32(before);
+    let words = with_crc(bytes);
     let Ok(image) = Image::new(&words) else {
         return false;
     };
@@ -159,6 +165,18 @@ fn ticks<F: Format>(image: &Image<'_>) -> bool {
         }
     }
     true
+}
+
+/// Bytes as the words of an image whose CRC is right.
+pub(crate) fn with_crc(bytes: &[u8]) -> Vec<u32> {
+    let words = bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    let mut words: Vec<u32> = words.collect();
+    if let Some((last, before)) = words.split_last_mut() {
+        *last = crc32(before);
+    }
+    words
 }
 
 /// CRC-32 as IEEE 802.3 defines it.

@@ -14,6 +14,7 @@ pub mod harness;
 pub mod heavy;
 pub mod machine;
 pub mod mutate;
+mod plan;
 
 use std::path::{Path, PathBuf};
 

@@ -53,6 +53,11 @@ fn images() {
 }
 
 #[test]
+fn plans() {
+    bounded("plan", 2000);
+}
+
+#[test]
 fn machines() {
     bounded("machine", 400);
 }

@@ -324,6 +324,12 @@ fn a_plan_is_the_motion() {
             .map(|rest| u32::from_str_radix(&rest[..8], 16).unwrap());
         assert_eq!(hexadecimal.collect::<Vec<_>>(), words);
     }
+    // Every ending of C and C++, small or capital, has the same text.
+    for ending in ["hh", "hpp", "hxx", "c", "cc", "cpp", "CPP", "cxx"] {
+        let other = folder.path(&format!("press_plan.{ending}"));
+        fastest(&other, "table");
+        assert_eq!(std::fs::read_to_string(&other).unwrap(), c_text, "{ending}");
+    }
     let array = format!("const uint32_t press_plan_words[{}] =", words.len());
     assert!(c_text.contains(&array), "{c_text}");
     let image = jred::Image::new(&table).unwrap();

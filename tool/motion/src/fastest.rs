@@ -40,7 +40,7 @@ pub use obstacle::NoMotion;
 pub use phases::Phase;
 pub use programme::{Price, Start, Warm};
 pub use rms::Rms;
-use sweep::Piece;
+use sweep::{Obstacle, Piece};
 pub use tool_speed::ToolSpeed;
 use track::{Ends, Track};
 
@@ -208,6 +208,7 @@ fn refine(
     };
     let z = ends.speeds.map(|v| 0.5 * v * v);
     let mut before: Option<f64> = None;
+    let mut end: Option<f64> = None;
     let mut settled = f64::INFINITY;
     let mut finer: Vec<f64> = Vec::new();
     for round in 0.. {
@@ -215,9 +216,23 @@ fn refine(
         if let Some((phi, force)) = joint_force::without_motion(&track) {
             return Err(NoMotion::of_force(file, phi, &force));
         }
-        let pieces = sweep::fastest(&field, &track, z)
-            .map_err(|obstacle| NoMotion::at(&field, &track, obstacle))?;
         let may_go_on = track.cells.len() < most && round < ROUNDS;
+        let pieces = match sweep::fastest(&field, &track, z) {
+            Ok(pieces) => pieces,
+            Err(Obstacle::StartTooFast(most) | Obstacle::EndTooFast(most))
+                if count < ENOUGH
+                    && finer.is_empty()
+                    && may_go_on
+                    && end
+                        .replace(most)
+                        .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
+            {
+                // How fast an end may be is known as well as the cells show the machine.
+                count *= 2;
+                continue;
+            }
+            Err(obstacle) => return Err(NoMotion::at(&field, &track, obstacle)),
+        };
         if let Err(empty) = between::check(&field, &ends, &track, &pieces) {
             // Between the places of a cell two limits that meet at the largest speed may cross.
             if task.limits.forces.is_some() && finer.is_empty() && count < ENOUGH && may_go_on {
@@ -253,6 +268,7 @@ fn refine(
                 excess,
                 phi,
                 change: settled / time,
+                endless: false,
                 axis: file.axis(),
             });
         }

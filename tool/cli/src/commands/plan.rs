@@ -31,7 +31,7 @@ pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Re
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let bytes = match ending.to_str() {
         Some("rs") => plan_source(&title, machine, &plan.words).into_bytes(),
-        Some("h" | "c") => {
+        Some("h" | "hh" | "hpp" | "hxx" | "c" | "cc" | "cpp" | "cxx") => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             plan_c_source(&title, &name, machine, &plan.words).into_bytes()
         }

@@ -9,8 +9,8 @@ use super::output_file;
 /// Where the plan goes, and how exact it is.
 #[derive(Debug, Args)]
 pub struct PlanFile {
-    /// Write the motion of the drive link as a plan that firmware follows (docs/table-image.md): Rust source if the name ends in .rs, C source if in
-    /// .h or .c, otherwise a binary image.
+    /// Write the motion of the drive link as a plan that firmware follows (docs/table-image.md): Rust source if the name ends in .rs, source of C
+    /// and C++ if in .h, .hh, .hpp, .hxx, .c, .cc, .cpp or .cxx, otherwise a binary image.
     #[arg(long, value_name = "FILE", value_parser = output_file())]
     pub plan: Option<PathBuf>,
     /// Share of the greatest speed and acceleration by which the plan may be off, of the way a tenth of it.

@@ -88,13 +88,23 @@ pub(super) fn excess(
         let inside = ends.inside(cell.length);
         let mut most = 0.0_f64;
         for share in LOOKS {
-            let state = within_step(a, b, share);
+            let state = b.after(a, share);
             // A place at a corner has the values of its own side.
             let x = (state.phi - ends.from) * direction;
             let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
             let place = way.place(ends.from + direction * x)?;
-            let (v, alpha) = (state.omega * direction, state.alpha * direction);
-            most = most.max(field.excess_by(&place, v, alpha)?.0);
+            let excess = |alpha: f64| -> Result<f64, NoMotion> {
+                let (v, alpha) = (state.omega * direction, alpha * direction);
+                Ok(field.excess_by(&place, v, alpha)?.0)
+            };
+            // In a step so short, rounding of the speeds and a bend of the acceleration between the nodes look the same: neither is an excess.
+            let nodes = within_step(a, b, share).alpha;
+            let own = excess(state.alpha)?;
+            most = most.max(if own > within {
+                own.min(excess(nodes)?)
+            } else {
+                own
+            });
         }
         if most > largest.0 {
             largest = (most, a.phi);

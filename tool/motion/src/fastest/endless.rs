@@ -80,7 +80,22 @@ pub(super) fn solve(
         speed = low * (1.0 - share);
         found = refine(file, actuator, &at(speed), WITHIN);
     }
-    let found = found?;
+    let found = found.map_err(|why| match why {
+        NoMotion::NotAccurate {
+            excess,
+            phi,
+            change,
+            axis,
+            ..
+        } => NoMotion::NotAccurate {
+            excess,
+            phi,
+            change,
+            endless: true,
+            axis,
+        },
+        other => other,
+    })?;
     let mut nodes = found.trace.nodes().to_vec();
     if let [first, .., last] = nodes.as_mut_slice() {
         first.alpha[0] = last.alpha[0];

@@ -91,6 +91,8 @@ pub enum NoMotion {
         phi: f64,
         /// Share by which the time changed with the last number of cells.
         change: f64,
+        /// Whether the motion goes on for ever.
+        endless: bool,
         /// In whose words it is said.
         axis: Axis,
     },
@@ -273,6 +275,7 @@ impl NoMotion {
                 phi,
                 change,
                 axis,
+                ..
             } => {
                 let place = axis.place(*phi);
                 write!(

@@ -3,8 +3,11 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use jred::Domain;
 use jred_machine::read;
-use jred_motion::fastest::{Binding, Limits, Task, solve};
+use jred_motion::fastest::{Binding, JointForces, Limits, NoMotion, Task, solve};
+use jred_motion::plan::{Plan, SHARE};
+use jred_motion::trace::Node;
 use jred_motion::way::Way;
 
 use super::{close, fastest, machine, motor, table, task};
@@ -119,4 +122,72 @@ fn machines_go_on_for_ever() {
         let nodes = found.trace.nodes();
         close(nodes[nodes.len() - 1].omega, nodes[0].omega, 1e-6);
     }
+}
+
+/// Symmetric about its dead centres: what drives it from the one brakes it to the other.
+const SYMMETRIC: &str = "title = \"symmetric\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
+    [mechanism.crank]\nlength = \"30 mm\"\nmass = \"9 kg\"\ninertia = \"0.018 kg m^2\"\ncom = [\"0 mm\", \"0 mm\"]\n\
+    [mechanism.rod]\nlength = \"180 mm\"\nmass = \"0.5 kg\"\ninertia = \"0.003 kg m^2\"\ncom = [\"55 mm\", \"0 mm\"]\n\
+    [mechanism.slider]\nmass = \"20 kg\"\n";
+
+/// Where driving meets braking in a dead centre, the turn comes round with the speed that driving reaches there, and no shred of driving is left behind it. Its plan has no row for one.
+#[test]
+fn a_turn_begins_where_driving_meets_braking() {
+    let file = machine(SYMMETRIC);
+    let motor = motor([10.0; 2], 314.159);
+    let guide = JointForces::default().with(3, 50.0);
+    let limits = Limits {
+        forces: guide,
+        ..Limits::default()
+    };
+    let endless = Task {
+        limits,
+        ..turn(0.0)
+    };
+    let found = solve(&file, &motor, &endless).unwrap();
+    let reaches = Task {
+        limits,
+        speeds: [40.0, 100.0],
+        ..task(0.5 * TAU, TAU)
+    };
+    let Err(NoMotion::EndTooFast { most, .. }) = solve(&file, &motor, &reaches) else {
+        panic!("100 rad/s cannot be reached");
+    };
+    let nodes = found.trace.nodes();
+    let [first, last] = [nodes[0], nodes[nodes.len() - 1]];
+    close(first.omega, most, 1e-8);
+    close(last.omega, most, 1e-8);
+    let jump = |node: &Node| (node.alpha[1] - node.alpha[0]).abs() > 1.0;
+    let shreds = nodes.windows(2).filter(|pair| {
+        let step = pair[1].step;
+        jump(&pair[0]) && jump(&pair[1]) && step > 1e-9 * found.time && step < 1e-5
+    });
+    assert_eq!(shreds.count(), 0);
+    let plan = Plan::new(&found.trace, Domain::Turn, 0, SHARE).unwrap();
+    assert_eq!(plan.excess, None);
+    assert!(plan.rows < 50, "{}", plan.rows);
+    let largest = nodes.iter().map(|node| node.alpha[0].abs());
+    let largest = largest.fold(0.0, f64::max);
+    close(f64::from(plan.most[1]), largest, 2.0 * SHARE);
+}
+
+/// A steep machine, whose acceleration bends more between two nodes than rounding of their speeds does: finer cells keep its torque.
+#[test]
+fn a_steep_turn_is_accurate() {
+    let file = machine(SYMMETRIC);
+    let found = solve(&file, &motor([10.0; 2], 314.159), &turn(0.0)).unwrap();
+    assert!(found.excess <= 1e-9, "{:e}", found.excess);
+    // It has 3000 rpm in the dead centres, where its inertia is least. Left alone it would keep its energy from there; 10 N m make it a little faster.
+    let way = Way::new(&file, motor([10.0; 2], 314.159), 1.0);
+    let least = way.place(0.0).unwrap().inertia;
+    let parts = 3600;
+    let free: f64 = (0..parts)
+        .map(|k| {
+            let phi = TAU * (f64::from(k) + 0.5) / f64::from(parts);
+            let inertia = way.place(phi).unwrap().inertia;
+            TAU / f64::from(parts) / (314.159 * (least / inertia).sqrt())
+        })
+        .sum();
+    close(found.time, free, 0.02);
+    assert!(found.time < free, "{} {free}", found.time);
 }

@@ -52,6 +52,9 @@ impl NoMotion {
             },
             Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
             Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
+            Self::NotAccurate { endless: true, .. } => {
+                "limit the speed (--max-speed): the slower the turn, the more accurately it is computed".to_owned()
+            }
             Self::TooLong { .. } | Self::NotAccurate { .. } => {
                 "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed); or limit the speed (--max-speed)".to_owned()
             }

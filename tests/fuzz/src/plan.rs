@@ -1,0 +1,125 @@
+//! Plans: what is let in is followed.
+
+use jred::axis::{Follower, Motion, Plan, Rate, Stage};
+use jred::number::{Bases, Number, Quantity as _};
+use jred::table::{Format, Shape};
+use jred::{Domain, MachineUnits, Model, Q31, Scale, Spline, Table, curves};
+
+use crate::harness::with_crc;
+
+/// Ticks of a plan at its own pace; twice as many are followed.
+const TICKS: u32 = 1000;
+
+/// Words of the header that name the range: its code, start and end.
+const RANGE: [usize; 3] = [3, 5, 6];
+
+/// A plan image: its CRC is made right, so that what is behind it is looked at; what is let in is followed in each kind of numbers. Whether one could follow it.
+pub(crate) fn plan(bytes: &[u8]) -> bool {
+    let words = with_crc(bytes);
+    let [kinds, from, to] = RANGE.map(|k| words.get(k).copied().unwrap_or_default());
+    let [kind, ..] = kinds.to_le_bytes();
+    let domain = if kind == 0 {
+        Domain::Turn
+    } else {
+        let ends = [from, to].map(|end| f64::from(f32::from_bits(end)));
+        let Ok(stroke) = Domain::stroke(ends[0], ends[1]) else {
+            // No model has this range, and no plan is let in with it.
+            assert!(read::<Spline<f32>>(&words, Domain::Turn, Scale::SI, [1.0 / 6.0; 7]).is_none());
+            return false;
+        };
+        stroke
+    };
+    // A torque of 2³⁰ N m is what 1 kg m² takes at an acceleration of 2³⁰ rad/s².
+    let wide = Bases {
+        torque: 1_073_741_824.0,
+        speed: 32_768.0,
+        inertia: 1.0,
+    };
+    let wide = Scale::new(wide).expect("bases");
+    let sixth = Q31::from_f64(1.0 / 6.0).expect("a number of the range");
+    let found = [
+        read::<Spline<f64>>(&words, domain, Scale::SI, [1.0 / 6.0; 7]),
+        read::<Spline<f32>>(&words, domain, Scale::SI, [1.0 / 6.0; 7]),
+        read::<Spline<Q31>>(&words, domain, wide, [sixth.to_bits(); 7]),
+    ];
+    found.contains(&Some(true))
+}
+
+/// Reads a plan for a machine of this range, whatever its inertia, and follows it; none if the plan is refused, or there is no such machine.
+fn read<F: Format>(
+    words: &[u32],
+    domain: Domain,
+    scale: Scale,
+    table: [F::Word; 7],
+) -> Option<bool> {
+    let shape = Shape::<F> {
+        set: curves::INERTIA,
+        cells: 4,
+        domain: domain.to(),
+        scale,
+        constants: F::Constants::default(),
+    };
+    let table = Table::new(&table, shape).ok()?;
+    let model = Model::<F, { curves::INERTIA }>::new(table).ok()?;
+    let plan = Plan::new(words, &model).map_err(|error| {
+        assert!(!error.to_string().is_empty() && !error.cure().to_string().is_empty());
+    });
+    let plan = plan.ok()?;
+    let on_stroke = domain != Domain::Turn;
+    let places = (0..=8).map(|k| plan.end() / 8 * k).chain([u64::MAX]);
+    for place in places.map(|time| plan.at(time).value) {
+        sound(&place.motion, place.turns, on_stroke);
+    }
+    Some(followed(plan, &model, on_stroke))
+}
+
+/// Follows a plan at its own pace, slower, and with a rate that changes, once and again and again; whether one may.
+fn followed<N: Number>(
+    plan: Plan<'_, N>,
+    model: &impl MachineUnits<Number = N>,
+    on_stroke: bool,
+) -> bool {
+    let period = (plan.duration() / TICKS as f32).clamp(1e-6, 0.24);
+    let changing = |tick: u32| match tick / 100 % 4 {
+        0 => Rate::FULL,
+        1 => Rate::STILL,
+        _ => Rate::percent(tick % 101),
+    };
+    let slower = |_| Rate::percent(37);
+    let rates: [(f32, &dyn Fn(u32) -> Rate); 3] = [
+        (0.0, &|_| Rate::FULL),
+        (100.0 * period, &slower),
+        (3.3 * period, &changing),
+    ];
+    for (k, (ramp, rate)) in rates.into_iter().enumerate() {
+        let Ok(once) = Follower::new(plan, period, ramp, model) else {
+            return false;
+        };
+        for mut follower in [Some(once), once.repeating().ok()].into_iter().flatten() {
+            let repeats = follower != once;
+            follower.start();
+            let mut done = false;
+            for tick in 0..2 * TICKS {
+                let planned = follower.next(rate(tick));
+                sound(&planned.motion, planned.turns, on_stroke);
+                // At its end it stays.
+                assert!(!done || planned.stage == Stage::Done, "{tick}: {planned:?}");
+                done = planned.stage == Stage::Done;
+            }
+            assert!(!(done && repeats), "it ends: {plan:?}");
+            let in_time = plan.duration() < 1.5 * TICKS as f32 * period;
+            assert!(
+                k > 0 || repeats || done || !in_time,
+                "it does not end: {plan:?}"
+            );
+        }
+    }
+    true
+}
+
+/// Numbers are some, and a stroke has no turns.
+fn sound<N: Number>(motion: &Motion<N>, turns: i32, on_stroke: bool) {
+    let rates = [motion.omega.number(), motion.alpha.number()].map(Number::to_f64);
+    assert!(rates.iter().all(|rate| rate.is_finite()), "{motion:?}");
+    assert!(!on_stroke || turns == 0, "{motion:?}: {turns}");
+}

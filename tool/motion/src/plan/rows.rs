@@ -1,0 +1,305 @@
+//! Which nodes of a motion become rows of its plan.
+
+use std::f64::consts::TAU;
+
+use jred::Domain;
+use jred::axis::plan::Knot;
+use jred::machine::motion::{End, Polynomial, State};
+
+use crate::trace::Node;
+
+/// Share of that by which a position may be, of the way.
+const OF_WAY: f64 = 0.1;
+
+/// Half a unit at both ends of a row is at most 6 units over its length squared as an acceleration: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
+const ROUNDING: f64 = 6.0;
+
+/// A speed that is missed at an end of a row is at most so many times itself over its length as an acceleration: the quintic's 3.9, and a little for the way that is missed with it.
+const MISSED: f64 = 5.0;
+
+/// Share of the range by which a row that is looked at may be beyond an end of the stroke: rounding.
+const BEYOND: f64 = 1e-9;
+
+/// 2³²
+pub(super) const RANGE: f64 = 4_294_967_296.0;
+
+/// By how much position, speed and acceleration may be off: shares of the greatest that there are, and at least of the mean speed, and of what takes the greatest speed in the time of the
+/// motion: at constant speed an acceleration is nothing but rounding.
+pub(super) fn bounds(nodes: &[Node], share: f64) -> [f64; 3] {
+    let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let way = most(|node| node.phi) + most(|node| -node.phi);
+    let time = nodes
+        .last()
+        .map_or(0.0, |node| node.t)
+        .max(f64::MIN_POSITIVE);
+    let speed = most(|node| node.omega.abs()).max(way / time);
+    let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
+    [
+        OF_WAY * share * way,
+        share * speed,
+        share * acceleration.max(speed / time),
+    ]
+}
+
+/// The range in which positions of rows are counted (rad, or m).
+pub(super) const fn span(domain: Domain) -> f64 {
+    match domain {
+        Domain::Turn => TAU,
+        Domain::Stroke { from, to } => to - from,
+    }
+}
+
+/// A unit of positions (rad, or m).
+const fn unit(domain: Domain) -> f64 {
+    span(domain) / RANGE
+}
+
+/// Nodes that a plan tells apart: of two that are closer one, which goes on as the second does.
+pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
+    let mut kept: Vec<Node> = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        match kept.last_mut() {
+            Some(before) if node.t - before.t < close => before.alpha[1] = node.alpha[1],
+            _ => kept.push(*node),
+        }
+    }
+    // The end is where the motion ends.
+    if let (Some(end), Some(last)) = (nodes.last(), kept.last_mut()) {
+        let before = last.alpha[0];
+        *last = Node {
+            alpha: [
+                if last.t < end.t { before } else { end.alpha[0] },
+                end.alpha[1],
+            ],
+            ..*end
+        };
+    }
+    kept
+}
+
+/// A part of the motion between two jumps of the acceleration, or a jump and an end, that is too short for a row: the rounding of positions would be more than what the acceleration may be off by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sliver {
+    /// From when to when (s).
+    t: [f64; 2],
+    /// What the speed is off by without it (rad/s, or m/s).
+    speed: f64,
+}
+
+/// A row that is shorter (s) is off by more than the acceleration may be, because its positions are rounded.
+fn shortest([.., acceleration]: [f64; 3], domain: Domain) -> f64 {
+    (ROUNDING * unit(domain) / acceleration).sqrt()
+}
+
+/// The nodes without slivers whose speed may be missed: what follows begins earlier, before the end what precedes goes on.
+pub(super) fn without_slivers(
+    mut nodes: Vec<Node>,
+    bounds: [f64; 3],
+    domain: Domain,
+) -> (Vec<Node>, Vec<Sliver>) {
+    let [_, speed, acceleration] = bounds;
+    let short = shortest(bounds, domain);
+    let end = nodes.len().saturating_sub(1);
+    let is_cut = |k: &usize| {
+        let [before, after] = nodes[*k].alpha;
+        *k == end || (after - before).abs() > acceleration
+    };
+    let cuts: Vec<usize> = (1..nodes.len()).filter(is_cut).collect();
+    let mut slivers = Vec::new();
+    let mut stays = vec![true; nodes.len()];
+    let mut from = 0;
+    for to in cuts {
+        let [first, last] = [nodes[from], nodes[to]];
+        let length = last.t - first.t;
+        let instead = if to == end {
+            first.alpha[0]
+        } else {
+            last.alpha[1]
+        };
+        let missed = (last.omega - first.omega - instead * length).abs();
+        if length >= short || missed > speed || from == 0 && to == end {
+            from = to;
+            continue;
+        }
+        if to == end {
+            stays[from..to].fill(false);
+            nodes[to].alpha[0] = instead;
+        } else {
+            stays[from + 1..=to].fill(false);
+            nodes[from].alpha[1] = instead;
+        }
+        slivers.push(Sliver {
+            t: [first.t, last.t],
+            speed: missed,
+        });
+    }
+    let mut stays = stays.into_iter();
+    nodes.retain(|_| stays.next().unwrap_or(true));
+    (nodes, slivers)
+}
+
+/// What a plan is to keep to.
+pub(super) struct Asked<'s> {
+    /// By how much position, speed and acceleration may be off.
+    pub(super) bounds: [f64; 3],
+    pub(super) domain: Domain,
+    /// What is left out of the motion, in the order of time.
+    pub(super) slivers: &'s [Sliver],
+}
+
+impl Asked<'_> {
+    /// What the speed is off by at an end of a row between these times, because a sliver is left out there.
+    fn missed(&self, [from, to]: [f64; 2]) -> f64 {
+        let beside = |sliver: &&Sliver| {
+            sliver.t[0].total_cmp(&from).is_eq() || sliver.t[1].total_cmp(&to).is_eq()
+        };
+        let missed = self.slivers.iter().filter(beside);
+        missed.map(|sliver| sliver.speed).sum()
+    }
+
+    /// Whether a time (s) lies in a sliver.
+    pub(super) fn leaves_out(&self, t: f64) -> bool {
+        let k = self.slivers.partition_point(|sliver| sliver.t[1] <= t);
+        self.slivers.get(k).is_some_and(|sliver| sliver.t[0] <= t)
+    }
+
+    /// By how much a row between these times may be off: more where a sliver is left out beside it, and where rounding its positions takes as much (`unit`, rad or m).
+    fn of_row(&self, ends: [f64; 2], unit: f64) -> [f64; 3] {
+        let [position, speed, acceleration] = self.bounds;
+        let length = ends[1] - ends[0];
+        let (rounded, missed) = (ROUNDING * unit / length, self.missed(ends));
+        [
+            position,
+            speed.max(rounded) + missed,
+            acceleration.max(rounded / length) + MISSED * missed / length,
+        ]
+    }
+
+    /// By how much a plan of these knots may be off: as asked for, but for what slivers take.
+    pub(super) fn allowed(&self, knots: &[Knot]) -> [f64; 3] {
+        knots.windows(2).fold(self.bounds, |most, pair| {
+            let own = self.of_row([pair[0].t, pair[1].t], 0.0);
+            std::array::from_fn(|k| most[k].max(own[k]))
+        })
+    }
+
+    /// The knots of the plan: from each one as far as the polynomial through both keeps to the motion, and to the stroke.
+    pub(super) fn knots(&self, nodes: &[Node]) -> Vec<Knot> {
+        let Some(last) = nodes.len().checked_sub(1) else {
+            return Vec::new();
+        };
+        let short = shortest(self.bounds, self.domain);
+        let fits = |from: usize, to: usize| to == from + 1 || self.keeps(&nodes[from..=to]);
+        let mut kept = vec![0];
+        let mut from = 0;
+        while from < last {
+            // Twice as far each time, then the last place between.
+            let (mut reached, mut reach) = (from + 1, 2);
+            while from + reach <= last && fits(from, from + reach) {
+                (reached, reach) = (from + reach, 2 * reach);
+            }
+            let mut beyond = (from + reach).min(last + 1);
+            while beyond - reached > 1 {
+                let middle = reached.midpoint(beyond);
+                if fits(from, middle) {
+                    reached = middle;
+                } else {
+                    beyond = middle;
+                }
+            }
+            // What is left before a corner may be so short that its positions are too coarse: two rows of the same length instead.
+            if nodes[reached].t - nodes[from].t < short
+                && let [.., before, between] = kept.as_mut_slice()
+            {
+                let half = nodes[*before].t.midpoint(nodes[reached].t);
+                let middle = nodes.partition_point(|node| node.t < half);
+                let lies_between = *before < middle && middle < reached;
+                if lies_between && fits(*before, middle) && fits(middle, reached) {
+                    *between = middle;
+                }
+            }
+            kept.push(reached);
+            from = reached;
+        }
+        kept.into_iter().map(|k| knot(&nodes[k])).collect()
+    }
+
+    /// Whether the polynomial of the fifth degree from the first node to the last keeps to the nodes between, and to the middles of their steps.
+    fn keeps(&self, nodes: &[Node]) -> bool {
+        let [first, inner @ .., last] = nodes else {
+            return true;
+        };
+        let through = Polynomial::between(
+            last.phi - first.phi,
+            last.t - first.t,
+            End::new(first.omega, first.alpha[1]),
+            End::new(last.omega, last.alpha[0]),
+        );
+        let range = match self.domain {
+            Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
+            Domain::Stroke { from, to } => {
+                let beyond = BEYOND * (to - from);
+                from - beyond..=to + beyond
+            }
+        };
+        let [position, speed, acceleration] = self.of_row([first.t, last.t], unit(self.domain));
+        let near = |t: f64, phi: f64, omega: f64, alpha: f64| {
+            let [x, v, a, _] = through.at(t - first.t);
+            range.contains(&(first.phi + x))
+                && (first.phi + x - phi).abs() <= position
+                && (v - omega).abs() <= speed
+                && (a - alpha).abs() <= acceleration
+        };
+        let at_nodes = inner.iter().all(|node| {
+            node.alpha
+                .iter()
+                .all(|alpha| near(node.t, node.phi, node.omega, *alpha))
+        });
+        at_nodes
+            && nodes.windows(2).all(|pair| {
+                let [before, after] = [&pair[0], &pair[1]];
+                let step = after.t - before.t;
+                let state = after.after(before, 0.5);
+                near(before.t + 0.5 * step, state.phi, state.omega, state.alpha)
+            })
+    }
+}
+
+fn knot(node: &Node) -> Knot {
+    Knot {
+        t: node.t,
+        position: node.phi,
+        omega: node.omega,
+        alpha: node.alpha,
+    }
+}
+
+/// Makes two rows of one: at its middle node, or halfway between the two that it has.
+pub(super) fn halve(knots: &mut Vec<Knot>, nodes: &[Node], row: usize) {
+    let (Some(from), Some(to)) = (knots.get(row), knots.get(row + 1)) else {
+        return;
+    };
+    let first = nodes.partition_point(|node| node.t <= from.t);
+    let behind = nodes.partition_point(|node| node.t < to.t);
+    let middle = match nodes.get(first..behind) {
+        Some(inner) if !inner.is_empty() => knot(&inner[inner.len() / 2]),
+        _ => {
+            let node = |knot: &Knot, step: f64| Node {
+                t: knot.t,
+                step,
+                phi: knot.position,
+                omega: knot.omega,
+                alpha: knot.alpha,
+            };
+            let step = to.t - from.t;
+            let State { phi, omega, alpha } = node(to, step).after(&node(from, 0.0), 0.5);
+            Knot {
+                t: from.t + 0.5 * step,
+                position: phi,
+                omega,
+                alpha: [alpha; 2],
+            }
+        }
+    };
+    knots.insert(row + 1, middle);
+}
