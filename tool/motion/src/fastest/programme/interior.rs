@@ -89,6 +89,9 @@ const ROUNDED: f64 = 1e-8;
 /// Share of what limits are missed by that a step must gain.
 const FILTER: f64 = 1e-5;
 
+/// Share of a slack that its limit must leave for the slack to become what the limit leaves.
+const KEPT: f64 = 0.1;
+
 /// Least slack at the start, and as a multiple of μ.
 const SLACK: [f64; 2] = [1e-2, 10.0];
 
@@ -255,10 +258,15 @@ impl Iterate {
         for halvings in 0..=HALVINGS {
             let moved = self.x.iter().zip(&steps.x).map(|(x, d)| x + share * d);
             if let Some(mut next) = Self::new(programme, moved.collect()) {
-                // A slack that is smaller than what the limit leaves only slows the method.
+                // A slack that differs from what its limit leaves counts as a limit that is missed. It becomes what is left, or a limit that is far
+                // away, and whose torque bends, would stop every step.
                 let slacks = self.slacks.iter().zip(&steps.slacks).zip(&next.rows);
                 next.slacks = slacks
-                    .map(|((s, d), row)| (s + share * d).max(-row.value))
+                    .map(|((s, d), row)| {
+                        let moved = s + share * d;
+                        let left = -row.value;
+                        if left > KEPT * moved { left } else { moved }
+                    })
                     .collect();
                 let then = next.merits(mu);
                 // Where the step promises much of the cost against what is missed, the cost must fall.
