@@ -3,7 +3,6 @@
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
 use jred_cli::commands::{Done, run};
 use jred_cli::options::Cli;
 use jred_cli::output;
@@ -15,7 +14,7 @@ fn main() -> ExitCode {
     // Colours are made with characters that are not seen: where an argument holds such, errors are shown without colours, so
     // that all of them can be escaped.
     let plainly = words.iter().any(|word| plain::hidden(word).is_some());
-    let cli = match Cli::try_parse() {
+    let cli = match Cli::read(std::env::args_os()) {
         Err(error)
             if error.use_stderr() && (plainly || !words.iter().all(|w| plain::is_short(w))) =>
         {

@@ -10,10 +10,12 @@ pub mod search;
 pub mod simulate;
 mod word;
 
+use std::any::TypeId;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use clap::{ArgGroup, Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use self::search::Objectives;
 use self::word::word;
@@ -29,6 +31,40 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Cli {
+    /// From the words of the command line, the first of which is the command's own name.
+    ///
+    /// # Errors
+    /// Words that are none of the command's.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let mut command = numbers(Self::command());
+        let matches = command.try_get_matches_from_mut(words)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+    }
+}
+
+/// The command with options whose number may be negative: then what they say of it is said, not that there is no option of this name.
+fn numbers(command: clap::Command) -> clap::Command {
+    let kinds = [
+        TypeId::of::<f64>(),
+        TypeId::of::<u8>(),
+        TypeId::of::<u32>(),
+        TypeId::of::<u64>(),
+        TypeId::of::<usize>(),
+    ];
+    let number = |arg: clap::Arg| {
+        let kind = arg.get_value_parser().type_id();
+        let is_number = kinds.iter().any(|own| kind == *own);
+        let takes = arg.get_action().takes_values() && !arg.is_positional();
+        if takes && is_number {
+            arg.allow_hyphen_values(true)
+        } else {
+            arg
+        }
+    };
+    command.mut_args(number).mut_subcommands(numbers)
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing rule is violated (or a torque error not \

@@ -24,6 +24,7 @@ mod rms;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
+pub mod winding;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

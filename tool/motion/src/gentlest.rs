@@ -153,6 +153,8 @@ pub struct Gentle {
     pub waits_at_end: bool,
     /// ∫c dt: of the square of the torque (N²·m²·s), of the power (J), of the torque's power in units of itself.
     pub cost: f64,
+    /// What is to be least, in the same unit for every move: the cost, or about the peak torque (N·m).
+    pub measure: f64,
     /// No motion costs less; for the RMS torque and the energy.
     pub bound: Option<f64>,
     /// Lower bound on the peak torque of all motions in this time (N·m), where the peak is to be least and the optimum is global.
@@ -227,10 +229,7 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
     let whole = task.solve(travel.duration, FIRST, None)?;
     let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
         Some(solved) => solved,
-        None if at_rest => {
-            let moving = task.shorter(&held)?;
-            task.solve(moving, FIRST, None)?.ok_or(Fault::NotFound)?
-        }
+        None if at_rest => task.shorter(&held)?,
         None => return Err(Fault::NotFound),
     };
     let moving = solved.moving;
@@ -241,9 +240,15 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
         let Some(next) = task.solve(moving, parts, Some(&solved))? else {
             break;
         };
+        let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
+        if powers[1] < powers[0] {
+            break;
+        }
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
         // What is left of a cost that can be none is rounding.
-        change = if cost > 1e-20 {
+        change = if powers[0] < powers[1] {
+            f64::INFINITY
+        } else if cost > 1e-20 {
             ((cost - before) / cost).abs()
         } else {
             0.0

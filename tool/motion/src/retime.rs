@@ -20,6 +20,7 @@ mod course;
 mod even;
 mod figures;
 mod law;
+mod rest;
 mod standing;
 
 /// The laws of VDI 2143 between two rests, by the names of machine files.
@@ -144,20 +145,21 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         (Goal::Energy, Some(copper)) => Objective::Energy { copper },
         (Goal::Energy, None) => return Err(Obstacle::NoCopper),
     };
-    let parts = match moves::parts(motion) {
+    let mut parts = match moves::parts(motion) {
         Ok(parts) => parts,
         Err(why) => vec![Part::Move(
             moves::ring(motion).ok_or(Obstacle::NoMoves(why))?,
         )],
     };
     let endless = moves::parts(motion).is_err();
-    let asked = Asked {
+    let mut asked = Asked {
         file,
         request,
         cyclic: motion.cyclic,
         start: motion.at(0.0).phi,
     };
     let mut gentle = Vec::new();
+    let mut resting = None;
     for part in &parts {
         let Part::Move(step) = part else { continue };
         let travel = Travel {
@@ -169,9 +171,28 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
             ring: endless,
         };
         let way = asked.way(step);
-        let found = gentlest::gentlest(&way, &travel, objective);
+        let mut found = gentlest::gentlest(&way, &travel, objective);
+        if endless && may_rest(&found, objective) {
+            let rests = rest::turn(&way, &travel, objective);
+            let rests = rests.map_err(|fault| Obstacle::Move(1, *step, fault))?;
+            let measure = found.as_ref().map_or(f64::INFINITY, |own| own.measure);
+            if let Some(gentle) = rests.filter(|gentle| gentle.measure < measure) {
+                let start = gentle.travel.start;
+                resting = Some(Move {
+                    from: start,
+                    to: start + travel.distance,
+                    ..*step
+                });
+                found = Ok(gentle);
+            }
+        }
         let number = gentle.len() + 1;
         gentle.push(found.map_err(|fault| Obstacle::Move(number, *step, fault))?);
+    }
+    if let Some(step) = resting {
+        // It begins where it rests.
+        asked.start = step.from;
+        parts = vec![Part::Move(step)];
     }
     let found = |gentle: &[Gentle]| {
         let mut found = gentle.iter();
@@ -180,22 +201,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
             Segment::phases(step.to - step.from, phases.unwrap_or_default())
         })
     };
-    let laws = if endless {
-        asked.classical(&parts)?
-    } else {
-        let rows = LAWS.into_iter().map(|(name, law)| {
-            let motion = asked.motion(&parts, |step| {
-                Segment::law(step.to - step.from, step.duration, law)
-            })?;
-            let figures = asked.figures(&motion)?;
-            Ok(Row {
-                name,
-                figures,
-                motion,
-            })
-        });
-        rows.collect::<Result<_, Error>>()?
-    };
+    let laws = asked.beside(&parts, endless)?;
     let mut best = found(&gentle)?;
     let mut figures = asked.figures(&best)?;
     // The mean of a high power is not quite the peak: a law may have a lower one.
@@ -226,6 +232,14 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         moves: gentle,
         motion: best,
     })
+}
+
+/// Whether a rotation without end may be gentler with a pause: it all but stands somewhere, or a second more costs.
+fn may_rest(found: &Result<Gentle, Fault>, objective: Objective) -> bool {
+    match found {
+        Ok(gentle) => gentle.per_second > 0.0 && objective != Objective::Peak,
+        Err(fault) => *fault == Fault::NotFound,
+    }
 }
 
 /// The bound of all moves together, with what the pauses cost.
@@ -314,6 +328,26 @@ impl Asked<'_> {
         });
         let best = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some((best.1, best.2))
+    }
+
+    /// The laws; of a rotation without rest the classical motions.
+    fn beside(&self, parts: &[Part], endless: bool) -> Result<Vec<Row>, Error> {
+        if endless {
+            self.classical(parts)
+        } else {
+            let rows = LAWS.into_iter().map(|(name, law)| {
+                let motion = self.motion(parts, |step| {
+                    Segment::law(step.to - step.from, step.duration, law)
+                })?;
+                let figures = self.figures(&motion)?;
+                Ok(Row {
+                    name,
+                    figures,
+                    motion,
+                })
+            });
+            rows.collect()
+        }
     }
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.

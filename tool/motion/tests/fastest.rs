@@ -11,6 +11,7 @@ mod rms;
 mod scales;
 mod tool_speed;
 mod varying;
+mod winding;
 
 use std::collections::BTreeMap;
 

@@ -19,6 +19,8 @@ pub mod course;
 pub mod mean;
 pub mod network;
 
+use std::fmt::Display;
+
 use crate::catalogue::Motor;
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
@@ -90,6 +92,28 @@ pub struct Heating {
     pub housing: bool,
     /// Whether the ripple over the cycle was followed.
     pub ripple: bool,
+}
+
+impl Heating {
+    /// What the temperatures were determined from, where not all that a model can use is given; `torque` is what the motor gives.
+    pub fn notes(&self, torque: impl Display) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.hottest == Hottest::Runaway {
+            notes.push("thermal runaway: copper losses rise faster with temperature than the heat flow to the surroundings".to_owned());
+        }
+        if self.relative {
+            notes.push(format!(
+                "estimated from the RMS {torque} (thermal resistances and winding data not given)"
+            ));
+        }
+        if !self.ripple {
+            notes.push(
+                "based on mean losses; temperature ripple ignored (no time constants given)"
+                    .to_owned(),
+            );
+        }
+        notes
+    }
 }
 
 fn usable(figure: Option<f64>) -> Option<f64> {
@@ -245,16 +269,31 @@ impl Model {
         operation: &Operation,
         rest: Losses,
     ) -> Result<Heating, Sentence> {
+        let (course, mean) = (|| self.course(load), || self.mean_losses(load));
+        self.heated(course, mean, operation, rest)
+    }
+
+    /// The same of losses over a cycle, or of their mean: whichever the model asks for.
+    ///
+    /// # Errors
+    /// Message about missing data.
+    pub fn heated(
+        &self,
+        course: impl Fn() -> Course,
+        mean: impl Fn() -> Losses,
+        operation: &Operation,
+        rest: Losses,
+    ) -> Result<Heating, Sentence> {
         let from_cold = matches!(operation, Operation::Short { .. });
         let mean = || {
             let running = operation.running().unwrap_or(1.0);
-            let mean = self.mean_losses(load);
+            let mean = mean();
             Losses {
                 copper: running * mean.copper + (1.0 - running) * rest.copper,
                 other: running * mean.other,
             }
         };
-        let hottest = |network: &Network| self.course(load).hottest(network, operation, rest);
+        let hottest = |network: &Network| course().hottest(network, operation, rest);
         let steady = |resistances, growth| match network::steady(resistances, mean(), growth) {
             Some(rise) => Hottest::Rise(rise),
             None => Hottest::Runaway,

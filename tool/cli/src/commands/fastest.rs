@@ -1,6 +1,7 @@
 //! `jred fastest`: moves in minimum time.
 
 mod limits;
+mod winding;
 
 use miette::{Result, miette};
 
@@ -21,10 +22,13 @@ use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
+use jred_motion::fastest::joint_force::reached;
+use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task};
-use jred_motion::moves::{NoMoves, parts, ring};
+use jred_motion::moves::{Move, NoMoves, Part, parts, ring};
 use jred_motion::way::Actuator;
 use jred_report::list;
+use jred_report::list::fastest::Warmth;
 use jred_report::page;
 use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
@@ -39,6 +43,8 @@ struct Chosen {
     name: String,
     actuator: Actuator,
     limits: Limits,
+    /// What gets warm in it; of a drive.
+    winding: Option<Winding>,
 }
 
 /// Runs `jred fastest`.
@@ -66,13 +72,30 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let (limits, asked) = limits(options, &file, &chosen.limits)?;
     let limits = limits.with_reserve(reserve);
     let rms = rms(options, &file, &chosen)?;
-    let cycle = match task {
-        Some(task) => {
-            let task = Task { limits, ..task };
-            single(&file, &chosen.actuator, task, rms).map_err(|why| no_motion(&why, None))?
-        }
-        None => of_motion(&file, &chosen.actuator, &limits, rms)?,
+    let warmth = winding::limit(options, &chosen)?;
+    let parts = match task {
+        Some(task) => Motion::Move(Task { limits, ..task }),
+        None => of_motion(&file, &limits, rms)?,
     };
+    let at = |rms: Option<Rms>| parts.fastest(&file, &chosen.actuator, rms);
+    let made = match warmth {
+        None => at(rms).map(|cycle| (cycle, None)),
+        Some(limit) => cooled(limit, (&file, &chosen.actuator), rms, at).map(|found| {
+            let warmth = Warmth {
+                ambient: limit.0.ambient(),
+                temperatures: found.temperatures,
+                limit: found.limit,
+                bound: found.bound,
+            };
+            (found.cycle, Some(warmth))
+        }),
+    };
+    let (cycle, warmth) = made.map_err(|(number, why)| no_motion(&why, number))?;
+    let forces = reached(&file, &limits.forces, &cycle.trace).map_err(core_report)?;
+    for force in &forces {
+        let kept = force.kept_at_rest(&file);
+        kept.map_err(|why| no_motion(&why, None))?;
+    }
     let trace = cycle.trace.of_axis(&file.axis());
     if let Some(path) = &options.profile {
         let text = trace.profile();
@@ -89,6 +112,8 @@ pub fn fastest(options: &Options) -> Result<Done> {
         asked,
         actuator: &chosen.actuator,
         cycle: &cycle,
+        warmth: warmth.as_ref(),
+        forces: &forces,
         reserve,
         of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
@@ -113,13 +138,41 @@ pub fn fastest(options: &Options) -> Result<Done> {
     Ok(Done::Holds)
 }
 
+/// What is made as fast as possible.
+enum Motion {
+    /// One move.
+    Move(Task),
+    /// The moves and pauses of a motion.
+    Parts(Limits, Vec<Part>),
+    /// A motion that turns for ever.
+    Ring(Limits, Move),
+}
+
+impl Motion {
+    /// It as fast as possible; or why it cannot be made, with the number of the move.
+    fn fastest(
+        &self,
+        file: &MachineFile,
+        actuator: &Actuator,
+        rms: Option<Rms>,
+    ) -> Result<Cycle, (Option<usize>, NoMotion)> {
+        match self {
+            Self::Move(task) => single(file, actuator, *task, rms).map_err(|why| (None, why)),
+            Self::Ring(limits, step) => {
+                endless(file, actuator, *limits, step).map_err(|why| (None, why))
+            }
+            Self::Parts(limits, parts) => {
+                let moves = parts.iter().filter(|part| matches!(part, Part::Move(_)));
+                let several = moves.count() > 1;
+                cycle(file, actuator, *limits, rms, parts)
+                    .map_err(|(index, why)| (several.then_some(index + 1), why))
+            }
+        }
+    }
+}
+
 /// The moves of the file's motion.
-fn of_motion(
-    file: &MachineFile,
-    actuator: &Actuator,
-    limits: &Limits,
-    rms: Option<Rms>,
-) -> Result<Cycle> {
+fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
     let motion = file.motion_or("give --from and --to, or ")?;
     if let Some(step) = ring(motion) {
         if limits.has_rates() || rms.is_some() {
@@ -129,7 +182,7 @@ fn of_motion(
                 file.name
             ));
         }
-        return endless(file, actuator, *limits, &step).map_err(|why| no_motion(&why, None));
+        return Ok(Motion::Ring(*limits, step));
     }
     let parts = parts(motion).map_err(|why| match why {
         NoMoves::Still => miette!(
@@ -149,11 +202,7 @@ fn of_motion(
             )
         }
     })?;
-    let moves = parts.len();
-    cycle(file, actuator, *limits, rms, &parts).map_err(|(index, why)| {
-        let which = (moves > 1).then_some(index + 1);
-        no_motion(&why, which)
-    })
+    Ok(Motion::Parts(*limits, parts))
 }
 
 fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {
@@ -276,6 +325,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
             gearbox_speed: drive.gearbox.and_then(|gearbox| gearbox.max_speed),
             ..Limits::default()
         },
+        winding: Some(Winding::new(&drive, file)),
     })
 }
 
@@ -313,5 +363,6 @@ fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Ch
         name: format!("{torque} up to {speed}"),
         actuator: Actuator::new(&drive, Envelope::of(&motor)),
         limits: Limits::default(),
+        winding: None,
     })
 }

@@ -76,7 +76,7 @@ pub struct Fastest {
     pub rotor_inertia: Option<f64>,
     /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": what the rules of `jred size` ask for
     /// (`[rules]` of the file); nothing if not given.
-    #[arg(long, value_name = "SHARE|rules", value_parser = asked)]
+    #[arg(long, value_name = "SHARE|rules", value_parser = asked, allow_hyphen_values = true)]
     pub reserve: Option<Asked>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
@@ -107,6 +107,10 @@ pub struct Fastest {
     /// of --reserve rules.
     #[arg(long, value_name = "TORQUE|s1", allow_hyphen_values = true)]
     pub max_rms: Option<String>,
+    /// Highest temperature of the motor's winding when the motion with its pauses repeats for ever, e.g. "120 degC": its mean and its ripple, from the
+    /// thermal figures of the motor.
+    #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
+    pub max_winding_temperature: Option<String>,
     /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]
     pub profile: Option<PathBuf>,

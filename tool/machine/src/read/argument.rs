@@ -8,7 +8,7 @@ use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, FORCE_RATE,
-    INERTIA, JERK, Kind, LENGTH, MASS, SHARE, TORQUE, TORQUE_RATE, VELOCITY,
+    INERTIA, JERK, Kind, LENGTH, MASS, SHARE, TEMPERATURE, TORQUE, TORQUE_RATE, VELOCITY,
 };
 use crate::units::quantity;
 
@@ -82,6 +82,14 @@ pub fn largest_effort_rate(text: &str, coordinate: Coordinate) -> Result<f64, St
 /// A message for the command line.
 pub fn inertia_argument(text: &str) -> Result<f64, String> {
     positive(text, &INERTIA)
+}
+
+/// A temperature, such as "120 degC".
+///
+/// # Errors
+/// A message for the command line.
+pub fn temperature_argument(text: &str) -> Result<f64, String> {
+    any(text, &TEMPERATURE)
 }
 
 /// A share from zero up to less than one, such as "10 %".

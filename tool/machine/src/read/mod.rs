@@ -36,7 +36,7 @@ pub use argument::{
     Reader, angle_argument, axis_position, drive_acceleration, drive_effort, drive_positions,
     drive_speed, drive_states, inertia_argument, largest_acceleration, largest_effort_rate,
     largest_jerk, largest_speed, length_argument, mass_argument, reserve_argument, share_argument,
-    torque_argument,
+    temperature_argument, torque_argument,
 };
 pub use mechanism::mechanism_types;
 

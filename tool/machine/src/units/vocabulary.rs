@@ -3,6 +3,7 @@
 //!
 //! Words and units are values of the quantity, and a sentence is made with them: `format!("peak {}", words.torque)`.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use super::RPM;
@@ -63,6 +64,15 @@ const fn term(word: &'static str, unit: &'static str, scale: f64) -> Term {
 }
 
 impl Vocabulary {
+    /// A text about a torque in the words of this kind of motor.
+    pub fn effort_in(&self, text: &'static str) -> Cow<'static, str> {
+        if self.slides {
+            Cow::Owned(text.replace(Self::ROTARY.torque.word, self.torque.word))
+        } else {
+            Cow::Borrowed(text)
+        }
+    }
+
     /// Of motors that turn.
     pub const ROTARY: Self = Self {
         torque: term("torque", "N m", 1.0),

@@ -306,8 +306,8 @@ fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, L
         Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
         Binding::Jerk => limits.jerk = None,
         Binding::TorqueRate => limits.torque_rate = None,
-        // That of the whole cycle, which no move keeps alone.
-        Binding::RmsTorque => {}
+        // Those of the whole cycle, which no move keeps alone.
+        Binding::RmsTorque | Binding::WindingTemperature => {}
     }
     limits.level_ends &= limits.has_rates();
     (actuator, limits)

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use jred::Error;
-use jred_machine::model::mechanism::AnyMechanism;
+use jred_machine::model::machine::MachineFile;
+use jred_sizing::select::fit::input_kind;
 
 use super::joint_force::{JointForces, Spot};
 pub use super::reserve::Reserve;
@@ -97,6 +98,8 @@ pub enum Binding {
     TorqueRate,
     /// The RMS torque of the motor.
     RmsTorque,
+    /// The temperature of its winding.
+    WindingTemperature,
 }
 
 impl Binding {
@@ -115,19 +118,22 @@ impl Binding {
             Self::JointForce(_) => "joint force limit",
             Self::Jerk => "jerk limit",
             Self::TorqueRate => "torque rate limit",
-            Self::RmsTorque => "RMS torque",
+            Self::RmsTorque => "RMS torque limit",
+            Self::WindingTemperature => "winding temperature",
         }
     }
 
-    /// Its name, with that of the joint in whose mechanism it is one.
-    pub fn name_in(self, mechanism: &AnyMechanism) -> Cow<'static, str> {
-        let joint = match self {
-            Self::JointForce(joint) => mechanism.joint_names().get(joint),
-            _ => None,
-        };
-        joint.map_or(Cow::Borrowed(self.name()), |joint| {
-            Cow::Owned(format!("force in {joint}"))
-        })
+    /// Its name in a machine: with that of the joint, and with the force of a motor that slides.
+    pub fn name_in(self, file: &MachineFile) -> Cow<'static, str> {
+        let names = file.machine.mechanism().joint_names();
+        match self {
+            Self::JointForce(joint) if joint < names.len() => {
+                Cow::Owned(format!("force in {}", names[joint]))
+            }
+            // A gearbox turns.
+            Self::GearboxTorque => Cow::Borrowed(self.name()),
+            _ => input_kind(file).vocabulary().effort_in(self.name()),
+        }
     }
 }
 

@@ -17,8 +17,13 @@ use std::ops::Deref;
 use jred::Error;
 use jred::machine::MAX_JOINTS;
 
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::schedule::Now;
+
+use super::NoMotion;
 use super::field::{Field, speed};
 use super::track::Track;
+use crate::trace::Trace;
 use crate::way::Place;
 
 /// Share of the largest speed at which forces are those without a speed, but with the friction of the motion.
@@ -125,6 +130,116 @@ impl JointForce {
         };
         [(-inline - half) / size, (-inline + half) / size]
     }
+}
+
+/// The largest force that a motion reaches in a joint whose force is limited.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Its largest force (N).
+    pub limit: f64,
+    /// The force (N).
+    pub force: f64,
+    /// Where (rad, or m).
+    pub phi: f64,
+    /// When (s).
+    pub t: f64,
+    /// Whether the machine stands there.
+    pub stands: bool,
+}
+
+impl Reached {
+    /// Refuses a pause in which the force exceeds its limit.
+    ///
+    /// # Errors
+    /// It does.
+    pub fn kept_at_rest(&self, file: &MachineFile) -> Result<(), NoMotion> {
+        if !self.stands || self.force <= self.limit * (1.0 + ROUNDED) {
+            return Ok(());
+        }
+        Err(NoMotion::JointForce {
+            joint: self.name(file).to_owned(),
+            phi: self.phi,
+            forces: [self.force, self.limit],
+            stands: true,
+            axis: file.axis(),
+        })
+    }
+
+    /// Name of the joint.
+    pub fn name<'a>(&self, file: &'a MachineFile) -> &'a str {
+        let names = file.machine.mechanism().joint_names();
+        names.get(self.joint).map_or("", String::as_str)
+    }
+}
+
+/// Share of a limit that is rounding.
+const ROUNDED: f64 = 1e-9;
+
+/// Parts of a step of a motion at whose ends its forces are looked at.
+const PARTS: u32 = 4;
+
+/// The largest forces that a motion reaches, its pauses included, in the joints whose force is limited: each at the nodes of the motion
+/// and at places between. In a pause nothing opposes a motion, and forces are those of weight, loads and springs.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere, or its forces are not determined.
+pub fn reached(
+    file: &MachineFile,
+    forces: &JointForces,
+    trace: &Trace,
+) -> Result<Vec<Reached>, Error> {
+    let first = |(joint, limit): (usize, f64)| Reached {
+        joint,
+        limit,
+        force: 0.0,
+        phi: 0.0,
+        t: 0.0,
+        stands: false,
+    };
+    let mut all: Vec<Reached> = forces.limits().map(first).collect();
+    if all.is_empty() {
+        return Ok(all);
+    }
+    for pair in trace.nodes().windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        if b.step <= 0.0 {
+            continue;
+        }
+        let heading = b.phi - a.phi;
+        let stands = heading == 0.0;
+        let now = Now {
+            omega: Some(if stands { 0.0 } else { heading.signum() }),
+            ..Now::default()
+        };
+        for k in 0..=PARTS {
+            let share = f64::from(k) / f64::from(PARTS);
+            let state = b.after(a, share);
+            let omega = if stands {
+                0.0
+            } else {
+                // At rest friction is that of the motion.
+                state.omega.abs().max(CREEP) * heading.signum()
+            };
+            let machine = file.machine_at(&now, state.phi)?;
+            let found = machine.forces(state.phi, omega, state.alpha)?;
+            for own in &mut all {
+                let force = found.reactions.get(own.joint);
+                let force = force.map_or(0.0, |own| own.force[0].hypot(own.force[1]));
+                if force > own.force {
+                    *own = Reached {
+                        force,
+                        phi: state.phi,
+                        t: a.t + share * b.step,
+                        stands,
+                        ..*own
+                    };
+                }
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// A place of the way with the forces that are limited there. Between three places every quantity is the parabola through them.

@@ -112,6 +112,17 @@ pub enum NoMotion {
         /// What it may be.
         allowed: f64,
     },
+    /// The winding gets warmer than allowed in every motion that was found.
+    TooWarm {
+        /// The greatest temperature (°C) of the coolest one; infinite: without bound.
+        greatest: f64,
+        /// What it may be.
+        limit: f64,
+        /// That of the surroundings.
+        ambient: f64,
+    },
+    /// The temperature of the motor's winding is not known.
+    WindingUnknown,
     /// No motion within limits of jerk, torque rate or RMS torque was found.
     NotFound {
         /// Time (s) of the fastest motion without these limits.
@@ -133,6 +144,8 @@ pub enum NoMotion {
         phi: f64,
         /// Force (N), and its limit.
         forces: [f64; 2],
+        /// Whether it stands there for a while.
+        stands: bool,
         /// In whose words it is said.
         axis: Axis,
     },
@@ -159,7 +172,7 @@ impl From<Error> for NoMotion {
 
 /// A limit in words; that of a force with its joint.
 fn in_words(limit: Binding, field: &Field) -> Box<str> {
-    let name = limit.name_in(field.way.file.machine.mechanism());
+    let name = limit.name_in(field.way.file);
     if let Binding::JointForce(_) = limit {
         format!("limit of the {name}").into()
     } else {
@@ -174,6 +187,7 @@ impl NoMotion {
             joint: names.get(force.joint).cloned().unwrap_or_default(),
             phi,
             forces: [force.at(0.0, 0.0), force.limit],
+            stands: false,
             axis: file.axis(),
         }
     }
@@ -234,14 +248,22 @@ impl NoMotion {
                 joint,
                 phi,
                 forces: [force, limit],
+                stands,
                 axis,
-            } => write!(
-                f,
-                "the force in joint \"{joint}\" is {} N at {} in a machine that moves slowly; its limit is {} N, and a motion that keeps it by its speed alone is not computed",
-                short(*force),
-                axis.place(*phi),
-                short(*limit)
-            ),
+            } => {
+                let slowly = if *stands {
+                    "while the machine stands there in a pause; its limit is"
+                } else {
+                    "in a machine that moves slowly; a motion that keeps the limit by its speed alone is not computed, and the limit is"
+                };
+                write!(
+                    f,
+                    "the force in joint \"{joint}\" is {} N at {} {slowly} {} N",
+                    short(*force),
+                    axis.place(*phi),
+                    short(*limit)
+                )
+            }
             Self::Empty {
                 phi,
                 speed,
@@ -300,6 +322,26 @@ impl NoMotion {
                 short(*allowed),
                 short(*rms)
             ),
+            Self::TooWarm {
+                greatest,
+                limit,
+                ambient,
+            } => {
+                let greatest = if greatest.is_finite() {
+                    format!("reaches {} °C", short(*greatest))
+                } else {
+                    "heats up without end".to_owned()
+                };
+                write!(
+                    f,
+                    "no motion with a winding of {} °C or less was found: in the coolest one the winding {greatest}, in surroundings of {} °C",
+                    short(*limit),
+                    short(*ambient)
+                )
+            }
+            Self::WindingUnknown => {
+                write!(f, "the temperature of the motor's winding is not known")
+            }
             Self::NotFound {
                 bound,
                 limit,
@@ -328,7 +370,7 @@ impl NoMotion {
             }
             Self::JointForceAlone => write!(
                 f,
-                "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque: that motion is not computed"
+                "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque or of the winding's temperature that binds: that motion is not computed"
             ),
             Self::NoTorqueLimit => write!(
                 f,
@@ -434,6 +476,8 @@ impl fmt::Display for NoMotion {
             | Self::NotAccurate { .. }
             | Self::LoadJumps { .. }
             | Self::RmsTooLarge { .. }
+            | Self::TooWarm { .. }
+            | Self::WindingUnknown
             | Self::JointForceAlone
             | Self::NotFound { .. } => self.not_computed(f),
             Self::JointForce { .. } | Self::Empty { .. } => self.at_a_place(f),

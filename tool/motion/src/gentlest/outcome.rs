@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::mesh::{GAUSS, Mesh};
 use super::solve;
 use super::task::{Solved, Stage};
-use super::{Fault, GAP, Gentle, Objective, Optimum, PEAK_POWER, Reason, bound};
+use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, bound};
 
 /// Where the motion waits because that costs less than to move slowly.
 pub(super) struct Waits {
@@ -87,7 +87,8 @@ impl Solved<'_> {
         } else {
             Optimum::Local(Reason::Bound)
         };
-        let peak = found.cost.powf(1.0 / f64::from(PEAK_POWER)) * scale.unit;
+        // The mean of any power is no more than the peak.
+        let peak = found.cost.powf(1.0 / f64::from(stage.cost.power)) * scale.unit;
         // Of all motions, not of those with ramps of one form or with a wait.
         let of_all = task.objective == Objective::Peak && whole && !waiting;
         let least_peak = (of_all && proved).then_some(peak);
@@ -105,6 +106,10 @@ impl Solved<'_> {
             moving,
             waits_at_end: waits.at_end,
             cost,
+            measure: match task.objective {
+                Objective::Peak => peak,
+                _ => cost,
+            },
             bound,
             least_peak,
             per_second: -multiplier * size,

@@ -16,6 +16,9 @@ const HALVINGS: u32 = 24;
 /// Ranges of the loads over which bends are rounded, one after another, as shares of the largest load.
 const RANGES: [f64; 2] = [1e-1, 1e-2];
 
+/// The least power whose mean stands for the peak.
+const LEAST_POWER: i32 = 8;
+
 /// Range of the torque over which the bend of the drawn power is rounded, as a share of the torque's unit.
 const ROUNDING: f64 = 1e-3;
 
@@ -109,8 +112,9 @@ impl Task<'_> {
         Ok([torque(start)?, torque(start + distance)?])
     }
 
-    /// The time (s) after which waiting is better than to go on moving: where a second more costs what holding costs.
-    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<f64, Fault> {
+    /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
+        let mut found: Option<Solved> = None;
         let mut last: Option<Solved> = None;
         let mut high = self.travel.duration;
         // First down to a time that is too short, then between.
@@ -122,16 +126,18 @@ impl Task<'_> {
             }
             let middle = low.map_or(0.8 * high, |low| (low * high).sqrt());
             halvings += u32::from(low.is_some());
-            let solved = self.solve(middle, FIRST, last.as_ref())?;
+            let near = last.as_ref().or(found.as_ref());
+            let solved = self.solve(middle, FIRST, near)?;
             let short = solved.as_ref().map(|solved| solved.excess(held) <= 0.0);
             if short == Some(true) {
                 low = Some(middle);
+                (found, last) = (solved, None);
             } else {
                 high = middle;
+                last = solved.or(last);
             }
-            last = solved.or(last);
         }
-        low.ok_or(Fault::NotFound)
+        found.ok_or(Fault::NotFound)
     }
 
     /// Scale of the torques, from the motion with w = 1.
@@ -238,22 +244,27 @@ impl Task<'_> {
         };
         let mesh = Mesh::new(self.way, &travel, &self.edges, parts)?;
         let scale = self.scale(&mesh, moving)?;
-        let stage = self.goal(&scale, moving)?;
-        let mut found = from.and_then(|from| {
-            let x = refined(&from.mesh, &from.found.x, &mesh);
-            self.problem(&mesh, moving, &scale, &stage).minimise(&x)
-        });
-        if found.as_ref().is_none_or(|found| !found.converged) {
+        let goal = self.goal(&scale, moving)?;
+        let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
+        let mut kept = from
+            .and_then(|from| at(&goal, &refined(&from.mesh, &from.found.x, &mesh)))
+            .filter(|found| found.converged)
+            .map(|found| (goal, found));
+        if kept.is_none() {
             let mut x = mesh.sample(|_, _| [1.0, 0.0]);
-            for stage in Self::stages(&scale, &stage) {
-                found = self.problem(&mesh, moving, &scale, &stage).minimise(&x);
-                if let Some(found) = &found {
-                    x.clone_from(&found.x);
+            let stages = Self::stages(&scale, &goal);
+            let last = stages.len() - 1;
+            for (number, stage) in stages.into_iter().enumerate() {
+                let Some(found) = at(&stage, &x) else {
+                    continue;
+                };
+                x.clone_from(&found.x);
+                if found.converged && (number == last || self.serves(&stage)) {
+                    kept = Some((stage, found));
                 }
             }
         }
-        let found = found.filter(|found| found.converged);
-        Ok(found.map(|found| Solved {
+        Ok(kept.map(|(stage, found)| Solved {
             task: self,
             moving,
             scale,
@@ -261,6 +272,11 @@ impl Task<'_> {
             mesh,
             found,
         }))
+    }
+
+    /// Whether a stage before the last will do where that does not come to its end: the mean of a lower power is near the peak as well.
+    fn serves(&self, stage: &Stage) -> bool {
+        self.objective == Objective::Peak && stage.cost.power >= LEAST_POWER
     }
 
     /// From the easiest problem to the one that is meant.

@@ -2,7 +2,9 @@
 
 use jred_machine::analysis::reduce::joints_with_force;
 use jred_machine::model::machine::MachineFile;
+use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::{Binding, Fastest, JointForces, Limits, NoMotion, Task, solve};
+use jred_motion::trace::Trace;
 
 use super::{close, fastest, machine, motor, task};
 
@@ -203,4 +205,44 @@ fn neither_jerk_nor_torque_rate_beside_it() {
     };
     let why = solve(&file, &motor([260.0; 2], 30.0), &Task { limits, ..asked });
     assert_eq!(why.map(|found| found.time), Err(NoMotion::JointForceAlone));
+}
+
+/// A yoke of 8 kg that goes down: its guide bears 30 N of the weight while it moves, and nothing of it in a pause.
+#[test]
+fn the_largest_force_is_told_and_pauses_are_looked_at() {
+    let text = "title = \"yoke\"\ngravity = [\"9.81 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"scotch-yoke\"\n\
+         crank = { length = \"50 mm\", mass = \"1 kg\", inertia = \"0.01 kg m^2\" }\nyoke = { mass = \"8 kg\" }\n\
+         [[load]]\non = \"yoke\"\nopposing_force = \"30 N\"\n";
+    let file = machine(text);
+    let weight = 8.0 * 9.81;
+    let name = "pin in the slot";
+    for limit in [60.0, 100.0] {
+        let down = task(200.0_f64.to_radians(), 340.0_f64.to_radians());
+        let asked = within(&file, &[(name, limit)], &down);
+        let found = fastest(&file, &motor([200.0; 2], 300.0), &asked);
+        let told = |trace: &Trace| {
+            let all = reached(&file, &asked.limits.forces, trace).unwrap();
+            assert_eq!(all.len(), 1);
+            all[0]
+        };
+        let mut trace = found.trace.clone();
+        let moving = told(&trace);
+        assert_eq!(moving.name(&file), name);
+        close(moving.force, limit, 1e-6);
+        close(moving.force, largest(&file, &found, name), 1e-3);
+        assert!(!moving.stands && moving.kept_at_rest(&file).is_ok());
+        trace.dwell(0.5);
+        let standing = told(&trace);
+        if limit > weight {
+            assert_eq!(standing, moving);
+            continue;
+        }
+        close(standing.force, weight, 1e-9);
+        assert!(standing.stands && standing.t >= found.time);
+        let refused = standing.kept_at_rest(&file);
+        assert!(
+            matches!(refused, Err(NoMotion::JointForce { stands: true, .. })),
+            "{refused:?}"
+        );
+    }
 }

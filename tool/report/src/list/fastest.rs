@@ -8,16 +8,17 @@ use crate::table::output::{Format, json_parts, parts};
 use crate::table::sheet::Reading;
 use jred::Error;
 use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::mechanism::AnyMechanism;
 use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::number::words::counted;
-use jred_machine::units::RPM;
+use jred_machine::units::Vocabulary;
 use jred_motion::fastest::cycle::{Cost, Cycle, MORE, Made};
+use jred_motion::fastest::joint_force::Reached;
+use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{Binding, Phase, Reserve};
 use jred_motion::way::{Actuator, BothWays};
+use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
 /// Name and version of the form in JSON.
@@ -25,6 +26,9 @@ const SCHEMA: &str = "jred-fastest/1";
 
 /// Durations that differ by a smaller share are shown as the same.
 const SAME: f64 = 5e-4;
+
+/// Durations from so many times another one on are spoken of as a multiple.
+const MANY: f64 = 3.0;
 
 /// Share of the largest speed that is a rounding error: speeds are roots of energies.
 const STANDS: f64 = 1e-8;
@@ -34,6 +38,18 @@ const LEAST_PHASE: f64 = 1e-9;
 
 /// What a motion is refined to: less is chance.
 const LEAST_EXCESS: f64 = 1e-9;
+
+/// How warm the winding of the motor gets.
+pub struct Warmth {
+    /// Temperature (°C) of the surroundings.
+    pub ambient: f64,
+    /// Its temperatures.
+    pub temperatures: Temperatures,
+    /// The limit (°C).
+    pub limit: f64,
+    /// Where that binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    pub bound: Option<[f64; 2]>,
+}
 
 /// The fastest motion of a machine with a drive.
 pub struct Answer<'a> {
@@ -45,6 +61,10 @@ pub struct Answer<'a> {
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
+    /// Temperatures of the winding, where they are limited.
+    pub warmth: Option<&'a Warmth>,
+    /// The largest forces in the joints whose force is limited.
+    pub forces: &'a [Reached],
     /// What was asked for, option by option.
     pub asked: Vec<String>,
     /// What it leaves unused of motor and gearbox.
@@ -77,14 +97,15 @@ impl Answer<'_> {
         let axis = self.file.axis();
         let coordinate = axis.coordinate;
         let [speed, acceleration] = coordinate.rates();
-        let [effort, motor_speed] = self.motor_units();
+        let words = self.words();
+        let motor_effort = format!("motor {}", words.torque);
         let mut columns = Columns::new([
             Column::new(Quantity::Time, "t", "s"),
             coordinate.column(),
             speed,
             acceleration,
-            Column::new(Quantity::MotorEffort, "motor torque", effort),
-            Column::other("motor speed", motor_speed),
+            Column::new(Quantity::MotorEffort, &motor_effort, words.torque.unit),
+            Column::other("motor speed", words.speed_si),
         ]);
         let ways = BothWays::new(self.file, self.actuator);
         let trace = &self.cycle.trace;
@@ -101,15 +122,9 @@ impl Answer<'_> {
         Ok(columns)
     }
 
-    /// Units of effort and speed of the motor.
-    fn motor_units(&self) -> [&'static str; 2] {
-        let direct = self.file.drive_train.stages().is_empty();
-        let linear = self.cycle.trace.coordinate == Coordinate::Length && direct;
-        if linear {
-            ["N", "m/s"]
-        } else {
-            ["N m", "rad/s"]
-        }
+    /// Words and units of the motor.
+    fn words(&self) -> &'static Vocabulary {
+        input_kind(self.file).vocabulary()
     }
 
     /// As the terminal shows it.
@@ -132,8 +147,7 @@ impl Answer<'_> {
             if share.abs() < SAME {
                 says += "the same";
             } else {
-                let side = if share < 0.0 { "less" } else { "more" };
-                let _ = write!(says, "{} {side}", percent(share.abs()));
+                let _ = write!(says, "{}", more_or_less(whole / before));
             }
         }
         line(&mut text, "duration", &says);
@@ -141,6 +155,12 @@ impl Answer<'_> {
             line(&mut text, "asked for", &self.asked.join("; "));
         }
         self.motor(&mut text);
+        if let Some(warmth) = self.warmth {
+            self.winding(warmth, &mut text);
+        }
+        for force in self.forces {
+            line(&mut text, "joint force", &self.force(force));
+        }
         line(&mut text, "reserve", &self.reserve());
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
         let error = cycle.moves.iter().map(|made| made.fastest.error);
@@ -155,8 +175,9 @@ impl Answer<'_> {
         if let Some(bounds) = bounds.collect::<Option<Vec<f64>>>() {
             let least: f64 = bounds.iter().sum();
             let says = format!(
-                "no motion near it is faster; without limits of jerk, torque rate and RMS torque the moves take {} s, and none takes less",
-                short(least)
+                "no motion near it is faster; without limits of jerk, {torque} rate and RMS {torque} the moves take {} s, and none takes less",
+                short(least),
+                torque = self.words().torque
             );
             line(&mut text, "optimum", &says);
         }
@@ -169,16 +190,12 @@ impl Answer<'_> {
 
     /// What the motor does, and the pause that it needs.
     fn motor(&self, text: &mut String) {
-        let [effort, speed_unit] = self.motor_units();
-        // A motor that turns is spoken of in rpm.
-        let (speed_unit, per_speed) = match speed_unit {
-            "rad/s" => ("rpm", RPM),
-            other => (other, 1.0),
-        };
+        let Vocabulary { torque, speed, .. } = self.words();
+        let effort = torque.unit;
         let load = &self.cycle.load;
         let continuous = if load.continuous.is_finite() {
             format!(
-                ", S1 torque {} {effort} at the mean speed{}",
+                ", S1 {torque} {} {effort} at the mean speed{}",
                 short(load.continuous),
                 if load.allowed < load.continuous {
                     format!(
@@ -200,7 +217,7 @@ impl Answer<'_> {
         };
         line(
             text,
-            "motor torque",
+            &format!("motor {torque}"),
             &format!(
                 "RMS {} {effort}{continuous}; peak {} {effort}{holding}",
                 short(load.rms),
@@ -211,18 +228,19 @@ impl Answer<'_> {
             text,
             "motor speed",
             &format!(
-                "peak {} {speed_unit}, mean {} {speed_unit}",
-                short(load.peaks[1] / per_speed),
-                short(load.mean_speed / per_speed)
+                "peak {} {unit}, mean {} {unit}",
+                short(load.peaks[1] / speed.scale),
+                short(load.mean_speed / speed.scale),
+                unit = speed.unit
             ),
         );
         let what = if load.allowed < load.continuous {
             format!(
-                "{} of the S1 torque",
+                "{} of the S1 {torque}",
                 percent(load.allowed / load.continuous)
             )
         } else {
-            "the S1 torque".to_owned()
+            format!("the S1 {torque}")
         };
         match load.pause {
             Some(0.0) => {}
@@ -230,14 +248,14 @@ impl Answer<'_> {
                 text,
                 "warning",
                 &format!(
-                    "the RMS torque exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
+                    "the RMS {torque} exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
                 ),
             ),
             Some(pause) => line(
                 text,
                 "warning",
                 &format!(
-                    "the RMS torque exceeds {what}: repeated, the motion needs {} s more at rest each time",
+                    "the RMS {torque} exceeds {what}: repeated, the motion needs {} s more at rest each time",
                     short(pause)
                 ),
             ),
@@ -245,10 +263,72 @@ impl Answer<'_> {
                 text,
                 "warning",
                 &format!(
-                    "the RMS torque exceeds {what}, and no pause helps: holding the machine alone takes more than that"
+                    "the RMS {torque} exceeds {what}, and no pause helps: holding the machine alone takes more than that"
                 ),
             ),
         }
+    }
+
+    /// The largest force in a joint, and where.
+    fn force(&self, force: &Reached) -> String {
+        format!(
+            "{}: {} N at the most, at {} after {} s{}; limit {} N",
+            force.name(self.file),
+            short(force.force),
+            self.file.axis().place(force.phi),
+            shown(force.t, self.cycle.trace.duration()),
+            if force.stands { ", at rest" } else { "" },
+            short(force.limit)
+        )
+    }
+
+    /// How warm the winding gets, and what its limit costs.
+    fn winding(&self, warmth: &Warmth, text: &mut String) {
+        let Warmth {
+            ambient,
+            temperatures,
+            limit,
+            bound,
+        } = warmth;
+        let torque = self.words().torque;
+        let effort = torque.unit;
+        let mut says = format!("{} °C at the most", short(temperatures.greatest));
+        if let Some([mean, ripple]) = temperatures.mean {
+            let _ = write!(
+                says,
+                ", mean {} °C, ripple {} K over the cycle",
+                short(mean),
+                short(ripple)
+            );
+        }
+        let _ = write!(
+            says,
+            "; limit {} °C, surroundings {} °C",
+            short(*limit),
+            short(*ambient)
+        );
+        let mut notes = temperatures.heating.notes(torque);
+        if temperatures.whole && !temperatures.heating.relative && temperatures.heating.ripple {
+            notes.push("the motor as a whole".to_owned());
+        }
+        for note in notes {
+            says += "; ";
+            says += &note;
+        }
+        line(text, "winding", &says);
+        let says = match bound {
+            None => "does not bind".to_owned(),
+            Some([free, rms]) => {
+                let whole = self.cycle.trace.duration();
+                format!(
+                    "binds: it comes to an RMS of {} {effort}; without it {} s, {} less",
+                    short(*rms),
+                    short(*free),
+                    percent(1.0 - free / whole)
+                )
+            }
+        };
+        line(text, "its limit", &says);
     }
 
     /// Whether the motion turns for ever.
@@ -257,13 +337,14 @@ impl Answer<'_> {
     }
 
     fn reserve(&self) -> String {
+        let torque = self.words().torque;
         let shares = |reserve: &Reserve| {
             let shares = [
-                (reserve.torque, "motor torque"),
-                (reserve.speed, "motor speed"),
-                (reserve.gearbox_torque, "gearbox torque"),
-                (reserve.gearbox_speed, "gearbox speed"),
-                (reserve.rms, "S1 torque"),
+                (reserve.torque, format!("motor {torque}")),
+                (reserve.speed, "motor speed".to_owned()),
+                (reserve.gearbox_torque, "gearbox torque".to_owned()),
+                (reserve.gearbox_speed, "gearbox speed".to_owned()),
+                (reserve.rms, format!("S1 {torque}")),
             ];
             let given = shares.into_iter().filter(|(share, _)| *share > 0.0);
             let all: Vec<String> = given
@@ -308,15 +389,17 @@ impl Answer<'_> {
             "to".to_owned(),
             format!("speed from [{}]", axis.coordinate.speed_unit()),
             "to".to_owned(),
+            "greatest".to_owned(),
         ];
         let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
         let fastest = axis.rate(speeds.fold(0.0, f64::max));
-        let mechanism = self.file.machine.mechanism();
+        let file = self.file;
         let row = |phase: &Phase| -> Vec<Cell> {
-            let mut cells = vec![Cell::from(&*phase.limit.name_in(mechanism))];
+            let mut cells = vec![Cell::from(&*phase.limit.name_in(file))];
             let positions = phase.phi.map(&position);
             let times = phase.t.map(|t| shown(t, made.fastest.time));
-            let speeds = phase.speed.map(|v| {
+            let [from, to] = phase.speed;
+            let speeds = [from, to, greatest(made, phase)].map(|v| {
                 let speed = axis.rate(v);
                 short(if speed <= STANDS * fastest {
                     0.0
@@ -333,13 +416,13 @@ impl Answer<'_> {
         let phases = made.fastest.phases.iter();
         let phases = phases.filter(|phase| phase.t[1] - phase.t[0] > least);
         let rows: Vec<Vec<Cell>> = phases.map(row).collect();
-        text += &Reading::table(&columns, &rows, 7);
+        text += &Reading::table(&columns, &rows, 8);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;
             let _ = writeln!(
                 text,
                 "{}: {} s, {} s less",
-                eased(cost, mechanism),
+                eased(cost, file),
                 short(cost.time),
                 short(saved.max(0.0))
             );
@@ -383,14 +466,75 @@ impl Answer<'_> {
                 "pause_needed": load.pause,
             }),
         );
+        if let Some(warmth) = self.warmth {
+            map.insert("winding".into(), winding_json(warmth));
+        }
         let axis = self.file.axis();
+        let forces = self.forces.iter().map(|force| {
+            json!({
+                "joint": force.name(self.file),
+                "force": force.force,
+                "limit": force.limit,
+                "at": axis.position(force.phi),
+                "time": force.t,
+                "at_rest": force.stands,
+            })
+        });
+        map.insert("joint_forces".into(), forces.collect());
         map.insert("unit".into(), axis.coordinate.per().into());
         let moves: Vec<Value> = (cycle.moves.iter())
-            .map(|made| move_json(made, &axis, self.file.machine.mechanism()))
+            .map(|made| move_json(made, &axis, self.file))
             .collect();
         map.insert("moves".into(), moves.into());
         map
     }
+}
+
+/// `12 % less` than before, `30 % more`, or `12,000 times as much`.
+fn more_or_less(ratio: f64) -> String {
+    if ratio >= MANY {
+        return format!("{} times as much", thousands(ratio));
+    }
+    let side = if ratio < 1.0 { "less" } else { "more" };
+    format!("{} {side}", percent((ratio - 1.0).abs()))
+}
+
+/// A ratio with three digits, or whole, its thousands apart.
+fn thousands(ratio: f64) -> String {
+    if !(1e3..1e15).contains(&ratio) {
+        return short(ratio);
+    }
+    let digits = format!("{ratio:.0}");
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Temperatures in °C; what is without bound has no number.
+fn winding_json(warmth: &Warmth) -> Value {
+    let Temperatures {
+        greatest,
+        mean,
+        ref heating,
+        ..
+    } = warmth.temperatures;
+    json!({
+        "greatest": Some(greatest).filter(|t| t.is_finite()),
+        "mean": mean.map(|[mean, _]| mean),
+        "ripple": mean.map(|[_, ripple]| ripple),
+        "limit": warmth.limit,
+        "ambient": warmth.ambient,
+        "estimated": heating.relative,
+        "ripple_followed": heating.ripple,
+        "binds": warmth.bound.is_some(),
+        "rms_torque": warmth.bound.map(|[_, rms]| rms),
+        "duration_without": warmth.bound.map(|[free, _]| free),
+    })
 }
 
 /// A line: its name, and what it says.
@@ -399,35 +543,50 @@ fn line(text: &mut String, name: &str, says: &str) {
 }
 
 /// Without a limit, or with more of the motor's own.
-fn eased(cost: &Cost, mechanism: &AnyMechanism) -> String {
+fn eased(cost: &Cost, file: &MachineFile) -> String {
+    let more = percent(MORE);
     match cost.limit {
         Binding::Driving | Binding::Braking => {
-            format!("with {} more motor torque", percent(MORE))
+            let torque = input_kind(file).vocabulary().torque;
+            format!("with {more} more motor {torque}")
         }
-        Binding::MotorSpeed => format!("with {} more motor speed", percent(MORE)),
-        limit @ Binding::JointForce(_) => {
-            format!("without a limit of the {}", limit.name_in(mechanism))
+        Binding::MotorSpeed => format!("with {more} more motor speed"),
+        limit @ (Binding::JointForce(_)
+        | Binding::GearboxTorque
+        | Binding::GearboxSpeed
+        | Binding::WindingTemperature) => {
+            format!("without a limit of the {}", limit.name_in(file))
         }
-        limit => format!("without the {}", limit.name()),
+        limit => format!("without the {}", limit.name_in(file)),
     }
 }
 
-fn move_json(made: &Made, axis: &Axis, mechanism: &AnyMechanism) -> Value {
+/// The greatest speed (rad/s, or m/s) in a phase.
+fn greatest(made: &Made, phase: &Phase) -> f64 {
+    let [from, to] = phase.t;
+    let nodes = made.fastest.trace.nodes().iter();
+    let inside = nodes.filter(|node| node.t > from && node.t < to);
+    let speeds = inside.map(|node| node.omega.abs());
+    phase.speed.into_iter().chain(speeds).fold(0.0, f64::max)
+}
+
+fn move_json(made: &Made, axis: &Axis, file: &MachineFile) -> Value {
     let phases = made.fastest.phases.iter().map(|phase| {
         json!({
-            "limit": phase.limit.name_in(mechanism),
+            "limit": phase.limit.name_in(file),
             "from": axis.position(phase.phi[0]),
             "to": axis.position(phase.phi[1]),
             "from_time": phase.t[0],
             "to_time": phase.t[1],
             "from_speed": axis.rate(phase.speed[0]),
             "to_speed": axis.rate(phase.speed[1]),
+            "greatest_speed": axis.rate(greatest(made, phase)),
         })
     });
     let costs = made
         .costs
         .iter()
-        .map(|cost| json!({ "limit": cost.limit.name_in(mechanism), "eased": eased(cost, mechanism), "time": cost.time }));
+        .map(|cost| json!({ "limit": cost.limit.name_in(file), "eased": eased(cost, file), "time": cost.time }));
     json!({
         "from": axis.position(made.task.from),
         "to": axis.position(made.task.to),

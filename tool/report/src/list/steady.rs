@@ -84,13 +84,19 @@ fn degrees(phi: f64) -> String {
 
 fn describe(text: &mut String, cycle: &Cycle) {
     let figures = &cycle.figures;
+    // Speeds and torques count along the motion, as its fastest and slowest instants do.
+    let backwards = if figures.mean_speed < 0.0 {
+        "; all speeds and torques along the motion, in which φ falls"
+    } else {
+        ""
+    };
     let [fast, slow] = [figures.fastest, figures.slowest];
     line(
         text,
         "speed",
         &format!(
-            "mean {} over the time; from {} at {} to {} at {}",
-            rpm(figures.mean_speed),
+            "mean {} over the time; from {} at {} to {} at {}{backwards}",
+            rpm(figures.mean_speed.abs()),
             rpm(slow[0]),
             degrees(slow[1]),
             rpm(fast[0]),
@@ -107,13 +113,15 @@ fn describe(text: &mut String, cycle: &Cycle) {
         ),
     );
     line(text, "period", &format!("{} s", short(figures.period)));
-    let [mean, rms, peak] = figures.torque.map(short);
+    let [mean, rms, peak] = figures.torque;
+    let mean = mean * figures.motor_speed.signum();
+    let [mean, rms, peak] = [mean, rms, peak].map(short);
     line(
         text,
         "motor torque",
         &format!(
             "mean {mean} N m, RMS {rms} N m, peak {peak} N m, at {} of the motor on average",
-            rpm(figures.motor_speed)
+            rpm(figures.motor_speed.abs())
         ),
     );
     let [mean, peak] = figures.power.map(short);

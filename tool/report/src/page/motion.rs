@@ -183,8 +183,7 @@ fn plane(
         }
         curve.extend(shown(points));
     }
-    let mechanism = file.machine.mechanism();
-    let named = (curves.into_iter()).map(|(limit, points)| (limit.name_in(mechanism), points));
+    let named = (curves.into_iter()).map(|(limit, points)| (limit.name_in(file), points));
     let curves: Vec<_> = named.collect();
     let mut series: Vec<Series> = curves
         .iter()
@@ -226,6 +225,27 @@ fn plane(
     Ok(Figure::new(lines(&axes, &series), caption))
 }
 
+/// The temperature of the winding over the time, if it is followed.
+fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
+    let course = &warmth.temperatures.course;
+    let (first, last) = course.first().zip(course.last())?;
+    let stride = course.len().div_ceil(INSTANTS).max(1);
+    let points = course.iter().step_by(stride).chain(course.last());
+    let limit = [first.0, last.0].map(|t| (t, warmth.limit));
+    let series = [
+        line("winding", points.copied().collect()),
+        dashed("limit", limit.to_vec()),
+    ];
+    let axes = Axes {
+        title: "",
+        x: Axis::new("time [s]"),
+        y: "temperature [°C]",
+    };
+    let caption = "Temperature of the winding when the motion with its pauses repeats for ever.";
+    let figure = Figure::new(lines(&axes, &series), caption.to_owned());
+    Some(Section::new("Winding", vec![figure]))
+}
+
 /// The page about the fastest motion.
 ///
 /// # Errors
@@ -260,10 +280,11 @@ pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
         let points: Vec<(f64, f64)> = course.rows.iter().map(limit).collect();
         (name, points)
     });
-    let sections = vec![
+    let mut sections = vec![
         Section::new("Phase plane", planes),
         over_time(file, &[course], &limits),
     ];
+    sections.extend(answer.warmth.and_then(winding));
     Ok(MotionPage::page(
         file,
         "fastest motion",

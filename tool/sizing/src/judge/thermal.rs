@@ -107,21 +107,7 @@ fn place(context: &Context, found: Heating) -> String {
         coefficients,
         ..
     } = context;
-    let mut parts = Vec::new();
-    if found.hottest == Hottest::Runaway {
-        parts.push("thermal runaway: copper losses rise faster with temperature than the heat flow to the surroundings".to_owned());
-    }
-    if found.relative {
-        parts.push(format!(
-            "estimated from the RMS {} (thermal resistances and winding data not given)",
-            context.vocabulary().torque
-        ));
-    }
-    if !found.ripple {
-        parts.push(
-            "based on mean losses; temperature ripple ignored (no time constants given)".to_owned(),
-        );
-    }
+    let mut parts = found.notes(context.vocabulary().torque);
     parts.push(match site.duty.operation {
         Operation::Continuous => {
             let found = Features::of(cycle, coefficients, *ratio).duty_type();

@@ -30,14 +30,43 @@ pub fn is_named(drive: &Drive, text: &str) -> bool {
         && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
 }
 
+/// The drive whose name differs from a text in capitals alone, if there is but one.
+fn alike<'c>(catalogue: &'c Catalogue, text: &str) -> Option<(DriveId, Drive<'c>)> {
+    let (motor, gearbox, amplifier) = keys(text);
+    let one = |mut keys: Box<dyn Iterator<Item = &'c str> + 'c>, word: &str| {
+        let own = keys.find(|key| key.eq_ignore_ascii_case(word))?;
+        keys.all(|key| !key.eq_ignore_ascii_case(word))
+            .then_some(own)
+    };
+    let Catalogue {
+        motors,
+        gearboxes,
+        amplifiers,
+        ..
+    } = catalogue;
+    let mut name = one(Box::new(motors.iter().map(|m| &*m.key)), motor)?.to_owned();
+    if let Some(word) = gearbox {
+        name += "+";
+        name += one(Box::new(gearboxes.iter().map(|g| &*g.key)), word)?;
+    }
+    if let Some(word) = amplifier {
+        name += " on ";
+        name += one(Box::new(amplifiers.iter().map(|a| &*a.key)), word)?;
+    }
+    catalogue.drives().find(|(_, drive)| is_named(drive, &name))
+}
+
 /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
-/// the first that goes with the motor).
+/// the first that goes with the motor); in any case of its letters where that is clear.
 ///
 /// # Errors
 /// A drive that the catalogue does not have.
 pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive<'c>)> {
     let (motor, gearbox, amplifier) = keys(text);
     if let Some(found) = catalogue.drives().find(|(_, drive)| is_named(drive, text)) {
+        return Ok(found);
+    }
+    if let Some(found) = alike(catalogue, text) {
         return Ok(found);
     }
     let motors: Vec<&str> = catalogue.motors.iter().map(|m| m.key.as_str()).collect();

@@ -47,6 +47,19 @@ impl Course {
         Self { points, duration }
     }
 
+    /// The same with all torques in a proportion; other losses stay.
+    #[must_use]
+    pub fn scaled(&self, proportion: f64) -> Self {
+        let point = |point: &Point| Point {
+            root: proportion * point.root,
+            ..*point
+        };
+        Self {
+            points: self.points.iter().map(point).collect(),
+            duration: self.duration,
+        }
+    }
+
     /// Mean losses.
     pub fn mean(&self) -> Losses {
         let mut sum = Losses::default();

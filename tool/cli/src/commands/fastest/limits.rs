@@ -31,6 +31,7 @@ fn asked(options: &Options) -> Vec<String> {
         ("max-torque-rate", &options.max_torque_rate),
         ("ends", &ends),
         ("max-rms", &options.max_rms),
+        ("max-winding-temperature", &options.max_winding_temperature),
     ];
     let given = given.into_iter();
     let given = given.filter_map(|(name, text)| Some(format!("--{name} {}", text.as_ref()?)));

@@ -64,13 +64,19 @@ impl NoMotion {
             Self::RmsTooLarge { .. } => {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
+            Self::TooWarm { .. } => {
+                "give the cycle more time at rest, limit the speed (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
+            }
+            Self::WindingUnknown => {
+                "fill in the thermal figures of the motor in the catalogue, or limit the RMS torque (--max-rms)".to_owned()
+            }
             Self::NotFound { limit, .. } => match limit {
                 Some(limit) => format!("allow a larger {}, or give a longer way", limit.name()),
                 None => "give another limit: a slightly larger or smaller one may be found".to_owned(),
             },
             Self::JointForce { .. } => LARGER_FORCE.to_owned(),
             Self::JointForceAlone => {
-                "leave one of them out: without --max-jerk, --max-torque-rate and --max-rms the forces in joints are limited".to_owned()
+                "leave one of them out: without --max-jerk, --max-torque-rate, --max-rms and --max-winding-temperature the forces in joints are limited".to_owned()
             }
             Self::Empty { .. } => {
                 "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()

@@ -1,0 +1,53 @@
+//! `--max-winding-temperature`.
+
+use miette::{Result, miette};
+
+use super::Chosen;
+use crate::options::fastest::Fastest as Options;
+use jred_machine::number::rounding::short;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_motion::fastest::winding::{Unknown, Winding};
+use jred_sizing::catalogue::MotorKind;
+
+/// The winding whose temperature is limited, and the limit (°C).
+///
+/// # Errors
+/// A limit below the temperature of the surroundings, or a motor of whose temperatures nothing is known.
+pub(super) fn limit<'a>(
+    options: &Options,
+    chosen: &'a Chosen,
+) -> Result<Option<(&'a Winding, f64)>> {
+    let Some(text) = &options.max_winding_temperature else {
+        return Ok(None);
+    };
+    let given = format!("--max-winding-temperature {}", plain::quoted(text));
+    let limit =
+        read::temperature_argument(text).map_err(|why| miette!("{given} cannot be used: {why}"))?;
+    let Some(winding) = &chosen.winding else {
+        return Err(miette!(
+            help = "name a motor of the catalogue with --drive, or limit the RMS torque with --max-rms",
+            "{given} cannot be used: nothing is known of the temperatures of a motor that --torque describes"
+        ));
+    };
+    let ambient = winding.ambient();
+    if limit <= ambient {
+        return Err(miette!(
+            help = "give a temperature above it, or change `ambient` in [surroundings] of the machine file",
+            "{given} cannot be used: the surroundings have {} °C",
+            short(ambient)
+        ));
+    }
+    winding.known().map_err(|unknown| {
+        let missing = match unknown {
+            Unknown::Figures(sentence) => sentence(MotorKind::Rotary.vocabulary()),
+            Unknown::RatedRise => "maximum temperature of the winding (max_winding_temperature), or its resistance, torque constant and thermal resistances".to_owned(),
+        };
+        miette!(
+            help = "fill them in in the catalogue (docs/catalogue.md), or limit the RMS torque with --max-rms",
+            "{given} cannot be used: {} lacks {missing}",
+            chosen.name
+        )
+    })?;
+    Ok(Some((winding, limit)))
+}

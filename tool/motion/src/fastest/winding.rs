@@ -1,0 +1,353 @@
+//! The fastest motion in which the motor's winding gets no warmer than a limit.
+//!
+//! The model is that of sizing and of the simulation ([`Model`]): winding and housing against the surroundings, with the copper's resistance at
+//! the temperature of the winding. In the steady periodic state, when the motion with its pauses repeats for ever, the greatest temperature of the
+//! cycle counts, its ripple included.
+//!
+//! A cycle that is short against the winding's time constant warms it by its mean losses alone, so that the limit is one of the RMS torque R.
+//! The greatest temperature rises with R: R is sought at which it is at its limit. The next R is always the one at which the last motion, with all its
+//! torques in one proportion, would reach the limit, ripple and growth of the resistance included; where that leaves the interval
+//! between what is too warm and what is not, its middle.
+//!
+//! In a cycle that is long against the time constant R is sought in the same way, by the greatest temperature of the periodic state. The motion is
+//! then the fastest one with its RMS torque; another one that warms the winding otherwise over the cycle may be faster.
+
+use jred::Error;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::operation::Operation;
+use jred_machine::model::surroundings::{REFERENCE, Surroundings};
+use jred_machine::units::Sentence;
+use jred_sizing::catalogue::{Drive, Motor};
+use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::thermal::course::{Course, Hottest};
+use jred_sizing::thermal::{Heating, Model};
+
+use super::cycle::{Cost, Cycle};
+use super::{Binding, NoMotion, Rms};
+use crate::trace::Trace;
+use crate::way::{Actuator, BothWays};
+
+/// Share of the allowed rise by which the greatest temperature may lie below its limit.
+const BELOW: f64 = 1e-4;
+
+/// Share of the RMS torque within which it is known that no motion is cool enough.
+const COARSE: f64 = 0.02;
+
+/// Motions that are tried.
+const TRIES: u32 = 24;
+
+/// Parts of a step of the motion between which the losses run in straight lines, at the least, and the most.
+const PARTS: [f64; 2] = [4.0, 4096.0];
+
+/// Longest part of a step as a share of the network's fastest time constant, for the mean temperature.
+const PART: f64 = 0.02;
+
+/// Within which a proportion of torques is sought.
+const PROPORTION: f64 = 1e-5;
+
+/// Least proportion of torques from one try to the next.
+const LEAST: f64 = 0.25;
+
+/// Why the temperature of a motor is not known.
+#[derive(Clone, Copy, Debug)]
+pub enum Unknown {
+    /// Its model asks for data that are missing.
+    Figures(Sentence),
+    /// The rise is known as a share of the rated one alone, and the winding's maximum temperature is not.
+    RatedRise,
+}
+
+/// The motor of a drive as a body that gets warm.
+#[derive(Clone, Debug)]
+pub struct Winding {
+    motor: Motor,
+    prepared: Prepared,
+    surroundings: Surroundings,
+    operation: Operation,
+}
+
+/// The temperatures (°C) of a winding in the steady periodic state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Temperatures {
+    /// The greatest; infinite where there is no bound.
+    pub greatest: f64,
+    /// The mean over a cycle that repeats without end, and greatest less least; where they are followed.
+    pub mean: Option<[f64; 2]>,
+    /// Over the time (s) of such a cycle.
+    pub course: Vec<(f64, f64)>,
+    /// What the model could use.
+    pub heating: Heating,
+    /// Whether winding and housing are one body.
+    pub whole: bool,
+}
+
+/// A motion whose winding gets no warmer than a limit.
+#[derive(Clone, Debug)]
+pub struct Cooled {
+    /// The motion.
+    pub cycle: Cycle,
+    /// Its temperatures.
+    pub temperatures: Temperatures,
+    /// The limit (°C).
+    pub limit: f64,
+    /// Where the limit binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    pub bound: Option<[f64; 2]>,
+}
+
+impl Winding {
+    /// The winding of a drive in the surroundings and the operation of a machine file.
+    pub fn new(drive: &Drive, file: &MachineFile) -> Self {
+        Self {
+            motor: drive.motor.clone(),
+            prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
+            surroundings: file.site.surroundings,
+            operation: file.site.duty.operation,
+        }
+    }
+
+    /// Temperature (°C) of the surroundings.
+    pub const fn ambient(&self) -> f64 {
+        self.surroundings.ambient
+    }
+
+    fn model(&self, duration: f64) -> Result<Model, Unknown> {
+        Model::of(&self.motor, &self.prepared, &self.surroundings, duration)
+            .map_err(Unknown::Figures)
+    }
+
+    /// Kelvin per rise of a model; thin air makes it more.
+    fn unit(&self, model: &Model) -> Result<f64, Unknown> {
+        let rated = if matches!(model, Model::Relative { .. }) {
+            let limit = self.motor.thermal.max_temperature.map(|t| t - REFERENCE);
+            limit.filter(|rise| *rise > 0.0).ok_or(Unknown::RatedRise)?
+        } else {
+            1.0
+        };
+        Ok(rated / self.surroundings.altitude_factor())
+    }
+
+    /// Whether a temperature can be told.
+    ///
+    /// # Errors
+    /// What is missing.
+    pub fn known(&self) -> Result<(), Unknown> {
+        let model = self.model(1.0)?;
+        let course = Course::new(Vec::new(), 1.0);
+        self.heating(&model, &course, 0.0)?;
+        self.unit(&model).map(|_| ())
+    }
+
+    /// The losses of a motion.
+    fn course(
+        &self,
+        model: &Model,
+        file: &MachineFile,
+        actuator: &Actuator,
+        trace: &Trace,
+    ) -> Result<Course, Error> {
+        let ways = BothWays::new(file, actuator);
+        let longest = model.network().map(|network| PART * network.fastest());
+        let mut points = Vec::new();
+        for pair in trace.nodes().windows(2) {
+            let [a, b] = [&pair[0], &pair[1]];
+            if b.step <= 0.0 {
+                continue;
+            }
+            let [least, most] = PARTS;
+            let parts = longest.map_or(least, |longest| (b.step / longest).ceil());
+            let parts = parts.clamp(least, most) as u32;
+            for k in 0..=parts {
+                let share = f64::from(k) / f64::from(parts);
+                let state = b.after(a, share);
+                let torque = ways.torque(&state, b.phi - a.phi)?;
+                let speed = ways.forwards().motor_speed(state.omega);
+                let t = a.t + share * b.step;
+                points.push(model.point(&self.motor, &self.prepared, t, [torque, speed]));
+            }
+        }
+        Ok(Course::new(points, trace.duration()))
+    }
+
+    /// The hottest rises of losses; at rest beside the cycle the motor gives `held` (N·m).
+    fn heating(&self, model: &Model, course: &Course, held: f64) -> Result<Heating, Unknown> {
+        let held = match self.operation {
+            Operation::Intermittent { holding: true, .. } => held,
+            _ => 0.0,
+        };
+        let rest = model.at_rest(&self.prepared, held);
+        model
+            .heated(|| course.clone(), || course.mean(), &self.operation, rest)
+            .map_err(Unknown::Figures)
+    }
+
+    fn greatest(&self, unit: f64, heating: &Heating) -> f64 {
+        match heating.hottest {
+            Hottest::Rise([winding, _]) => self.ambient() + unit * winding,
+            Hottest::Runaway => f64::INFINITY,
+        }
+    }
+
+    /// The temperatures of a motion, and the proportion of all its torques at which the greatest would be `limit` (°C).
+    ///
+    /// # Errors
+    /// Figures that are missing, or a place where the mechanism cannot be placed.
+    pub fn temperatures(
+        &self,
+        file: &MachineFile,
+        actuator: &Actuator,
+        cycle: &Cycle,
+        limit: f64,
+    ) -> Result<(Temperatures, f64), NoMotion> {
+        let unknown = |_| NoMotion::WindingUnknown;
+        let trace = &cycle.trace;
+        let model = self.model(trace.duration()).map_err(unknown)?;
+        let unit = self.unit(&model).map_err(unknown)?;
+        let course = self.course(&model, file, actuator, trace)?;
+        let held = cycle.load.holding;
+        let at = |share: f64| {
+            let scaled = course.scaled(share);
+            let heating = self.heating(&model, &scaled, share * held)?;
+            Ok::<_, Unknown>((self.greatest(unit, &heating), heating))
+        };
+        let (greatest, heating) = at(1.0).map_err(unknown)?;
+        let network = model.network();
+        let periodic = match (network, self.operation) {
+            (Some(network), Operation::Continuous) => course.periodic(&network),
+            _ => None,
+        };
+        let ambient = self.ambient();
+        let shown = |(t, [winding, _]): (f64, [f64; 2])| (t, ambient + unit * winding);
+        let periodic: Vec<(f64, f64)> = periodic.into_iter().flatten().map(shown).collect();
+        // The proportion lies between the one that is too warm and the one that is not.
+        let (mut low, mut high) = (0.0, 1.0);
+        while greatest > limit && high - low > PROPORTION {
+            let middle = 0.5 * (low + high);
+            if at(middle).map_err(unknown)?.0 > limit {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let share = if greatest > limit { low } else { 1.0 };
+        let temperatures = Temperatures {
+            greatest,
+            mean: mean(&periodic, greatest),
+            course: periodic,
+            heating,
+            whole: !network.is_some_and(|network| network.has_housing()),
+        };
+        Ok((temperatures, share))
+    }
+}
+
+/// Mean of a course over the time, and what its greatest value is above its least.
+fn mean(course: &[(f64, f64)], greatest: f64) -> Option<[f64; 2]> {
+    let (first, last) = course.first().zip(course.last())?;
+    let pairs = course.windows(2);
+    let sum: f64 = pairs
+        .map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0))
+        .sum();
+    let least = course.iter().map(|(_, value)| *value);
+    let least = least.fold(f64::INFINITY, f64::min);
+    Some([sum / (last.0 - first.0), greatest - least])
+}
+
+/// The motion whose winding is no warmer than `limit` (°C), besides a limit of the RMS torque.
+///
+/// `at` makes the fastest motion under a limit of the RMS torque.
+///
+/// # Errors
+/// Those of `at`, the number of a move with it; [`NoMotion::TooWarm`].
+pub fn cooled(
+    (winding, limit): (&Winding, f64),
+    (file, actuator): (&MachineFile, &Actuator),
+    rms: Option<Rms>,
+    at: impl Fn(Option<Rms>) -> Result<Cycle, (Option<usize>, NoMotion)>,
+) -> Result<Cooled, (Option<usize>, NoMotion)> {
+    let free = at(rms)?;
+    let margin = BELOW * (limit - winding.ambient());
+    let aim = limit - 0.5 * margin;
+    let look = |cycle: &Cycle| {
+        let found = winding.temperatures(file, actuator, cycle, aim);
+        found.map_err(|why| (None, why))
+    };
+    let (temperatures, mut share) = look(&free)?;
+    if temperatures.greatest <= limit {
+        return Ok(Cooled {
+            cycle: free,
+            temperatures,
+            limit,
+            bound: None,
+        });
+    }
+    let mut coolest = temperatures.greatest;
+    let refused = |coolest: f64| {
+        let why = NoMotion::TooWarm {
+            greatest: coolest,
+            limit,
+            ambient: winding.ambient(),
+        };
+        Err((None, why))
+    };
+    if free.moves.iter().any(|made| made.task.endless) {
+        return refused(coolest);
+    }
+    // RMS torques that are too small or cool enough, and too large.
+    let (mut low, mut high) = (0.0, free.load.rms);
+    let mut best: Option<(Cycle, Temperatures)> = None;
+    let mut next = high * share.max(LEAST);
+    for _ in 0..TRIES {
+        match at(Some(Rms::Torque(next))) {
+            Ok(cycle) => {
+                let (temperatures, own) = look(&cycle)?;
+                share = own;
+                coolest = coolest.min(temperatures.greatest);
+                if temperatures.greatest > limit {
+                    high = next;
+                    next *= share.max(LEAST);
+                } else {
+                    low = next;
+                    let near = limit - temperatures.greatest <= margin;
+                    // Copper's loss grows with the square of the torque.
+                    let rise = temperatures.greatest - winding.ambient();
+                    next *= ((aim - winding.ambient()) / rise).sqrt();
+                    best = Some((cycle, temperatures));
+                    if near {
+                        break;
+                    }
+                }
+            }
+            // Slower motions than these are not found.
+            Err((_, NoMotion::RmsTooLarge { .. } | NoMotion::NotFound { .. })) => low = next,
+            Err(why) => return Err(why),
+        }
+        if next <= low || next >= high {
+            next = low.midpoint(high);
+        }
+        // What is too warm everywhere need not be known so well.
+        let near = if best.is_some() { BELOW } else { COARSE };
+        if high - low <= near * high {
+            break;
+        }
+    }
+    let Some((mut cycle, temperatures)) = best else {
+        return refused(coolest);
+    };
+    for (made, before) in cycle.moves.iter_mut().zip(&free.moves) {
+        for phase in &mut made.fastest.phases {
+            if phase.limit == Binding::RmsTorque {
+                phase.limit = Binding::WindingTemperature;
+            }
+        }
+        made.costs = vec![Cost {
+            limit: Binding::WindingTemperature,
+            time: before.fastest.time,
+        }];
+    }
+    Ok(Cooled {
+        bound: Some([free.trace.duration(), cycle.load.rms]),
+        cycle,
+        temperatures,
+        limit,
+    })
+}
