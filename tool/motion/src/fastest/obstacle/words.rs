@@ -1,0 +1,260 @@
+//! The same in words.
+
+use std::fmt;
+
+use jred_machine::number::rounding::short;
+
+use super::super::field::Binding;
+use super::NoMotion;
+
+impl NoMotion {
+    /// Which limits leave nothing at a place.
+    fn at_a_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::JointForce {
+                joint,
+                phi,
+                forces: [force, limit],
+                stands,
+                axis,
+            } => {
+                let slowly = if *stands {
+                    "while the machine stands there in a pause; its limit is"
+                } else {
+                    "in a machine that moves slowly; a motion that keeps the limit by its speed alone is not computed, and the limit is"
+                };
+                write!(
+                    f,
+                    "the force in joint \"{joint}\" is {} N at {} {slowly} {} N",
+                    short(*force),
+                    axis.place(*phi),
+                    short(*limit)
+                )
+            }
+            Self::Empty {
+                phi,
+                speed,
+                least,
+                most,
+            } => write!(
+                f,
+                "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
+                short(*phi),
+                short(*speed),
+                least.1.name(),
+                short(least.0),
+                most.1.name(),
+                short(most.0)
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Why a motion that may exist is not computed.
+    fn not_computed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooLong { turns, most } => write!(
+                f,
+                "the way of {} turns is too long: of a machine that changes within a turn, the fastest motion is computed over at most {} turns",
+                short(*turns),
+                short(most.floor())
+            ),
+            Self::NotAccurate {
+                excess,
+                phi,
+                change,
+                axis,
+                ..
+            } => {
+                let place = axis.place(*phi);
+                write!(
+                    f,
+                    "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
+                )
+            }
+            Self::LoadJumps {
+                phi,
+                torques: [before, after],
+                axis,
+            } => write!(
+                f,
+                "the torque rate cannot be limited: at {} a load jumps, and the motor torque at constant speed with it from {} to {} N m",
+                axis.place(*phi),
+                short(*before),
+                short(*after)
+            ),
+            Self::WindingUnknown => {
+                write!(f, "the temperature of the motor's winding is not known")
+            }
+            Self::JointForceAlone => write!(
+                f,
+                "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque or of the winding's temperature that binds: that motion is not computed"
+            ),
+            Self::NoTorqueLimit => write!(
+                f,
+                "the motor's peak torque is not known, so nothing limits the acceleration"
+            ),
+            Self::NoSpeedLimit => write!(
+                f,
+                "nothing limits the speed of a motion that turns for ever: the motor's largest speed is not known"
+            ),
+            Self::SelfLocking => write!(
+                f,
+                "the gearbox is self-locking: its load cannot be braked by the motor, and the motion under it is not determined"
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// What a search came to that did not find one.
+    fn not_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RmsTooLarge { rms, allowed } => write!(
+                f,
+                "no motion with an RMS torque of {} N m or less was found: the search met {} N m at the least. A slower motion may have less, and weight and friction may keep it above the limit",
+                short(*allowed),
+                short(*rms)
+            ),
+            Self::TooWarm {
+                greatest,
+                limit,
+                ambient,
+            } => {
+                let greatest = if greatest.is_finite() {
+                    format!("reaches {} °C", short(*greatest))
+                } else {
+                    "heats up without end".to_owned()
+                };
+                write!(
+                    f,
+                    "no motion with a winding of {} °C or less was found: in the coolest one the winding {greatest}, in surroundings of {} °C",
+                    short(*limit),
+                    short(*ambient)
+                )
+            }
+            Self::NotFound {
+                bound,
+                limit,
+                phi,
+                missed,
+                axis,
+            } => {
+                match limit {
+                    Some(limit) => write!(
+                        f,
+                        "no motion within the limits was found: the {} is exceeded by {} % at {}",
+                        limit.name(),
+                        short(100.0 * missed),
+                        axis.place(*phi)
+                    )?,
+                    None => write!(
+                        f,
+                        "the search for a motion within the limits of jerk, torque rate or RMS torque did not come to its end, though no limit is exceeded where it stopped"
+                    )?,
+                }
+                write!(
+                    f,
+                    "; without limits of jerk, torque rate and RMS torque the fastest motion takes {} s",
+                    short(*bound)
+                )
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for NoMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
+            Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
+            Self::Stops {
+                phi,
+                at_start,
+                limit,
+                name,
+                torques: [needed, given],
+                unit,
+                axis,
+            } => {
+                let place = axis.place(*phi);
+                let [needed, given] = [needed, given].map(|torque| short(*torque));
+                let unit = unit.effort_unit();
+                let what = if *at_start {
+                    "the machine cannot start at"
+                } else {
+                    "with the largest acceleration all the way, the machine still stops at"
+                };
+                match limit {
+                    Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
+                        write!(f, "{what} {place}: the {name} is in the way")
+                    }
+                    Binding::GearboxTorque => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the gearbox output to keep moving, its limit is {given} {unit}"
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the motor to keep moving, it gives {given} {unit}"
+                    ),
+                }
+            }
+            Self::RunsAway {
+                phi,
+                at_end,
+                limit,
+                name,
+                torques: [needed, given],
+                unit,
+                axis,
+            } => {
+                let place = axis.place(*phi);
+                let [needed, given] = [needed, given].map(|torque| short(torque.abs()));
+                let unit = unit.effort_unit();
+                let what = if *at_end {
+                    "the machine cannot be stopped at"
+                } else {
+                    "the machine cannot be braked in time: it runs away at"
+                };
+                match limit {
+                    Binding::JointForce(_) => {
+                        write!(f, "{what} {place}: the {name} is in the way")
+                    }
+                    Binding::Deceleration | Binding::Acceleration => write!(
+                        f,
+                        "{what} {place}: its loads brake harder than the {name} allows"
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {} is {given} {unit}",
+                        limit.name()
+                    ),
+                }
+            }
+            Self::StartTooFast { most, axis } => write!(
+                f,
+                "the start is too fast: the end and the limits on the way can be met from at most {} {}",
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
+            ),
+            Self::EndTooFast { most, axis } => write!(
+                f,
+                "the speed of the end cannot be reached: at most {} {}",
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
+            ),
+            Self::NoTorqueLimit
+            | Self::NoSpeedLimit
+            | Self::SelfLocking
+            | Self::TooLong { .. }
+            | Self::NotAccurate { .. }
+            | Self::LoadJumps { .. }
+            | Self::WindingUnknown
+            | Self::JointForceAlone => self.not_computed(f),
+            Self::RmsTooLarge { .. } | Self::TooWarm { .. } | Self::NotFound { .. } => {
+                self.not_found(f)
+            }
+            Self::JointForce { .. } | Self::Empty { .. } => self.at_a_place(f),
+        }
+    }
+}
