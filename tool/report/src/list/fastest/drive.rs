@@ -1,0 +1,221 @@
+//! What the motion asks of the drive: torque, speed, temperature of the winding, forces in joints, and what is left unused.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use jred_machine::number::rounding::{percent, short, shown};
+use jred_machine::units::Vocabulary;
+use jred_motion::fastest::Reserve;
+use jred_motion::fastest::joint_force::Reached;
+use jred_motion::fastest::winding::Temperatures;
+
+use super::{Answer, line};
+
+/// How warm the winding of the motor gets.
+pub struct Warmth {
+    /// Temperature (°C) of the surroundings.
+    pub ambient: f64,
+    /// Its temperatures.
+    pub temperatures: Temperatures,
+    /// The limit (°C).
+    pub limit: f64,
+    /// Where that binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    pub bound: Option<[f64; 2]>,
+}
+
+impl Answer<'_> {
+    /// What the motor does, and the pause that it needs.
+    pub(super) fn motor(&self, text: &mut String) {
+        let Vocabulary { torque, speed, .. } = self.words();
+        let effort = torque.unit;
+        let load = &self.cycle.load;
+        let continuous = if load.continuous.is_finite() {
+            format!(
+                ", S1 {torque} {} {effort} at the mean speed{}",
+                short(load.continuous),
+                if load.allowed < load.continuous {
+                    format!(
+                        ", {} of it with the reserve",
+                        percent(load.allowed / load.continuous)
+                    )
+                } else {
+                    String::new()
+                }
+            )
+        } else {
+            String::new()
+        };
+        let holding = if self.is_endless() {
+            String::new()
+        } else {
+            let holding = shown(load.holding, load.peaks[0]);
+            format!("; {holding} {effort} to hold the end")
+        };
+        line(
+            text,
+            &format!("motor {torque}"),
+            &format!(
+                "RMS {} {effort}{continuous}; peak {} {effort}{holding}",
+                short(load.rms),
+                short(load.peaks[0])
+            ),
+        );
+        line(
+            text,
+            "motor speed",
+            &format!(
+                "peak {} {unit}, mean {} {unit}",
+                short(load.peaks[1] / speed.scale),
+                short(load.mean_speed / speed.scale),
+                unit = speed.unit
+            ),
+        );
+        let what = if load.allowed < load.continuous {
+            format!(
+                "{} of the S1 {torque}",
+                percent(load.allowed / load.continuous)
+            )
+        } else {
+            format!("the S1 {torque}")
+        };
+        match load.pause {
+            Some(0.0) => {}
+            _ if self.is_endless() => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS {torque} exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
+                ),
+            ),
+            Some(pause) => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS {torque} exceeds {what}: repeated, the motion needs {} s more at rest each time",
+                    short(pause)
+                ),
+            ),
+            None => line(
+                text,
+                "warning",
+                &format!(
+                    "the RMS {torque} exceeds {what}, and no pause helps: holding the machine alone takes more than that"
+                ),
+            ),
+        }
+    }
+
+    /// The largest force in a joint, and where.
+    pub(super) fn force(&self, force: &Reached) -> String {
+        format!(
+            "{}: {} N at the most, at {} after {} s{}; limit {} N",
+            force.name(self.file),
+            short(force.force),
+            self.file.axis().place(force.phi),
+            shown(force.t, self.cycle.trace.duration()),
+            if force.stands { ", at rest" } else { "" },
+            short(force.limit)
+        )
+    }
+
+    /// How warm the winding gets, and what its limit costs.
+    pub(super) fn winding(&self, warmth: &Warmth, text: &mut String) {
+        let Warmth {
+            ambient,
+            temperatures,
+            limit,
+            bound,
+        } = warmth;
+        let torque = self.words().torque;
+        let effort = torque.unit;
+        let mut says = format!("{} °C at the most", short(temperatures.greatest));
+        if let Some([mean, ripple]) = temperatures.mean {
+            let _ = write!(
+                says,
+                ", mean {} °C, ripple {} K over the cycle",
+                short(mean),
+                short(ripple)
+            );
+        }
+        let _ = write!(
+            says,
+            "; limit {} °C, surroundings {} °C",
+            short(*limit),
+            short(*ambient)
+        );
+        let mut notes = temperatures.heating.notes(torque);
+        if temperatures.whole && !temperatures.heating.relative && temperatures.heating.ripple {
+            notes.push("the motor as a whole".to_owned());
+        }
+        for note in notes {
+            says += "; ";
+            says += &note;
+        }
+        line(text, "winding", &says);
+        let says = match bound {
+            None => "does not bind".to_owned(),
+            Some([free, rms]) => {
+                let whole = self.cycle.trace.duration();
+                format!(
+                    "binds: it comes to an RMS of {} {effort}; without it {} s, {} less",
+                    short(*rms),
+                    short(*free),
+                    percent(1.0 - free / whole)
+                )
+            }
+        };
+        line(text, "its limit", &says);
+    }
+
+    pub(super) fn reserve(&self) -> String {
+        let torque = self.words().torque;
+        let shares = |reserve: &Reserve| {
+            let shares = [
+                (reserve.torque, format!("motor {torque}")),
+                (reserve.speed, "motor speed".to_owned()),
+                (reserve.gearbox_torque, "gearbox torque".to_owned()),
+                (reserve.gearbox_speed, "gearbox speed".to_owned()),
+                (reserve.rms, format!("S1 {torque}")),
+            ];
+            let given = shares.into_iter().filter(|(share, _)| *share > 0.0);
+            let all: Vec<String> = given
+                .map(|(share, of)| format!("{} of the {of}", percent(share)))
+                .collect();
+            all.join(", ")
+        };
+        let asked = Reserve::of(&self.file.rules);
+        if self.reserve.is_some() {
+            return shares(&self.reserve);
+        }
+        if self.of_catalogue && asked.is_some() {
+            return format!(
+                "none; `jred size` keeps {}: --reserve rules leaves that unused",
+                shares(&asked)
+            );
+        }
+        "none".to_owned()
+    }
+}
+
+/// Temperatures in °C; what is without bound has no number.
+pub(super) fn winding_json(warmth: &Warmth) -> Value {
+    let Temperatures {
+        greatest,
+        mean,
+        ref heating,
+        ..
+    } = warmth.temperatures;
+    json!({
+        "greatest": Some(greatest).filter(|t| t.is_finite()),
+        "mean": mean.map(|[mean, _]| mean),
+        "ripple": mean.map(|[_, ripple]| ripple),
+        "limit": warmth.limit,
+        "ambient": warmth.ambient,
+        "estimated": heating.relative,
+        "ripple_followed": heating.ripple,
+        "binds": warmth.bound.is_some(),
+        "rms_torque": warmth.bound.map(|[_, rms]| rms),
+        "duration_without": warmth.bound.map(|[free, _]| free),
+    })
+}

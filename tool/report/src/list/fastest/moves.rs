@@ -1,0 +1,149 @@
+//! One of the moves: its phases, each at one limit, and what each limit costs.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use crate::table::sheet::Reading;
+use jred_machine::model::axis::Axis;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::rounding::{percent, short, shown};
+use jred_motion::fastest::cycle::{Cost, MORE, Made};
+use jred_motion::fastest::{Binding, Phase};
+use jred_sizing::select::fit::input_kind;
+use jred_sizing::study::cell::Cell;
+
+use super::Answer;
+
+/// Share of the largest speed that is a rounding error: speeds are roots of energies.
+const STANDS: f64 = 1e-8;
+
+/// Share of a move's time below which a phase is none.
+const LEAST_PHASE: f64 = 1e-9;
+
+impl Answer<'_> {
+    pub(super) fn one_move(&self, number: usize, made: &Made) -> String {
+        let axis = self.file.axis();
+        let unit = axis.coordinate.unit();
+        let ends = [made.task.from, made.task.to].map(|phi| axis.shown(phi).abs());
+        let farthest = ends[0].max(ends[1]);
+        let position = |phi: f64| shown(axis.shown(phi), farthest);
+        let mut text = format!(
+            "move {number}: {} {unit} to {} {unit} in {} s",
+            position(made.task.from),
+            position(made.task.to),
+            short(made.fastest.time)
+        );
+        if let Some(before) = made.before {
+            let _ = write!(text, " ({} s in the file)", short(before));
+        }
+        text.push('\n');
+        let columns = [
+            "at its limit".to_owned(),
+            format!("from {} [{unit}]", axis.symbol()),
+            "to".to_owned(),
+            "from t [s]".to_owned(),
+            "to".to_owned(),
+            format!("speed from [{}]", axis.coordinate.speed_unit()),
+            "to".to_owned(),
+            "greatest".to_owned(),
+        ];
+        let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
+        let fastest = axis.rate(speeds.fold(0.0, f64::max));
+        let file = self.file;
+        let row = |phase: &Phase| -> Vec<Cell> {
+            let mut cells = vec![Cell::from(&*phase.limit.name_in(file))];
+            let positions = phase.phi.map(&position);
+            let times = phase.t.map(|t| shown(t, made.fastest.time));
+            let [from, to] = phase.speed;
+            let speeds = [from, to, greatest(made, phase)].map(|v| {
+                let speed = axis.rate(v);
+                short(if speed <= STANDS * fastest {
+                    0.0
+                } else {
+                    speed
+                })
+            });
+            let texts = positions.into_iter().chain(times).chain(speeds);
+            cells.extend(texts.map(|text| Cell::from(text.as_str())));
+            cells
+        };
+        // Where a turn closes a phase may have no length.
+        let least = LEAST_PHASE * made.fastest.time;
+        let phases = made.fastest.phases.iter();
+        let phases = phases.filter(|phase| phase.t[1] - phase.t[0] > least);
+        let rows: Vec<Vec<Cell>> = phases.map(row).collect();
+        text += &Reading::table(&columns, &rows, 8);
+        for cost in &made.costs {
+            let saved = made.fastest.time - cost.time;
+            let _ = writeln!(
+                text,
+                "{}: {} s, {} s less",
+                eased(cost, file),
+                short(cost.time),
+                short(saved.max(0.0))
+            );
+        }
+        text
+    }
+}
+
+/// Without a limit, or with more of the motor's own.
+fn eased(cost: &Cost, file: &MachineFile) -> String {
+    let more = percent(MORE);
+    match cost.limit {
+        Binding::Driving | Binding::Braking => {
+            let torque = input_kind(file).vocabulary().torque;
+            format!("with {more} more motor {torque}")
+        }
+        Binding::MotorSpeed => format!("with {more} more motor speed"),
+        limit @ (Binding::JointForce(_)
+        | Binding::GearboxTorque
+        | Binding::GearboxSpeed
+        | Binding::WindingTemperature) => {
+            format!("without a limit of the {}", limit.name_in(file))
+        }
+        limit => format!("without the {}", limit.name_in(file)),
+    }
+}
+
+/// The greatest speed (rad/s, or m/s) in a phase.
+fn greatest(made: &Made, phase: &Phase) -> f64 {
+    let [from, to] = phase.t;
+    let nodes = made.fastest.trace.nodes().iter();
+    let inside = nodes.filter(|node| node.t > from && node.t < to);
+    let speeds = inside.map(|node| node.omega.abs());
+    phase.speed.into_iter().chain(speeds).fold(0.0, f64::max)
+}
+
+pub(super) fn move_json(made: &Made, axis: &Axis, file: &MachineFile) -> Value {
+    let phases = made.fastest.phases.iter().map(|phase| {
+        json!({
+            "limit": phase.limit.name_in(file),
+            "from": axis.position(phase.phi[0]),
+            "to": axis.position(phase.phi[1]),
+            "from_time": phase.t[0],
+            "to_time": phase.t[1],
+            "from_speed": axis.rate(phase.speed[0]),
+            "to_speed": axis.rate(phase.speed[1]),
+            "greatest_speed": axis.rate(greatest(made, phase)),
+        })
+    });
+    let costs = made
+        .costs
+        .iter()
+        .map(|cost| json!({ "limit": cost.limit.name_in(file), "eased": eased(cost, file), "time": cost.time }));
+    json!({
+        "from": axis.position(made.task.from),
+        "to": axis.position(made.task.to),
+        "from_speed": axis.rate(made.task.speeds[0]),
+        "to_speed": axis.rate(made.task.speeds[1]),
+        "time": made.fastest.time,
+        "time_before": made.before,
+        "error": made.fastest.error,
+        "bound": made.fastest.bound,
+        "excess": made.fastest.excess,
+        "phases": phases.collect::<Vec<_>>(),
+        "costs": costs.collect::<Vec<_>>(),
+    })
+}
