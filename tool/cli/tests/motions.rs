@@ -267,6 +267,26 @@ fn the_motion_is_that_of_the_first_drive() {
     );
 }
 
+/// A limit that is satisfied by far lags behind where the torque bends; at this RMS torque that once stopped the search.
+#[test]
+fn a_limit_far_away_does_not_stop_the_search() {
+    let press = crate::support::press_file();
+    let answer = run(&[
+        "fastest",
+        press.to_str().unwrap(),
+        "--drive",
+        "sgm7a-25a+npt025mf-4",
+        "--max-rms",
+        "10.40564 N m",
+        "--format",
+        "json",
+    ])
+    .ends(0)
+    .json();
+    let found = answer["motor"]["rms_torque"].as_f64().unwrap();
+    assert!(found <= 10.40564 && found > 10.4, "{found}");
+}
+
 /// Firmware that follows the plan is where the motion is, within what the plan says of itself; as Rust source it has the same words, and the identifier of the table.
 #[test]
 fn a_plan_is_the_motion() {
