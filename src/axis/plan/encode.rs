@@ -261,15 +261,9 @@ impl Segment {
     fn most(&self, end: f64, window: f64) -> [f64; 2] {
         let [_, b, c, d] = self.coefficients;
         let root = math::sqrt((4.0 * c * c - 10.0 * b * d).max(0.0));
-        // Without cancellation; a root that is none is clamped to an end.
+        // Without cancellation; a root that is none becomes an end.
         let sum = -2.0 * c - if c < 0.0 { -root } else { root };
-        let [one, other] = [sum / (10.0 * d), b / sum].map(|u| {
-            if u.is_finite() {
-                u.clamp(0.0, end)
-            } else {
-                0.0
-            }
-        });
+        let [one, other] = [sum / (10.0 * d), b / sum].map(|u| u.max(0.0).min(end));
         let places = [0.0, one.min(other), one.max(other), end];
         let mut most = [0.0_f64; 2];
         let mut look = |u: f64| {
