@@ -131,6 +131,8 @@ pub enum Reason {
     Losses,
     /// Something else: the bound is too low.
     Bound,
+    /// The motion takes more than the search counted: its polynomials do not follow what was found.
+    Written,
 }
 
 /// No drive: the torque at the input of the machine's drive train, without limits.
@@ -153,8 +155,6 @@ pub struct Gentle {
     pub waits_at_end: bool,
     /// ∫c dt: of the square of the torque (N²·m²·s), of the power (J), of the torque's power in units of itself.
     pub cost: f64,
-    /// What is to be least, in the same unit for every move: the cost, or about the peak torque (N·m).
-    pub measure: f64,
     /// No motion costs less; for the RMS torque and the energy.
     pub bound: Option<f64>,
     /// Lower bound on the peak torque of all motions in this time (N·m), where the peak is to be least and the optimum is global.
@@ -229,7 +229,10 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
     let whole = task.solve(travel.duration, FIRST, None)?;
     let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
         Some(solved) => solved,
-        None if at_rest => task.shorter(&held)?,
+        None if at_rest => {
+            let moving = task.shorter(&held)?;
+            task.solve(moving, FIRST, None)?.ok_or(Fault::NotFound)?
+        }
         None => return Err(Fault::NotFound),
     };
     let moving = solved.moving;

@@ -7,7 +7,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Segment};
 use jred_sizing::cycle::Cycle;
 
-use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Travel};
+use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Reason, Travel};
 use crate::moves::{self, Move, NoMoves, Part};
 use crate::trace::Trace;
 use crate::way::{Actuator, Way};
@@ -20,7 +20,6 @@ mod course;
 mod even;
 mod figures;
 mod law;
-mod rest;
 mod standing;
 
 /// The laws of VDI 2143 between two rests, by the names of machine files.
@@ -134,6 +133,9 @@ impl From<Error> for Obstacle {
     }
 }
 
+/// Share by which the motion may take more than the search counted.
+const AGREES: f64 = 1e-3;
+
 /// The motion of a file in the gentlest way, beside the laws.
 ///
 /// # Errors
@@ -145,21 +147,20 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         (Goal::Energy, Some(copper)) => Objective::Energy { copper },
         (Goal::Energy, None) => return Err(Obstacle::NoCopper),
     };
-    let mut parts = match moves::parts(motion) {
+    let parts = match moves::parts(motion) {
         Ok(parts) => parts,
         Err(why) => vec![Part::Move(
             moves::ring(motion).ok_or(Obstacle::NoMoves(why))?,
         )],
     };
     let endless = moves::parts(motion).is_err();
-    let mut asked = Asked {
+    let asked = Asked {
         file,
         request,
         cyclic: motion.cyclic,
         start: motion.at(0.0).phi,
     };
     let mut gentle = Vec::new();
-    let mut resting = None;
     for part in &parts {
         let Part::Move(step) = part else { continue };
         let travel = Travel {
@@ -171,28 +172,9 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
             ring: endless,
         };
         let way = asked.way(step);
-        let mut found = gentlest::gentlest(&way, &travel, objective);
-        if endless && may_rest(&found, objective) {
-            let rests = rest::turn(&way, &travel, objective);
-            let rests = rests.map_err(|fault| Obstacle::Move(1, *step, fault))?;
-            let measure = found.as_ref().map_or(f64::INFINITY, |own| own.measure);
-            if let Some(gentle) = rests.filter(|gentle| gentle.measure < measure) {
-                let start = gentle.travel.start;
-                resting = Some(Move {
-                    from: start,
-                    to: start + travel.distance,
-                    ..*step
-                });
-                found = Ok(gentle);
-            }
-        }
+        let found = gentlest::gentlest(&way, &travel, objective);
         let number = gentle.len() + 1;
         gentle.push(found.map_err(|fault| Obstacle::Move(number, *step, fault))?);
-    }
-    if let Some(step) = resting {
-        // It begins where it rests.
-        asked.start = step.from;
-        parts = vec![Part::Move(step)];
     }
     let found = |gentle: &[Gentle]| {
         let mut found = gentle.iter();
@@ -220,13 +202,26 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         figures = asked.figures(&best)?;
     }
     let duration = best.duration();
-    let bound = bound(&gentle, &figures, duration, request.goal);
+    let pauses = asked.held(&parts)?;
+    let bound = bound(&gentle, pauses, duration, request.goal);
+    // What the search counts must be what the motion takes.
+    let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + pauses;
+    let counted = figure(cost, duration, request.goal);
+    let differs = figures.of(request.goal) - counted > AGREES * counted;
+    if request.goal != Goal::Peak && differs {
+        for gentle in &mut gentle {
+            if gentle.optimum == Optimum::Global {
+                gentle.optimum = Optimum::Local(Reason::Written);
+            }
+        }
+    }
+    let least = figures.of(request.goal);
     Ok(Retimed {
         own: asked.figures(motion)?,
         standing: standing::changed(file, motion, &best)?,
         laws,
         best: figures,
-        bound,
+        bound: bound.map(|bound| bound.min(least)),
         endless,
         trace: trace(file, &parts, &gentle),
         moves: gentle,
@@ -234,32 +229,25 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     })
 }
 
-/// Whether a rotation without end may be gentler with a pause: it all but stands somewhere, or a second more costs.
-fn may_rest(found: &Result<Gentle, Fault>, objective: Objective) -> bool {
-    match found {
-        Ok(gentle) => gentle.per_second > 0.0 && objective != Objective::Peak,
-        Err(fault) => *fault == Fault::NotFound,
-    }
-}
-
-/// The bound of all moves together, with what the pauses cost.
-fn bound(moves: &[Gentle], figures: &Figures, duration: f64, goal: Goal) -> Option<f64> {
+/// The bound of all moves together, with what the pauses cost. Not that of the motion less what the search left: the written motion may take more than the
+/// one that was found.
+fn bound(moves: &[Gentle], pauses: f64, duration: f64, goal: Goal) -> Option<f64> {
     if goal == Goal::Peak {
         let least = moves.iter().map(|gentle| gentle.least_peak);
         return least
             .collect::<Option<Vec<f64>>>()
             .map(|all| all.into_iter().fold(0.0, f64::max));
     }
-    let mut missing = 0.0;
-    for gentle in moves {
-        missing += (gentle.cost - gentle.bound?).max(0.0);
+    let least: f64 = moves.iter().map(|gentle| gentle.bound).sum::<Option<_>>()?;
+    Some(figure(least + pauses, duration, goal))
+}
+
+/// The figure of a cost over all moves and pauses.
+fn figure(cost: f64, duration: f64, goal: Goal) -> f64 {
+    match goal {
+        Goal::Rms => (cost / duration).max(0.0).sqrt(),
+        _ => cost,
     }
-    Some(match goal {
-        Goal::Rms => (figures.rms * figures.rms - missing / duration)
-            .max(0.0)
-            .sqrt(),
-        _ => figures.of(goal) - missing,
-    })
 }
 
 /// The machine with what is asked.
@@ -271,6 +259,23 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
+    /// What the pauses cost: holding, in the unit of the moves' costs.
+    fn held(&self, parts: &[Part]) -> Result<f64, Error> {
+        let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
+        let per_square = match self.request.goal {
+            Goal::Energy => self.request.copper.unwrap_or(0.0),
+            _ => 1.0,
+        };
+        let mut cost = 0.0;
+        for part in parts {
+            if let Part::Dwell { at, duration } = part {
+                let torque = way.holding(&way.place_at_rest(*at)?);
+                cost += per_square * torque * torque * duration;
+            }
+        }
+        Ok(cost)
+    }
+
     fn way(&self, step: &Move) -> Way<'_> {
         let direction = (step.to - step.from).signum();
         Way::new(self.file, self.request.actuator.clone(), direction)

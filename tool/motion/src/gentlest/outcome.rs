@@ -106,10 +106,6 @@ impl Solved<'_> {
             moving,
             waits_at_end: waits.at_end,
             cost,
-            measure: match task.objective {
-                Objective::Peak => peak,
-                _ => cost,
-            },
             bound,
             least_peak,
             per_second: -multiplier * size,

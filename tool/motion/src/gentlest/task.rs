@@ -112,9 +112,8 @@ impl Task<'_> {
         Ok([torque(start)?, torque(start + distance)?])
     }
 
-    /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
-    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
-        let mut found: Option<Solved> = None;
+    /// The time (s) after which waiting is better than to go on moving: where a second more costs what holding costs.
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<f64, Fault> {
         let mut last: Option<Solved> = None;
         let mut high = self.travel.duration;
         // First down to a time that is too short, then between.
@@ -126,18 +125,16 @@ impl Task<'_> {
             }
             let middle = low.map_or(0.8 * high, |low| (low * high).sqrt());
             halvings += u32::from(low.is_some());
-            let near = last.as_ref().or(found.as_ref());
-            let solved = self.solve(middle, FIRST, near)?;
+            let solved = self.solve(middle, FIRST, last.as_ref())?;
             let short = solved.as_ref().map(|solved| solved.excess(held) <= 0.0);
             if short == Some(true) {
                 low = Some(middle);
-                (found, last) = (solved, None);
             } else {
                 high = middle;
-                last = solved.or(last);
             }
+            last = solved.or(last);
         }
-        found.ok_or(Fault::NotFound)
+        low.ok_or(Fault::NotFound)
     }
 
     /// Scale of the torques, from the motion with w = 1.

@@ -3,7 +3,7 @@
 use jred_motion::gentlest::Fault;
 use jred_motion::retime::{Goal, Obstacle, retime};
 
-use super::{example, machine, request, retimed};
+use super::{example, request, retimed};
 
 /// The largest share of the range by which positions differ from the speeds between them.
 fn contradiction(nodes: &[jred_motion::trace::Node]) -> f64 {
@@ -49,64 +49,6 @@ fn a_slow_motion_does_not_contradict_itself() {
         }
     }
     assert!(found >= 3 && found + refused == 6, "{found} {refused}");
-}
-
-/// A table with the friction C turns without end, a turn in T. It moves for t and rests: ∫T² = C²·t + 12·J²·D²/t³ is least with t² = 6·J·D/C, 4/3·C²·t,
-/// and evenly it would be C²·T.
-#[test]
-fn an_endless_turn_rests_where_that_takes_less() {
-    let (inertia, friction, period) = (2.0_f64, 3.0_f64, 20.0);
-    let text = |period: f64| {
-        format!(
-            "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"{inertia} kg m^2\"\n[[load]]\non = \"table\"\nopposing_moment = \"{friction} N m\"\n[motion]\ntype = \"constant-speed\"\nspeed = \"{} rpm\"\n",
-            60.0 / period
-        )
-    };
-    let found = retimed(&machine(&text(period)), Goal::Rms, 0.0);
-    let moving = (6.0 * inertia * std::f64::consts::TAU / friction).sqrt();
-    let squares = 4.0 / 3.0 * friction * friction * moving;
-    let rms = (squares / period).sqrt();
-    assert!(
-        (found.best.rms / rms - 1.0).abs() < 1e-4,
-        "{} {rms}",
-        found.best.rms
-    );
-    assert!((found.moves[0].moving / moving - 1.0).abs() < 1e-3);
-    assert!((found.trace.duration() / period - 1.0).abs() < 1e-12);
-    // Where the turn takes less time than that the speed is even.
-    let found = retimed(&machine(&text(1.2 * moving)), Goal::Rms, 0.0);
-    assert!(
-        (found.best.rms / friction - 1.0).abs() < 1e-6,
-        "{}",
-        found.best.rms
-    );
-}
-
-/// A press that turns without end in so long a time that it would all but stand: it stands, and the longer the time, the less is taken. The RMS torque is that of
-/// the move, spread over the time.
-#[test]
-fn a_slow_press_stands_somewhere_in_its_turn() {
-    let mut before: Option<(f64, f64)> = None;
-    for period in [3.0, 30.0] {
-        let mut file = example("press", &[]);
-        let speed = std::f64::consts::TAU / period;
-        file.motion = Some(jred_machine::model::motion::Motion::constant_speed(
-            0.0,
-            speed,
-            std::f64::consts::TAU,
-        ));
-        let found = retimed(&file, Goal::Rms, 0.0);
-        assert!(found.endless && found.moves[0].moving < 0.5 * period);
-        assert!(contradiction(found.trace.nodes()) <= 1e-6);
-        let squares = found.best.rms * found.best.rms * period;
-        if let Some((rms, earlier)) = before {
-            assert!(found.best.rms < rms);
-            // It may stand where nothing is to be held, or nearly.
-            let more = squares / earlier - 1.0;
-            assert!((-1e-4..0.02).contains(&more), "{squares} {earlier}");
-        }
-        before = Some((found.best.rms, squares));
-    }
 }
 
 /// A press with level ends and the least peak: the last power that comes to its end is taken, far below the laws, and no lower than what the press asks for anyway.

@@ -279,6 +279,7 @@ const fn why(reason: Reason) -> &'static str {
         Reason::Viscous => "viscous friction makes the problem non-convex",
         Reason::Losses => "the losses of gears make the problem non-convex",
         Reason::Bound => "the lower bound is not close enough",
+        Reason::Written => "the motion takes more than the search counted",
     }
 }
 
