@@ -267,6 +267,32 @@ fn the_motion_is_that_of_the_first_drive() {
     );
 }
 
+/// Where a guide turns round its friction does, too: the largest force is that of the side on which the motion is.
+#[test]
+fn the_largest_force_has_the_friction_of_its_own_side() {
+    let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let feeder = home.join("../../machines/shaking-feeder.toml");
+    let answer = run(&[
+        "fastest",
+        feeder.to_str().unwrap(),
+        "--torque",
+        "100 N m",
+        "--motor-speed",
+        "3000 rpm",
+        "--max-reaction",
+        "crank pivot=4 kN",
+        "--format",
+        "json",
+    ])
+    .ends(0)
+    .json();
+    let force = answer["joint_forces"][0]["force"].as_f64().unwrap();
+    assert!(
+        force <= 4000.0 * (1.0 + 1e-6) && force > 4000.0 * (1.0 - 1e-4),
+        "{force}"
+    );
+}
+
 /// A limit that is satisfied by far lags behind where the torque bends; at this RMS torque that once stopped the search.
 #[test]
 fn a_limit_far_away_does_not_stop_the_search() {

@@ -180,6 +180,9 @@ const ROUNDED: f64 = 1e-9;
 /// Parts of a step of a motion at whose ends its forces are looked at.
 const PARTS: u32 = 4;
 
+/// Share of a step by which its own ends are looked at inside: friction turns round at a dead centre, where the acceleration of the step has the force of its own side.
+const INSIDE: f64 = 1e-6;
+
 /// The largest forces that a motion reaches, its pauses included, in the joints whose force is limited: each at the nodes of the motion
 /// and at places between. In a pause nothing opposes a motion, and forces are those of weight, loads and springs.
 ///
@@ -214,7 +217,7 @@ pub fn reached(
             ..Now::default()
         };
         for k in 0..=PARTS {
-            let share = f64::from(k) / f64::from(PARTS);
+            let share = (f64::from(k) / f64::from(PARTS)).clamp(INSIDE, 1.0 - INSIDE);
             let state = b.after(a, share);
             let omega = if stands {
                 0.0
