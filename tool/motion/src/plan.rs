@@ -119,7 +119,7 @@ impl Plan {
             words: write(&knots, errors)?,
             errors,
             most,
-            excess: excess(worst, asked.allowed(&knots)),
+            excess: excess(worst, asked.bounds),
         })
     }
 

@@ -175,14 +175,6 @@ impl Asked<'_> {
         ]
     }
 
-    /// By how much a plan of these knots may be off: as asked for, but for what slivers take.
-    pub(super) fn allowed(&self, knots: &[Knot]) -> [f64; 3] {
-        knots.windows(2).fold(self.bounds, |most, pair| {
-            let own = self.of_row([pair[0].t, pair[1].t], 0.0);
-            std::array::from_fn(|k| most[k].max(own[k]))
-        })
-    }
-
     /// The knots of the plan: from each one as far as the polynomial through both keeps to the motion, and to the stroke.
     pub(super) fn knots(&self, nodes: &[Node]) -> Vec<Knot> {
         let Some(last) = nodes.len().checked_sub(1) else {

@@ -50,7 +50,7 @@ pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
     };
     Some(format!(
         "the plan's {name} is off by {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion contradict each other there, \
-         or the motion is finer than a plan's integers; give a larger --plan-error",
+         a part of it is left out that is too short for a row, or it is finer than a plan's integers; give a larger --plan-error",
         short(shown(error)),
         short(t),
         short(shown(allowed)),
