@@ -49,6 +49,8 @@ pub enum LinkageError {
         /// How far off it is (m, or rad).
         gap: f64,
     },
+    /// A linkage that is to be kept on its branch through change points passes none.
+    NoChangePoint,
 }
 
 error!(
@@ -86,6 +88,9 @@ impl fmt::Display for LinkageError {
                 f,
                 "after a turn of the drive link, link {link} is {gap:.3e} off its first position: the mechanism does not close"
             ),
+            Self::NoChangePoint => f.write_str(
+                "there is no change point to pass: no two branches of the linkage cross in the drive's range",
+            ),
         }
     }
 }
@@ -103,6 +108,9 @@ impl Curable for LinkageError {
             Self::CamBase { .. } => "put it on the body that carries both",
             Self::NotClosed { .. } => {
                 "limit the drive by a stroke, or change lengths or teeth so that a turn comes back"
+            }
+            Self::NoChangePoint => {
+                "assemble it without: it stays on the branch on which it is drawn"
             }
         })
     }

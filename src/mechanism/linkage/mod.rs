@@ -9,6 +9,7 @@
 //! group, the groups of L. V. Assur.
 
 mod cam;
+mod crossing;
 mod error;
 mod pair;
 mod solver;

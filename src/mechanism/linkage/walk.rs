@@ -5,22 +5,65 @@ use crate::mechanism::linkage::LinkageError;
 use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
-use crate::machine::joint::Joints;
+use crate::machine::joint::{Joint, Joints};
 use crate::machine::link::{Frame, Link};
 use crate::machine::{Frames, Jointed, Mechanism};
 use crate::number::error::finite;
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
-use super::solver::{Solved, Unsolved};
+use super::crossing::{Crossing, PassError};
+use super::solver::{DEAD, Solved, Unsolved};
 use super::{Linkage, Pair, Pose};
 
 /// The corrector may move a link so far (rad, or of the linkage's size): beyond, the predictor was not to be trusted.
-const TRUSTED: f64 = 0.02;
+pub(super) const TRUSTED: f64 = 0.02;
 /// Shortest step, of the drive's range: what cannot be passed with it is a dead point.
 const SHORTEST: f64 = 1e-9;
 /// Largest gap (rad, or of the linkage's size) between the ends of a turn that closes.
 const CLOSED: f64 = 1e-9;
+/// The same of one that begins in the window about a change point.
+const CLOSED_FLAT: f64 = 1e-6;
+/// Towards a change point the walk stops this early (rad, or of the linkage's size), and with this quality: closer, rounding could put the
+/// links on the other branch.
+const WARY: f64 = 1e-5;
+/// How close to a change point the forces in the joints are not given (rad, or of the linkage's size).
+const FLAT: f64 = 0.01;
+
+/// How close to a dead point a walk goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gait {
+    /// Shortest step (rad, or m).
+    shortest: f64,
+    /// Least [quality](Solved::quality).
+    least: f64,
+}
+
+impl Gait {
+    /// As close as the solver can.
+    pub(super) fn strict(span: f64) -> Self {
+        Self {
+            shortest: SHORTEST * span,
+            least: DEAD,
+        }
+    }
+
+    /// Where a change point may be ahead; `unit` is what 1 rad is for the drive.
+    pub(super) fn wary(unit: f64) -> Self {
+        Self {
+            shortest: WARY * unit,
+            least: WARY,
+        }
+    }
+}
+
+/// The links, solved at a position of the drive.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub(super) phi: f64,
+    pub(super) solved: Solved,
+    pub(super) frames: Frames,
+}
 
 /// A coordinate at a station: its value and its first transfer function.
 type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
@@ -35,18 +78,25 @@ type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
 /// golden data (tests `four_bar_golden_as_a_linkage` and those of `library_as_linkages.rs`). Cost: proportional to the number
 /// of positions; in each, the sum over the [groups](Linkage::group_sizes), one of which costs at most the cube of its size
 /// (bench `linkage`, docs/performance.md).
+///
+/// `FLATS` is the most change points in its range, and 0 for a linkage that passes none; each costs 196 bytes a link and some more.
+/// In a window about a change point, at most 0.3 rad to either side, the coordinates are interpolated; how well, says
+/// [`assemble_through_change_points`](Linkage::assemble_through_change_points).
 #[derive(Clone, Debug)]
 pub struct Assembly<
     const LINKS: usize,
     const PAIRS: usize,
     const STATIONS: usize,
     const CAMS: usize = 0,
+    const FLATS: usize = 0,
 > {
     linkage: Linkage<LINKS, PAIRS, CAMS>,
     domain: Domain,
     stations: [Station<LINKS>; STATIONS],
-    /// Signs of the determinants on this branch.
+    /// Signs of the determinants on this branch, below the first change point.
     signs: u64,
+    /// The change points whose windows reach into the domain, one after the other.
+    crossings: heapless::Vec<Crossing<LINKS>, FLATS>,
     /// How far each link's angle advances in a turn (rad).
     turn: [f64; LINKS],
 }
@@ -64,9 +114,49 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         phi: f64,
         drawing: &[Pose],
     ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS>, LinkageError> {
+        self.assemble_along(domain, phi, drawing)
+    }
+
+    /// Assembles a linkage as [`assemble`](Self::assemble) does, and follows it through its change points, on its branch.
+    ///
+    /// In a change point bodies come into line so that the linkage could go on in two ways: antiparallelogram, kite, a slider-crank with
+    /// crank and rod of the same length. Something guides the linkage there, so that it goes on smoothly: a second crank, teeth,
+    /// another coupler. The drawing names the branch, so it must not be drawn in a change point. All transfer functions are finite;
+    /// the forces in the joints grow towards it without bound and are [not determined](Jointed::determined) within [`flat`](Assembly::flat).
+    ///
+    /// `FLATS` is the most change points in the range; one at the start of a turn counts twice. In a window about each the coordinates are
+    /// interpolated: positions to 1e-13, first, second and third transfer functions to 1e-11, 1e-9 and 1e-7 (of 1 or the largest value), against the
+    /// closed forms of parallelogram, antiparallelogram, kite, Galloway's mechanism and folded slider-crank (tests of
+    /// `linkage_change_points.rs`). Links equal but for rounding do; where they only nearly are, the linkage has a dead point or a steep place
+    /// instead, and no change point.
+    ///
+    /// # Errors
+    /// Those of [`assemble`](Self::assemble), with a dead point that is no change point; more change points than `FLATS`; none
+    /// ([`LinkageError::NoChangePoint`]).
+    pub fn assemble_through_change_points<const STATIONS: usize, const FLATS: usize>(
+        self,
+        domain: Domain,
+        phi: f64,
+        drawing: &[Pose],
+    ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS, FLATS>, LinkageError> {
+        const { assert!(FLATS > 0, "a linkage without change points: assemble") }
+        let assembly = self.assemble_along(domain, phi, drawing)?;
+        if assembly.change_points().next().is_none() {
+            return Err(LinkageError::NoChangePoint);
+        }
+        Ok(assembly)
+    }
+
+    fn assemble_along<const STATIONS: usize, const FLATS: usize>(
+        self,
+        domain: Domain,
+        phi: f64,
+        drawing: &[Pose],
+    ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS, FLATS>, LinkageError> {
         const { assert!(STATIONS >= 2, "a range has two ends") }
         let span = domain.span();
-        let [min, max] = [domain.position(0.0) - span, domain.position(1.0) + span];
+        let [from, to] = [domain.position(0.0), domain.position(1.0)];
+        let [min, max] = [from - span, to + span];
         if !(min..=max).contains(&finite("drive position of the drawing", phi)?) {
             return Err(RangeError::OutOfRange {
                 what: "drive position of the drawing",
@@ -77,26 +167,63 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             .into());
         }
         let mut frames = self.drawing(drawing)?;
-        let first = self.solve(phi, &mut frames).map_err(|why| why.at(phi))?;
-        let from = domain.position(0.0);
-        let mut now = self.walk(phi, (first, &mut frames), from, span)?;
-        let signs = now.signs;
-        let start = frames.clone();
+        let solved = self.solve(phi, &mut frames).map_err(|why| why.at(phi))?;
+        let mut place = Place {
+            phi,
+            solved,
+            frames,
+        };
+        let count = self.links.len();
+        let mut crossings = heapless::Vec::<Crossing<LINKS>, FLATS>::new();
+        let passed = |result: Result<(), PassError>| {
+            result.map_err(|error| match error {
+                PassError::Pose(error) => error.into(),
+                PassError::TooMany => LinkageError::from(RangeError::TooMany {
+                    what: "change points",
+                    capacity: FLATS,
+                }),
+            })
+        };
+        passed(self.walk_through(&mut place, from, span, &mut crossings))?;
+        crossings.retain(|crossing| crossing.holds(from));
+        if let Some(first) = crossings.first() {
+            place = first.upper(count);
+        }
+        let signs = place.solved.signs;
+        if FLATS > 0 {
+            passed(self.walk_through(&mut place.clone(), to, span, &mut crossings))?;
+        }
+        let mut start = Frames::new();
+        let mut frames = Frames::new();
         let mut stations = [[[[0.0; 2]; 3]; LINKS]; STATIONS];
-        let mut before = from;
         for (k, station) in stations.iter_mut().enumerate() {
             let next = domain.position(k as f64 / (STATIONS - 1) as f64);
-            now = self.walk(before, (now, &mut frames), next, span)?;
-            before = next;
+            if let Some(window) = crossings.iter().find(|window| window.holds(next)) {
+                window.place(next, count, &mut frames);
+            } else {
+                let passed = |window: &&Crossing<LINKS>| {
+                    window.is_below(next) && !window.is_below(place.phi)
+                };
+                if let Some(window) = crossings.iter().rev().find(passed) {
+                    place = window.upper(count);
+                }
+                self.walk(&mut place, next, Gait::strict(span))?;
+                frames.clone_from(&place.frames);
+            }
             for (slot, frame) in station.iter_mut().zip(&frames) {
                 *slot = [frame.x, frame.y, frame.psi].map(|c| [c.value, c.d1]);
+            }
+            if k == 0 {
+                start.clone_from(&frames);
             }
         }
         let mut turn = [0.0; LINKS];
         if domain == Domain::Turn {
+            let flat = crossings.iter().any(|window| window.holds(from));
+            let closed = if flat { CLOSED_FLAT } else { CLOSED };
             let ends = start.iter().zip(&frames).enumerate();
             for ((link, (start, end)), advance) in ends.zip(&mut turn) {
-                *advance = self.closes(link, start, end)?;
+                *advance = self.closes(link, [start, end], closed)?;
             }
         }
         Ok(Assembly {
@@ -104,6 +231,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             domain,
             stations,
             signs,
+            crossings,
             turn,
         })
     }
@@ -111,7 +239,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     /// How far a link's angle has advanced in a turn, if the link has returned: the same place, the same angle except for whole
     /// turns, the same first transfer functions. A balanced wheel that only rolls with other
     /// wheels may stop at any angle.
-    fn closes(&self, link: usize, start: &Frame, end: &Frame) -> Result<f64, LinkageError> {
+    fn closes(
+        &self,
+        link: usize,
+        [start, end]: [&Frame; 2],
+        closed: f64,
+    ) -> Result<f64, LinkageError> {
         let advance = end.psi.value - start.psi.value;
         let whole = math::floor(advance / TAU + 0.5) * TAU;
         let turned = math::abs(advance - whole);
@@ -127,8 +260,8 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             apart(start.psi.d1, end.psi.d1) * self.size,
         ];
         let gap = gap.into_iter().fold(0.0, f64::max);
-        if gap <= CLOSED * self.size {
-            Ok(if turned <= CLOSED { whole } else { advance })
+        if gap <= closed * self.size {
+            Ok(if turned <= closed { whole } else { advance })
         } else {
             Err(LinkageError::NotClosed { link, gap })
         }
@@ -141,44 +274,51 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         held.all(|(equation, angles_alone)| angles_alone && !is_cam(equation.pair.into()))
     }
 
-    /// From a solved position, where the links are in `frames`, to another φ, in steps as long as the predictor is to be trusted.
-    fn walk(
-        &self,
-        from: f64,
-        (start, frames): (Solved, &mut Frames),
-        to: f64,
-        span: f64,
-    ) -> Result<Solved, PoseError> {
-        let (mut phi, mut now) = (from, start);
-        let mut step = to - from;
+    /// From a place to another φ, in steps as long as the predictor is to be trusted. A place that is not reached is the last before it.
+    pub(super) fn walk(&self, place: &mut Place, to: f64, gait: Gait) -> Result<(), PoseError> {
+        let mut step = to - place.phi;
         let mut arrived = math::abs(step) == 0.0;
         while !arrived {
+            let phi = place.phi;
             let last = math::abs(to - phi) <= math::abs(step);
             let next = if last { to } else { phi + step };
-            let mut there = predicted(frames, next - phi);
+            let mut there = predicted(&place.frames, next - phi);
+            let joint = place.solved.weakest;
             let dead = match self.solve(next, &mut there) {
-                Ok(found) if found.signs == now.signs && found.correction <= TRUSTED => {
-                    (phi, now, arrived) = (next, found, last);
-                    *frames = there;
+                Ok(found)
+                    if found.signs == place.solved.signs
+                        && found.correction <= TRUSTED
+                        && found.quality >= gait.least =>
+                {
+                    arrived = last;
+                    *place = Place {
+                        phi: next,
+                        solved: found,
+                        frames: there,
+                    };
                     step *= 2.0;
                     continue;
                 }
                 // Another solution, on the far side of a dead point.
-                Ok(found) if found.signs != now.signs => PoseError::BranchChange {
-                    phi: next,
-                    joint: now.weakest,
-                },
-                _ => PoseError::DeadPoint {
-                    phi: next,
-                    joint: now.weakest,
-                },
+                Ok(found) if found.signs != place.solved.signs => {
+                    PoseError::BranchChange { phi: next, joint }
+                }
+                _ => PoseError::DeadPoint { phi: next, joint },
             };
-            if math::abs(next - phi) <= SHORTEST * span {
+            if math::abs(next - phi) <= gait.shortest {
                 return Err(dead);
             }
             step = 0.5 * (next - phi);
         }
-        Ok(now)
+        Ok(())
+    }
+
+    /// Whether the drive is a guide.
+    pub(super) fn slides(&self) -> bool {
+        matches!(
+            self.pairs.get(self.drive),
+            Some(Pair::Joint(Joint::Prismatic(_)))
+        )
     }
 }
 
@@ -194,7 +334,7 @@ impl Unsolved {
 }
 
 /// The links a step `h` on, by Taylor's polynomial of third order.
-fn predicted(frames: &Frames, h: f64) -> Frames {
+pub(super) fn predicted(frames: &Frames, h: f64) -> Frames {
     let on =
         |c: Transfer| Transfer::constant(c.value + h * (c.d1 + h / 2.0 * (c.d2 + h / 3.0 * c.d3)));
     frames
@@ -203,8 +343,13 @@ fn predicted(frames: &Frames, h: f64) -> Frames {
         .collect()
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize>
-    Assembly<LINKS, PAIRS, STATIONS, CAMS>
+impl<
+    const LINKS: usize,
+    const PAIRS: usize,
+    const STATIONS: usize,
+    const CAMS: usize,
+    const FLATS: usize,
+> Assembly<LINKS, PAIRS, STATIONS, CAMS, FLATS>
 {
     /// The linkage.
     pub const fn linkage(&self) -> &Linkage<LINKS, PAIRS, CAMS> {
@@ -233,32 +378,73 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
 
     /// Puts the links at `phi` into `frames`, without the whole turns, which are returned.
     fn solved(&self, phi: f64, frames: &mut Frames) -> Result<(Solved, f64), PoseError> {
-        let phi = finite("drive position", phi)?;
-        let (turns, phi) = match self.domain {
-            Domain::Turn => {
-                let turns = math::floor(phi / TAU);
-                (turns, phi - turns * TAU)
-            }
-            Domain::Stroke { from, to } => (0.0, phi.clamp(from, to)),
-        };
+        let (turns, phi) = self.within(finite("drive position", phi)?);
+        if let Some(window) = self.crossings.iter().find(|window| window.holds(phi)) {
+            let solved = window.place(phi, self.linkage.links.len(), frames);
+            return Ok((solved, turns));
+        }
+        let below = self.crossings.iter().rev().find(|it| it.is_below(phi));
+        let upper = |window: &Crossing<LINKS>| window.upper(self.linkage.links.len());
+        let signs = below.map_or(self.signs, Crossing::signs_above);
         let cells = (STATIONS - 1) as f64;
         let place = (phi - self.domain.position(0.0)) / self.domain.span() * cells;
         let cell = (math::floor(place).max(0.0) as usize).min(STATIONS - 2);
         self.between(cell, place - cell as f64, frames);
         if let Ok(solved) = self.linkage.solve(phi, frames)
-            && solved.signs == self.signs
+            && solved.signs == signs
             && solved.correction <= TRUSTED
         {
             return Ok((solved, turns));
         }
         // Few stations, or a dead point nearby: follow the linkage from the station.
         let start = self.domain.position(cell as f64 / cells);
-        self.between(cell, 0.0, frames);
-        let station = self.linkage.solve(start, frames);
-        let station = station.map_err(|why| why.at(start))?;
+        let mut place = match below.filter(|window| !window.is_below(start)) {
+            Some(window) => upper(window),
+            None => {
+                self.between(cell, 0.0, frames);
+                let solved = self.linkage.solve(start, frames);
+                Place {
+                    phi: start,
+                    solved: solved.map_err(|why| why.at(start))?,
+                    frames: frames.clone(),
+                }
+            }
+        };
         let span = self.domain.span();
-        let solved = self.linkage.walk(start, (station, frames), phi, span)?;
-        Ok((solved, turns))
+        self.linkage.walk(&mut place, phi, Gait::strict(span))?;
+        *frames = place.frames;
+        Ok((place.solved, turns))
+    }
+
+    /// A position as whole turns and one in the domain.
+    fn within(&self, phi: f64) -> (f64, f64) {
+        match self.domain {
+            Domain::Turn => {
+                let turns = math::floor(phi / TAU);
+                (turns, phi - turns * TAU)
+            }
+            Domain::Stroke { from, to } => (0.0, phi.clamp(from, to)),
+        }
+    }
+
+    /// The change points through which the linkage is kept on its branch, as positions of the drive (rad, or m) in its domain.
+    pub fn change_points(&self) -> impl Iterator<Item = f64> + '_ {
+        let [from, to] = [self.domain.position(0.0), self.domain.position(1.0)];
+        let hair = self.flat() * 1e-3;
+        let again = match self.domain {
+            Domain::Turn => (self.crossings.first()).map(|first| first.phi + TAU),
+            Domain::Stroke { .. } => None,
+        };
+        let all = self.crossings.iter().map(|crossing| crossing.phi);
+        all.filter(move |phi| *phi >= from - hair && *phi <= to + hair)
+            .filter(move |phi| again.is_none_or(|again| math::abs(again - phi) > hair))
+            .map(move |phi| phi.clamp(from, to))
+    }
+
+    /// How close to a change point (rad, or m) the forces in the joints are not given: they grow in proportion to 1/distance, and there
+    /// they are a matter of play and stiffness, and of what guides the linkage. 0.01 rad, or as much of the linkage's size.
+    pub fn flat(&self) -> f64 {
+        FLAT * self.linkage.unit()
     }
 
     /// The links in a cell, u = 0 to 1, by Hermite's cubic polynomial.
@@ -285,8 +471,13 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     }
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize> Mechanism
-    for Assembly<LINKS, PAIRS, STATIONS, CAMS>
+impl<
+    const LINKS: usize,
+    const PAIRS: usize,
+    const STATIONS: usize,
+    const CAMS: usize,
+    const FLATS: usize,
+> Mechanism for Assembly<LINKS, PAIRS, STATIONS, CAMS, FLATS>
 {
     fn links(&self) -> &[Link] {
         &self.linkage.links
@@ -306,8 +497,13 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     }
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize> Jointed
-    for Assembly<LINKS, PAIRS, STATIONS, CAMS>
+impl<
+    const LINKS: usize,
+    const PAIRS: usize,
+    const STATIONS: usize,
+    const CAMS: usize,
+    const FLATS: usize,
+> Jointed for Assembly<LINKS, PAIRS, STATIONS, CAMS, FLATS>
 {
     /// The pairs, in their order.
     fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
@@ -318,5 +514,12 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
 
     fn drive(&self) -> usize {
         self.linkage.drive
+    }
+
+    /// Not within [`flat`](Self::flat) of a change point.
+    fn determined(&self, phi: f64) -> bool {
+        let (_, phi) = self.within(phi);
+        let mut all = self.crossings.iter();
+        all.all(|crossing| math::abs(phi - crossing.phi) >= self.flat())
     }
 }
