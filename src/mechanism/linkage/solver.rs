@@ -17,7 +17,7 @@ const NO_STEP: f64 = 1e-15;
 /// No step turns a link further (rad): Newton's method from a rough drawing.
 const LONGEST_TURN: f64 = 0.5;
 /// A group whose columns span less than this is at a dead point.
-pub(super) const DEAD: f64 = 1e-9;
+const DEAD: f64 = 1e-9;
 
 /// How well the drive moves the links where they were placed.
 #[derive(Clone, Copy, Debug)]

@@ -13,7 +13,7 @@ use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
 use super::crossing::{Crossing, PassError};
-use super::solver::{DEAD, Solved, Unsolved};
+use super::solver::{Solved, Unsolved};
 use super::{Linkage, Pair, Pose};
 
 /// The corrector may move a link so far (rad, or of the linkage's size): beyond, the predictor was not to be trusted.
@@ -30,6 +30,9 @@ const WARY: f64 = 1e-5;
 /// How close to a change point the forces in the joints are not given (rad, or of the linkage's size).
 const FLAT: f64 = 0.01;
 
+/// Least [quality](Solved::quality) of a walk: closer to a crossing of branches, rounding decides on which of them the links are.
+const LEAST: f64 = 1e-7;
+
 /// How close to a dead point a walk goes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gait {
@@ -44,7 +47,7 @@ impl Gait {
     pub(super) fn strict(span: f64) -> Self {
         Self {
             shortest: SHORTEST * span,
-            least: DEAD,
+            least: LEAST,
         }
     }
 

@@ -7,7 +7,6 @@
 //! near a dead point, and the check fails.
 
 use jred::machine::{Body, Frame, Frames, Joint, Jointed as _, Joints, Mechanism as _};
-use jred::mechanism::FourBar;
 use jred::mechanism::cam::lift_off;
 use jred::{Domain, Error};
 use serde::Serialize;
@@ -236,16 +235,19 @@ impl Findings {
 
 /// What a linkage that passes change points takes for granted.
 pub fn change_points(mechanism: &AnyMechanism) -> Option<String> {
-    let places: Vec<String> = (mechanism.change_points().iter())
-        .map(|phi| mechanism.coordinate().place(*phi))
+    let points = mechanism.change_points();
+    let coordinate = mechanism.coordinate();
+    let places: Vec<String> = (points.iter())
+        .map(|point| coordinate.place(point.at))
         .collect();
-    (!places.is_empty()).then(|| {
+    points.first().map(|first| {
         format!(
             "the linkage lies flat at {} and is taken to be guided there, so that it stays on its branch (a second crank, teeth, \
              another coupler); the forces in its joints are those without the guide: they grow towards these positions, and within \
-             {} deg of them they are not determined",
+             {} {} of them they are not determined",
             places.join(" and "),
-            short(FourBar::FLAT.to_degrees())
+            short(coordinate.shown(first.within)),
+            coordinate.unit()
         )
     })
 }

@@ -41,6 +41,15 @@ pub struct Contact {
     pub pieces: Vec<jred::mechanism::cam::Piece>,
 }
 
+/// A position at which bodies of a linkage come into line, and which it passes on its branch, guided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChangePoint {
+    /// Position of the drive link (rad, or m).
+    pub at: f64,
+    /// How close to it the forces in the joints are not determined (rad, or m).
+    pub within: f64,
+}
+
 /// A property of one kind of mechanism, such as the largest pressure angle of a cam.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Fact {
@@ -78,7 +87,7 @@ pub struct AnyMechanism {
     /// The pairs of a linkage: how each of its joints closes.
     pairs: Vec<Pair>,
     /// Positions at which a linkage lies flat, and passes on its branch.
-    change_points: Vec<f64>,
+    change_points: Vec<ChangePoint>,
 }
 
 impl AnyMechanism {
@@ -317,15 +326,15 @@ impl AnyMechanism {
         self
     }
 
-    /// With the positions (rad) at which the linkage lies flat, and passes on its branch.
+    /// With the positions at which the linkage lies flat, and passes on its branch.
     #[must_use]
-    pub fn with_change_points(mut self, positions: &[f64]) -> Self {
-        self.change_points = positions.to_vec();
+    pub fn with_change_points(mut self, points: Vec<ChangePoint>) -> Self {
+        self.change_points = points;
         self
     }
 
-    /// The positions (rad) at which the linkage lies flat, and passes on its branch: the forces in its joints are not determined there.
-    pub fn change_points(&self) -> &[f64] {
+    /// The positions at which the linkage lies flat, and passes on its branch: the forces in its joints are not determined there.
+    pub fn change_points(&self) -> &[ChangePoint] {
         &self.change_points
     }
 

@@ -6,7 +6,7 @@ use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, 
 use jred::number::RangeError;
 
 use super::{core, link};
-use crate::model::mechanism::AnyMechanism;
+use crate::model::mechanism::{AnyMechanism, ChangePoint};
 use crate::number::rounding::short;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
@@ -62,14 +62,17 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let [least, most] = mechanism.transmission_angle_range().map(f64::to_degrees);
     let angles = format!("{} to {} deg", short(least), short(most));
     let grashof = grashof(mechanism.grashof());
-    let change_points = mechanism.change_points();
+    let within = FourBar::FLAT;
+    let change_points = (mechanism.change_points().into_iter())
+        .map(|at| ChangePoint { at, within })
+        .collect();
     Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
         .with_point("A", FourBar::CRANK, [dimensions.crank, 0.0])
         .with_point("B", FourBar::ROCKER, [dimensions.rocker, 0.0])
         .with_point("C", FourBar::ROCKER, [0.0, 0.0])
         .with_fact("Grashof's type", grashof)
         .with_fact("transmission angle over the crank's range", angles)
-        .with_change_points(&change_points))
+        .with_change_points(change_points))
 }
 
 fn grashof(kind: Grashof) -> &'static str {

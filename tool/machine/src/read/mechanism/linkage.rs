@@ -8,25 +8,29 @@ mod problems;
 mod wheels;
 
 use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Mechanism, PoseError};
-use jred::mechanism::linkage::Pair;
+use jred::mechanism::linkage::{LinkageError, Pair};
 use jred::{Domain, Link};
 
 use crate::model::coordinate::Coordinate;
-use crate::model::mechanism::AnyMechanism;
+use crate::model::mechanism::{AnyMechanism, ChangePoint, Inner};
+use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};
 
 use bodies::Bodies;
 use joints::Held;
-use problems::{Assembled, Context};
+use problems::Context;
 
 /// Positions kept along the drive's range: between them one step of Newton's method is enough.
 const STATIONS: usize = 256;
 
+/// The most change points in the drive's range.
+const CHANGE_POINTS: usize = 16;
+
 /// The linkage in a box: with all its stations it is too large to be moved about on the stack.
 #[derive(Debug)]
-struct Boxed(Assembled);
+struct Boxed(Box<dyn Inner>);
 
 impl Mechanism for Boxed {
     fn links(&self) -> &[Link] {
@@ -47,6 +51,9 @@ impl Jointed for Boxed {
     fn drive(&self) -> usize {
         self.0.drive()
     }
+    fn determined(&self, phi: f64) -> bool {
+        self.0.determined(phi)
+    }
 }
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
@@ -64,6 +71,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     };
     let drawn_at = section.optional("drawn_at", kind)?.map(|value| value.si);
     let domain = domain(section, coordinate)?;
+    let keep = section.get("keep_branch");
+    let kept = keep.as_ref().map_or(Ok(false), Item::flag)?;
     let poses = drawing::poses(&bodies, &joints, drive, drawn_at)?;
     let frames: Vec<Frame> = poses
         .iter()
@@ -85,7 +94,17 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         poses: &poses,
         frames: &frames,
     };
-    let assembly = assembled(&context, domain, drawn_at)?;
+    let (assembly, change_points) = if kept {
+        kept_on_branch(&context, domain, drawn_at)
+    } else {
+        assembled(&context, domain, drawn_at).map(|assembly| (assembly, Vec::new()))
+    }
+    .map_err(|error| match (error, &keep) {
+        (LinkageError::NoChangePoint, Some(keep)) => context.never_flat(keep),
+        _ => context.problem(error, kept, || {
+            Ok(kept_on_branch(&context, domain, drawn_at)?.1)
+        }),
+    })?;
     wheels::check(&assembly, &bodies, &joints)?;
     cam::check(&assembly, &bodies, &joints)?;
     inertias(&assembly, &bodies)?;
@@ -94,7 +113,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let joint_names = joints.iter().map(|joint| joint.name.clone());
     let pairs: Vec<Pair> = joints.iter().map(|joint| joint.pair).collect();
     let mut mechanism =
-        AnyMechanism::new(super::LINKAGE, assembly, names, joint_names).with_pairs(&pairs);
+        AnyMechanism::new(super::LINKAGE, assembly, names, joint_names)
+            .with_pairs(&pairs)
+            .with_change_points(change_points);
     for (link, body) in bodies.moving.iter().enumerate() {
         for point in &body.points {
             let name = format!("{}.{}", body.name, point.name);
@@ -109,12 +130,36 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 
 /// Out of line, so that the stations leave the stack with it.
 #[inline(never)]
-fn assembled(context: &Context, domain: Domain, drawn_at: f64) -> Result<Boxed> {
-    context
-        .linkage()
-        .and_then(|linkage| linkage.assemble::<STATIONS>(domain, drawn_at, context.poses))
-        .map(|assembly| Boxed(Box::new(assembly)))
-        .map_err(|error| context.problem(error))
+fn assembled(
+    context: &Context,
+    domain: Domain,
+    drawn_at: f64,
+) -> std::result::Result<Boxed, LinkageError> {
+    let linkage = context.linkage()?;
+    let assembly = linkage.assemble::<STATIONS>(domain, drawn_at, context.poses)?;
+    Ok(Boxed(Box::new(assembly)))
+}
+
+/// The linkage through its change points, with these.
+#[inline(never)]
+fn kept_on_branch(
+    context: &Context,
+    domain: Domain,
+    drawn_at: f64,
+) -> std::result::Result<(Boxed, Vec<ChangePoint>), LinkageError> {
+    let assembly = context
+        .linkage()?
+        .assemble_through_change_points::<STATIONS, CHANGE_POINTS>(
+            domain,
+            drawn_at,
+            context.poses,
+        )?;
+    let within = assembly.flat();
+    let points = assembly
+        .change_points()
+        .map(|at| ChangePoint { at, within })
+        .collect();
+    Ok((Boxed(Box::new(assembly)), points))
 }
 
 /// The joint that is driven.

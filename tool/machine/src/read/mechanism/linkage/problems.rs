@@ -2,18 +2,23 @@
 
 use jred::Domain;
 use jred::machine::{Body, Frame, Joint, PoseError};
-use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::mechanism::linkage::{Linkage, LinkageError, Pair, Pose};
 use jred::number::RangeError;
 
 use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::ChangePoint;
 use crate::number::rounding::figure;
 use crate::read::mechanism::core;
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
 use super::bodies::{self, Bodies};
 use super::cam;
 use super::joints::{self, Held};
+
+/// An error so close to the drawn position (rad, or m) is one of the drawing.
+const HAIR: f64 = 1e-6;
 
 /// Data for messages.
 pub(super) struct Context<'a> {
@@ -88,8 +93,27 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
 }
 
 impl Context<'_> {
-    /// An error of the core.
-    pub(super) fn problem(&self, error: LinkageError) -> Problem {
+    /// An error of the core, of a linkage that is `kept` on its branch or not; `flat` asks for the change points if it were.
+    pub(super) fn problem(
+        &self,
+        error: LinkageError,
+        kept: bool,
+        flat: impl FnOnce() -> std::result::Result<Vec<ChangePoint>, LinkageError>,
+    ) -> Problem {
+        if let LinkageError::Pose(
+            PoseError::DeadPoint { phi, joint } | PoseError::BranchChange { phi, joint },
+        ) = error
+        {
+            if !kept
+                && let Ok(flat) = flat()
+                && !flat.is_empty()
+            {
+                return self.crossing(joint, &flat);
+            }
+            if (self.drawn_at()).is_some_and(|drawn| (phi - drawn).abs() < HAIR) {
+                return self.drawn_flat(phi, joint);
+            }
+        }
         match error {
             LinkageError::Pose(PoseError::CannotAssemble { phi, joint, gap }) => {
                 self.open(phi, joint, gap)
@@ -118,6 +142,48 @@ impl Context<'_> {
             LinkageError::OverConstrained { joint, free } => self.held_twice(joint, free),
             _ => core(self.section, error),
         }
+    }
+
+    /// Branches that cross, and nothing says which way the linkage goes.
+    fn crossing(&self, joint: usize, flat: &[ChangePoint]) -> Problem {
+        let places: Vec<String> = flat.iter().map(|point| self.place(point.at)).collect();
+        self.at_joint(
+            joint,
+            &format!(
+                "is in line at {}, a change point: the linkage can go on in two ways",
+                places.join(" and ")
+            ),
+            "extended or folded there",
+        )
+        .help(
+            "if something guides it through (a second crank, teeth, another coupler), write keep_branch = true in [mechanism]: it then \
+             stays on the branch on which it is drawn; or end the stroke before this position",
+        )
+    }
+
+    /// A drawing in a dead point or a change point shows no branch.
+    fn drawn_flat(&self, phi: f64, joint: usize) -> Problem {
+        self.at_joint(
+            joint,
+            &format!(
+                "locks in the drawing itself, at {}: bodies lie in one line there",
+                self.place(phi)
+            ),
+            "locks here",
+        )
+        .help(
+            "draw the linkage in another position: give `drawn_at`, and each body its angle there; the drawing names the branch",
+        )
+    }
+
+    /// To be kept on its branch, though no other branch crosses it.
+    pub(super) fn never_flat(&self, keep: &Item) -> Problem {
+        Problem::new(format!(
+            "{}: there is no change point to pass: no two branches of the linkage cross in the drive's range",
+            self.section.title()
+        ))
+        .at(keep.span(), "nothing to keep like this")
+        .help("leave `keep_branch` out: the linkage stays on the branch on which it is drawn")
     }
 
     fn place(&self, phi: f64) -> String {
@@ -319,7 +385,3 @@ impl Context<'_> {
 
 /// Room for the largest linkage.
 type Whole = Linkage<{ bodies::MOST }, { joints::MOST }, { cam::MOST }>;
-
-/// A linkage that was followed over its range, kept where it does not fill the stack.
-pub(super) type Assembled =
-    Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }, { cam::MOST }>>;
