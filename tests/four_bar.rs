@@ -1,6 +1,6 @@
 //! The four-bar linkage: geometry and forces.
 
-mod change_points;
+pub(crate) mod change_points;
 mod refused;
 
 use std::f64::consts::{PI, TAU};

@@ -38,6 +38,7 @@ mod library_as_linkages;
 mod lift_off;
 mod linkage;
 mod linkage_cam;
+mod linkage_change_points;
 mod linkage_refused;
 mod load_window;
 mod motion;

@@ -13,7 +13,7 @@ use crate::support::derivatives::derivatives;
 use crate::support::{assert_near, budget, config, forces, jointed, link_of, spoken};
 
 /// A linkage kept on its branch: lengths of crank, coupler, rocker and ground, direction of the ground.
-fn kept(
+pub(crate) fn kept(
     [crank, coupler, rocker, ground]: [f64; 4],
     gamma: f64,
     side: Side,
@@ -30,7 +30,7 @@ fn kept(
 }
 
 /// Kinds of linkage that lie flat, of two random lengths p < q and one r; whether they come back after a turn.
-fn lengths(kind: usize, p: f64, q: f64, r: f64) -> ([f64; 4], bool) {
+pub(crate) fn lengths(kind: usize, p: f64, q: f64, r: f64) -> ([f64; 4], bool) {
     match kind {
         0 => ([p, q, p, q], true), // parallelogram and antiparallelogram
         1 => ([q, p, q, p], true),

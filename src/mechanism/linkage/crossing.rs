@@ -10,15 +10,15 @@
 
 use core::f64::consts::SQRT_2;
 
-use crate::machine::error::PoseError;
 use crate::machine::Frames;
+use crate::machine::error::PoseError;
 use crate::machine::link::Frame;
 use crate::math;
 use crate::number::transfer::Transfer;
 
+use super::Linkage;
 use super::solver::Solved;
 use super::walk::{Gait, Place, TRUSTED, predicted};
-use super::Linkage;
 
 /// Half the first window, which finds the branch on the far side (rad, or of the linkage's size).
 const FIRST: f64 = 2e-3;

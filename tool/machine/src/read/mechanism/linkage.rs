@@ -112,10 +112,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let names = bodies.names();
     let joint_names = joints.iter().map(|joint| joint.name.clone());
     let pairs: Vec<Pair> = joints.iter().map(|joint| joint.pair).collect();
-    let mut mechanism =
-        AnyMechanism::new(super::LINKAGE, assembly, names, joint_names)
-            .with_pairs(&pairs)
-            .with_change_points(change_points);
+    let mut mechanism = AnyMechanism::new(super::LINKAGE, assembly, names, joint_names)
+        .with_pairs(&pairs)
+        .with_change_points(change_points);
     for (link, body) in bodies.moving.iter().enumerate() {
         for point in &body.points {
             let name = format!("{}.{}", body.name, point.name);
