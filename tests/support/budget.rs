@@ -212,7 +212,7 @@ pub(crate) const LINKAGE: f64 = 1e-11;
 /// A linkage through a change point against its closed form, for lengths that differ by half or more: position and first to third
 /// transfer function, of 1 or the largest. At the ends of a window of some 0.05 rad the solver is off by 2⁻⁵³ over the first to fourth power of
 /// that; the polynomial between them is no better, and magnifies it some ten times.
-pub(crate) const CHANGE_POINT: [f64; 4] = [1e-13, 1e-11, 5e-9, 1e-6];
+pub(crate) const CHANGE_POINT: [f64; 4] = [1e-12, 1e-11, 5e-9, 1e-6];
 
 /// Work of the drive through a change point at constant speed, by Simpson's rule on 400 steps of a smooth function, against the
 /// change of energy; of the largest energy.

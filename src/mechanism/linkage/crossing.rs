@@ -85,13 +85,8 @@ impl<const LINKS: usize> Crossing<LINKS> {
 
     fn end(&self, end: usize, count: usize) -> Place {
         let links = self.coordinates[end].iter().take(count);
-        Place {
-            phi: self.ends[end],
-            solved: self.solved[end],
-            frames: links
-                .map(|[x, y, psi]| Frame::turned([*x, *y], *psi))
-                .collect(),
-        }
+        let frames = links.map(|[x, y, psi]| Frame::turned([*x, *y], *psi));
+        Place::new(self.ends[end], self.solved[end], frames.collect())
     }
 
     /// Puts `count` links at a position in the window into `frames`.
@@ -183,11 +178,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         if solved.signs == near.solved.signs || solved.correction > TRUSTED {
             return None;
         }
-        let mut far = Place {
-            phi,
-            solved,
-            frames,
-        };
+        let mut far = Place::new(phi, solved, frames);
         let mut phi = root(&near, &far);
         for side in [(&mut near, -1.0), (&mut far, 1.0)] {
             to(side.0, phi + way * side.1 * NARROW * unit).ok()?;
@@ -267,8 +258,13 @@ impl From<PoseError> for PassError {
     }
 }
 
-/// Where the determinant is zero between two places close to it.
+/// Where the determinant is zero between two places close to it. Of two groups that lie flat together it is a square.
 fn root(near: &Place, far: &Place) -> f64 {
-    let part = near.solved.quality / (near.solved.quality + far.solved.quality);
+    let flat = (near.solved.signs ^ far.solved.signs).count_ones();
+    let [near_to, far_to] = [near, far].map(|side| match flat {
+        1 => side.solved.determinant,
+        _ => math::sqrt(side.solved.determinant),
+    });
+    let part = near_to / (near_to + far_to);
     near.phi + part * (far.phi - near.phi)
 }

@@ -28,6 +28,8 @@ pub(super) struct Solved {
     pub(super) weakest: usize,
     /// Bit k: the determinant of group k is negative. It changes only through a dead point.
     pub(super) signs: u64,
+    /// |det A| of all groups together: zero where branches meet.
+    pub(super) determinant: f64,
     /// How far Newton's method moved a coordinate in all (rad, or of the linkage's size).
     pub(super) correction: f64,
 }
@@ -120,6 +122,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             quality: 1.0,
             weakest: self.drive,
             signs: 0,
+            determinant: 1.0,
             correction: 0.0,
         };
         let mut step = [[0.0; 3]; LINKS];
@@ -138,6 +141,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             pivots = rest;
             let place = self.place(group, phi, frames, matrix, pivot, step)?;
             solved.correction = solved.correction.max(place.correction);
+            solved.determinant *= place.determinant;
             if place.negative {
                 solved.signs |= 1 << k;
             }
@@ -193,6 +197,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             let determinant = linear::factor(matrix, pivots);
             placed.quality = crate::math::abs(determinant) / crate::math::sqrt(lengths);
             placed.negative = determinant < 0.0;
+            placed.determinant = crate::math::abs(determinant);
             if placed.quality.is_nan() || placed.quality < DEAD {
                 return Err(Unsolved { gap: 0.0, ..widest });
             }
@@ -314,5 +319,6 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 struct Placed {
     quality: f64,
     negative: bool,
+    determinant: f64,
     correction: f64,
 }

@@ -21,6 +21,7 @@ fn a_drive_is_found() {
         "cam-oscillating.toml",
         "cam-translating.toml",
         "drawing-press.toml",
+        "elliptic-drive.toml",
         "feed-roll.toml",
         "flying-shear.toml",
         "four-bar.toml",

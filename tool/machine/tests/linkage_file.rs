@@ -2,6 +2,7 @@
 //! results, and what a user is told about a wrong one.
 
 mod cams;
+mod change_points;
 mod elements;
 mod refusals;
 mod strokes;

@@ -60,6 +60,19 @@ fn mechanisms() {
         ],
     );
     mistakes(
+        "linkage-change-points",
+        "elliptic-drive.toml",
+        "check",
+        &[
+            ("keep_branch = true ", "keep_branch = false"),
+            (
+                "[\"240 mm\", \"0 mm\"] }\nbody",
+                "[\"260 mm\", \"0 mm\"] }\nbody",
+            ),
+            ("drawn_at = \"90 deg\"", "drawn_at = \"180 deg\""),
+        ],
+    );
+    mistakes(
         "machine-change-points",
         "parallel-lift.toml",
         "reduce",
