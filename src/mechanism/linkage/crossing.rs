@@ -172,13 +172,14 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         let to = |side: &mut Place, phi: f64| self.walk(side, phi, gait);
         let mut near = stalled.clone();
         to(&mut near, stalled.phi - way * FIRST * unit).ok()?;
-        let phi = stalled.phi + way * FIRST * unit;
-        let mut frames = predicted(&near.frames, phi - near.phi);
-        let solved = self.solve(phi, &mut frames).ok()?;
-        if solved.signs == near.solved.signs || solved.correction > TRUSTED {
-            return None;
-        }
-        let mut far = Place::new(phi, solved, frames);
+        // Where several groups lie flat together, the walk stops earlier.
+        let mut far = [1.0, 2.0, 4.0].into_iter().find_map(|times| {
+            let phi = stalled.phi + way * times * FIRST * unit;
+            let mut frames = predicted(&near.frames, phi - near.phi);
+            let solved = self.solve(phi, &mut frames).ok()?;
+            let crossed = solved.signs != near.solved.signs && solved.correction <= TRUSTED;
+            crossed.then(|| Place::new(phi, solved, frames))
+        })?;
         let mut phi = root(&near, &far);
         for side in [(&mut near, -1.0), (&mut far, 1.0)] {
             to(side.0, phi + way * side.1 * NARROW * unit).ok()?;

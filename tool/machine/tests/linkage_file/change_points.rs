@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use jred::machine::{Jointed as _, Mechanism as _};
-use jred_machine::analysis::inspect::Inspection;
+use jred_machine::analysis::inspect::Findings;
 
 use super::{read, refuses_edit};
 use crate::reading::machine;
@@ -65,8 +65,8 @@ fn an_antiparallelogram_rolls_as_ellipses_do() {
     near(flat[0], 0.0, 1e-9);
     near(flat[1], PI, 1e-9);
     assert!(!mechanism.determined(PI) && mechanism.determined(PI + 0.02));
-    let inspection = Inspection::of(&file).unwrap();
-    assert!(inspection.holds(), "{:?}", inspection.violations());
+    let findings = Findings::of(&file).unwrap();
+    assert!(findings.holds(), "{:?}", findings.violations());
     assert!(
         inspection
             .notes
