@@ -352,7 +352,7 @@ proptest! {
         let LinkageError::Pose(PoseError::DeadPoint { phi, .. } | PoseError::BranchChange { phi, .. }) = error else {
             panic!("{error}");
         };
-        assert_near("where", phi, flat, 1e-4);
+        assert_near("where", phi, flat, 1e-6);
     }
 }
 

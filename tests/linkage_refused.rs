@@ -178,8 +178,7 @@ fn a_parallelogram_changes_its_branch_where_it_is_flat() {
     let LinkageError::Pose(PoseError::BranchChange { phi, joint }) = refused else {
         panic!("{refused}")
     };
-    // The walk stops where the determinant is 1e-5 of its largest.
-    assert!(phi.sin().abs() < 1e-4, "flat at {phi}");
+    assert!(phi.sin().abs() < 1e-6, "flat at {phi}");
     assert!((1..=3).contains(&joint), "joint {joint}");
     let short = Domain::stroke(0.01, std::f64::consts::PI - 0.01).unwrap();
     let open = four_bar(sides, short).unwrap();

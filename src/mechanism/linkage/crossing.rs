@@ -86,7 +86,9 @@ impl<const LINKS: usize> Crossing<LINKS> {
     fn end(&self, end: usize, count: usize) -> Place {
         let links = self.coordinates[end].iter().take(count);
         let frames = links.map(|[x, y, psi]| Frame::turned([*x, *y], *psi));
-        Place::new(self.ends[end], self.solved[end], frames.collect())
+        // A window ends so far from where the determinants are zero that the first step of the way may do without them.
+        let determinants = [0.0; _];
+        Place::new(self.ends[end], self.solved[end], frames.collect(), determinants)
     }
 
     /// Puts `count` links at a position in the window into `frames`.
@@ -170,16 +172,15 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         let unit = self.unit();
         let gait = Gait::strict(span);
         let to = |side: &mut Place, phi: f64| self.walk(side, phi, gait);
-        let mut near = stalled.clone();
+        // Here the determinants may be small.
+        let mut near = Place::new(
+            stalled.phi,
+            stalled.solved,
+            stalled.frames.clone(),
+            stalled.determinants,
+        );
         to(&mut near, stalled.phi - way * FIRST * unit).ok()?;
-        // Where several groups lie flat together, the walk stops earlier.
-        let mut far = [1.0, 2.0, 4.0].into_iter().find_map(|times| {
-            let phi = stalled.phi + way * times * FIRST * unit;
-            let mut frames = predicted(&near.frames, phi - near.phi);
-            let solved = self.solve(phi, &mut frames).ok()?;
-            let crossed = solved.signs != near.solved.signs && solved.correction <= TRUSTED;
-            crossed.then(|| Place::new(phi, solved, frames))
-        })?;
+        let mut far = self.beyond(&near, stalled.phi + way * FIRST * unit)?;
         let mut phi = root(&near, &far);
         for side in [(&mut near, -1.0), (&mut far, 1.0)] {
             to(side.0, phi + way * side.1 * NARROW * unit).ok()?;
@@ -205,6 +206,20 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
         best.filter(|(apart, _)| *apart < AGREED)
             .map(|(_, crossing)| crossing)
+    }
+
+    /// The place at φ, where branches crossed on the way there.
+    fn beyond(&self, near: &Place, phi: f64) -> Option<Place> {
+        let frames = predicted(&near.frames, phi - near.phi);
+        let far = self.placed(phi, frames).ok()?;
+        let crossed = far.solved.signs != near.solved.signs;
+        (crossed && far.solved.correction <= TRUSTED).then_some(far)
+    }
+
+    /// Where branches cross close ahead of a place, on the way up (`way` = 1) or down (−1).
+    pub(super) fn flat_ahead(&self, place: &Place, way: f64) -> Option<f64> {
+        let far = self.beyond(place, place.phi + way * NARROW * self.unit())?;
+        Some(root(place, &far))
     }
 
     /// From a place to another φ, over the change points on the way, which are kept. Ends in the last window if that holds `to`.
@@ -259,13 +274,12 @@ impl From<PoseError> for PassError {
     }
 }
 
-/// Where the determinant is zero between two places close to it. Of two groups that lie flat together it is a square.
+/// Where the determinant of a group is zero between two places close to that.
 fn root(near: &Place, far: &Place) -> f64 {
-    let flat = (near.solved.signs ^ far.solved.signs).count_ones();
-    let [near_to, far_to] = [near, far].map(|side| match flat {
-        1 => side.solved.determinant,
-        _ => math::sqrt(side.solved.determinant),
+    let group = (near.solved.signs ^ far.solved.signs).trailing_zeros() as usize;
+    let [near_to, far_to] = [near, far].map(|side| {
+        let determinant = side.determinants.get(group);
+        determinant.copied().unwrap_or(1.0)
     });
-    let part = near_to / (near_to + far_to);
-    near.phi + part * (far.phi - near.phi)
+    near.phi + near_to / (near_to + far_to) * (far.phi - near.phi)
 }

@@ -1,6 +1,7 @@
 //! Positions and transfer functions of a linkage at one φ: Newton's method for (76), then the linear systems (77), (78).
 
 use crate::machine::link::Frame;
+use crate::machine::mechanism::MAX_LINKS;
 use crate::number::linear;
 use crate::number::transfer::Transfer;
 
@@ -28,11 +29,12 @@ pub(super) struct Solved {
     pub(super) weakest: usize,
     /// Bit k: the determinant of group k is negative. It changes only through a dead point.
     pub(super) signs: u64,
-    /// |det A| of all groups together: zero where branches meet.
-    pub(super) determinant: f64,
     /// How far Newton's method moved a coordinate in all (rad, or of the linkage's size).
     pub(super) correction: f64,
 }
+
+/// |det A| of each group, 1 of an explicit one: zero where branches meet.
+pub(super) type Determinants = [f64; 3 * MAX_LINKS];
 
 /// Why there is no solution near the start.
 #[derive(Clone, Copy, Debug)]
@@ -86,15 +88,25 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 
     /// Positions and transfer functions at `phi`, of links that are nearly there.
     pub(super) fn solve(&self, phi: f64, frames: &mut [Frame]) -> Result<Solved, Unsolved> {
+        self.solve_noting(phi, frames, &mut [])
+    }
+
+    /// As [`solve`](Self::solve), and notes the groups' determinants where there is room.
+    pub(super) fn solve_noting(
+        &self,
+        phi: f64,
+        frames: &mut [Frame],
+        determinants: &mut [f64],
+    ) -> Result<Solved, Unsolved> {
         let mut pivots = [[0; 3]; LINKS];
         let pivots = pivots.as_flattened_mut();
         // Small groups, as nearly always, or one of all coordinates, whose memory takes longer to clear than they to solve.
         let mut matrices = [[0.0; 9]; LINKS];
         let matrices = matrices.as_flattened_mut();
         if self.structure.entries() <= matrices.len() {
-            return self.solve_in(&mut Factors { matrices, pivots }, phi, frames);
+            return self.solve_in(&mut Factors { matrices, pivots }, phi, frames, determinants);
         }
-        self.solve_at_large(pivots, phi, frames)
+        self.solve_at_large(pivots, phi, frames, determinants)
     }
 
     #[inline(never)]
@@ -103,11 +115,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         pivots: &mut [usize],
         phi: f64,
         frames: &mut [Frame],
+        determinants: &mut [f64],
     ) -> Result<Solved, Unsolved> {
         let mut matrices = [[[[0.0; 3]; 3]; LINKS]; LINKS];
         let matrices = matrices.as_flattened_mut().as_flattened_mut();
         let matrices = matrices.as_flattened_mut();
-        self.solve_in(&mut Factors { matrices, pivots }, phi, frames)
+        self.solve_in(&mut Factors { matrices, pivots }, phi, frames, determinants)
     }
 
     fn solve_in(
@@ -115,6 +128,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         factors: &mut Factors<'_>,
         phi: f64,
         frames: &mut [Frame],
+        determinants: &mut [f64],
     ) -> Result<Solved, Unsolved> {
         let mut matrices = &mut *factors.matrices;
         let mut pivots = &mut *factors.pivots;
@@ -122,7 +136,6 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             quality: 1.0,
             weakest: self.drive,
             signs: 0,
-            determinant: 1.0,
             correction: 0.0,
         };
         let mut step = [[0.0; 3]; LINKS];
@@ -141,7 +154,9 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             pivots = rest;
             let place = self.place(group, phi, frames, matrix, pivot, step)?;
             solved.correction = solved.correction.max(place.correction);
-            solved.determinant *= place.determinant;
+            if let Some(determinant) = determinants.get_mut(k) {
+                *determinant = place.determinant;
+            }
             if place.negative {
                 solved.signs |= 1 << k;
             }
@@ -305,6 +320,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     fn moved(&self, c: Coordinate, step: f64) -> f64 {
         let unit = if c.axis == PSI { 1.0 } else { self.size };
         crate::math::abs(step) / unit
+    }
+
+    /// The pair to name when something is wrong with the group of this number.
+    pub(super) fn pair_of_group(&self, k: usize) -> usize {
+        let group = self.structure.groups().nth(k);
+        group.map_or(self.drive, |group| self.pair_of(group))
     }
 
     /// The pair to name when something is wrong with a group.

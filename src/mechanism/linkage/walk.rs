@@ -13,7 +13,7 @@ use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
 use super::crossing::{Crossing, PassError};
-use super::solver::{Solved, Unsolved};
+use super::solver::{Determinants, Solved, Unsolved};
 use super::{Linkage, Pair, Pose};
 
 /// The corrector may move a link so far (rad, or of the linkage's size): beyond, the predictor was not to be trusted.
@@ -29,9 +29,12 @@ const WARY: f64 = 1e-5;
 /// How close to a change point the forces in the joints are not given (rad, or of the linkage's size).
 const FLAT: f64 = 0.01;
 
-/// The determinant of a walk may fall to this part of its largest: closer to a crossing of branches, rounding in the predictor could put the
+/// A group's determinant may fall to this part of its largest: closer to a crossing of branches, rounding in the predictor could put the
 /// links on the other one. A dead point is this close within the square of it.
 const LEAST: f64 = 1e-5;
+
+/// How far from a drawing its determinants are compared (rad, or of the linkage's size).
+const ASIDE: f64 = 0.01;
 
 /// How close to a dead point a walk goes.
 #[derive(Clone, Copy, Debug)]
@@ -62,18 +65,35 @@ pub(super) struct Place {
     pub(super) phi: f64,
     pub(super) solved: Solved,
     pub(super) frames: Frames,
-    /// The largest [determinant](Solved::determinant) on the way here.
-    largest: f64,
+    pub(super) determinants: Determinants,
+    /// The largest of them on the way here.
+    largest: Determinants,
 }
 
 impl Place {
-    pub(super) fn new(phi: f64, solved: Solved, frames: Frames) -> Self {
+    /// Where the way begins.
+    pub(super) const fn new(
+        phi: f64,
+        solved: Solved,
+        frames: Frames,
+        determinants: Determinants,
+    ) -> Self {
         Self {
             phi,
             solved,
             frames,
-            largest: solved.determinant,
+            determinants,
+            largest: determinants,
         }
+    }
+
+    /// The part of its `largest` to which the determinant of a group has fallen furthest, and that group's number.
+    fn fallen(&self, largest: &Determinants) -> (f64, usize) {
+        let both = self.determinants.iter().zip(largest);
+        let parts = both.map(|(now, largest)| now / largest).enumerate();
+        parts.fold((1.0, 0), |least, (k, part)| {
+            if part < least.0 { (part, k) } else { least }
+        })
     }
 }
 
@@ -179,9 +199,11 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             }
             .into());
         }
-        let mut frames = self.drawing(drawing)?;
-        let solved = self.solve(phi, &mut frames).map_err(|why| why.at(phi))?;
-        let mut place = Place::new(phi, solved, frames);
+        let frames = self.drawing(drawing)?;
+        let mut place = self.placed(phi, frames).map_err(|why| why.at(phi))?;
+        if let Some(joint) = self.flat_at(&place) {
+            return Err(PoseError::DeadPoint { phi, joint }.into());
+        }
         let count = self.links.len();
         let mut crossings = heapless::Vec::<Crossing<LINKS>, FLATS>::new();
         let passed = |result: Result<(), PassError>| {
@@ -291,39 +313,59 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             let phi = place.phi;
             let last = math::abs(to - phi) <= math::abs(step);
             let next = if last { to } else { phi + step };
-            let mut there = predicted(&place.frames, next - phi);
-            let joint = place.solved.weakest;
-            let dead = match self.solve(next, &mut there) {
-                Ok(found)
-                    if found.signs == place.solved.signs
-                        && found.correction <= TRUSTED
-                        && found.determinant >= LEAST * place.largest =>
-                {
+            let found = self.placed(next, predicted(&place.frames, next - phi));
+            // Not another solution, on the far side of a dead point, or where branches cross.
+            let same = found.as_ref().is_ok_and(|found| {
+                found.solved.signs == place.solved.signs
+                    && found.fallen(&place.largest).0 >= LEAST
+            });
+            match found {
+                Ok(mut found) if same && found.solved.correction <= TRUSTED => {
+                    for (largest, before) in found.largest.iter_mut().zip(&place.largest) {
+                        *largest = largest.max(*before);
+                    }
+                    *place = found;
                     arrived = last;
-                    *place = Place {
-                        phi: next,
-                        solved: found,
-                        frames: there,
-                        largest: place.largest.max(found.determinant),
-                    };
                     step *= 2.0;
-                    continue;
                 }
-                // Another solution, on the far side of a dead point, or where branches cross.
-                Ok(found)
-                    if found.signs != place.solved.signs
-                        || found.determinant < LEAST * place.largest =>
-                {
-                    PoseError::BranchChange { phi: next, joint }
+                found if math::abs(next - phi) <= gait.shortest => {
+                    let joint = self.weakest(place);
+                    if same || found.is_err() {
+                        return Err(PoseError::DeadPoint { phi: next, joint });
+                    }
+                    let flat = self.flat_ahead(place, math::sign(step));
+                    let phi = flat.unwrap_or(next);
+                    return Err(PoseError::BranchChange { phi, joint });
                 }
-                _ => PoseError::DeadPoint { phi: next, joint },
-            };
-            if math::abs(next - phi) <= gait.shortest {
-                return Err(dead);
+                _ => step = 0.5 * (next - phi),
             }
-            step = 0.5 * (next - phi);
         }
         Ok(())
+    }
+
+    /// The links solved at a position, from where they nearly are.
+    pub(super) fn placed(&self, phi: f64, mut frames: Frames) -> Result<Place, Unsolved> {
+        let mut determinants = [1.0; _];
+        let solved = self.solve_noting(phi, &mut frames, &mut determinants)?;
+        Ok(Place::new(phi, solved, frames, determinants))
+    }
+
+    /// The pair that moves the links worst at a place, of what it did on the way there.
+    fn weakest(&self, place: &Place) -> usize {
+        match place.fallen(&place.largest) {
+            (part, k) if part < place.solved.quality => self.pair_of_group(k),
+            _ => place.solved.weakest,
+        }
+    }
+
+    /// The pair that locks where the links are drawn, in a change point: its determinant is as good as zero, against what it is a little aside.
+    fn flat_at(&self, drawn: &Place) -> Option<usize> {
+        [ASIDE, -ASIDE].into_iter().find_map(|aside| {
+            let phi = drawn.phi + aside * self.unit();
+            let beside = self.placed(phi, predicted(&drawn.frames, 0.0)).ok()?;
+            let (part, k) = drawn.fallen(&beside.determinants);
+            (part < LEAST).then(|| self.pair_of_group(k))
+        })
     }
 
     /// Whether the drive is a guide.
@@ -415,9 +457,8 @@ impl<
             Some(window) => upper(window),
             None => {
                 self.between(cell, 0.0, frames);
-                let solved = self.linkage.solve(start, frames);
-                let solved = solved.map_err(|why| why.at(start))?;
-                Place::new(start, solved, frames.clone())
+                let placed = self.linkage.placed(start, frames.clone());
+                placed.map_err(|why| why.at(start))?
             }
         };
         let span = self.domain.span();
