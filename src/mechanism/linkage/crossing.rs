@@ -88,7 +88,12 @@ impl<const LINKS: usize> Crossing<LINKS> {
         let frames = links.map(|[x, y, psi]| Frame::turned([*x, *y], *psi));
         // A window ends so far from where the determinants are zero that the first step of the way may do without them.
         let determinants = [0.0; _];
-        Place::new(self.ends[end], self.solved[end], frames.collect(), determinants)
+        Place::new(
+            self.ends[end],
+            self.solved[end],
+            frames.collect(),
+            determinants,
+        )
     }
 
     /// Puts `count` links at a position in the window into `frames`.

@@ -8,6 +8,7 @@
 //! Kinematics chapter (equations (73)-(84)) of the lecture notes on planar mechanisms; the equations are solved group by
 //! group, the groups of L. V. Assur.
 
+mod assembly;
 mod cam;
 mod crossing;
 mod error;
@@ -16,10 +17,10 @@ mod solver;
 mod structure;
 mod walk;
 
+pub use assembly::Assembly;
 pub use cam::PlacedCam;
 pub use error::LinkageError;
 pub use pair::Pair;
-pub use walk::Assembly;
 
 use crate::machine::error::MachineError;
 use crate::machine::joint::{Body, Joint, MAX_JOINTS};

@@ -68,7 +68,7 @@ fn an_antiparallelogram_rolls_as_ellipses_do() {
     let findings = Findings::of(&file).unwrap();
     assert!(findings.holds(), "{:?}", findings.violations());
     assert!(
-        inspection
+        findings
             .notes
             .iter()
             .any(|note| note.contains("φ = 0 deg and φ = 180 deg"))
