@@ -216,7 +216,7 @@ pub(crate) const CHANGE_POINT: [f64; 4] = [1e-12, 1e-11, 5e-9, 1e-6];
 
 /// The same of an antiparallelogram of 0.28 m and 0.3 m, whose rocker turns at most 29 times as fast as its crank;
 /// of the largest derivative of an angle.
-pub(crate) const CHANGE_POINT_STEEP: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-5];
+pub(crate) const CHANGE_POINT_STEEP: [f64; 4] = [2e-10, 1e-8, 1e-6, 1e-5];
 
 /// Work of the drive through a change point at constant speed, by Simpson's rule on 400 steps of a smooth function, against the
 /// change of energy; of the largest energy.

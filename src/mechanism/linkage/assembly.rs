@@ -88,7 +88,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     /// `linkage_change_points.rs`).
     /// Lengths count as equal if they are to 1e-12 of themselves; where they differ by more, the linkage has a dead point or a
     /// steep place instead, and no change point. Towards equal lengths of crank and ground an antiparallelogram becomes steep, and the
-    /// accuracy less: 1e-10 in position and 1e-5 of the largest third transfer function at 0.28 m and 0.3 m (test `a_steep_antiparallelogram_is_less_exact`).
+    /// accuracy less: 2e-10 in position and 1e-5 of the largest third transfer function at 0.28 m and 0.3 m (test `a_steep_antiparallelogram_is_less_exact`).
     ///
     /// # Errors
     /// Those of [`assemble`](Self::assemble), with a dead point that is no change point; more change points than `FLATS`; none
