@@ -12,7 +12,9 @@ use crate::reading::machine;
 const ELLIPTIC: &str = include_str!("../../../../machines/elliptic-drive.toml");
 
 /// Crank and rod of one length, as docs/mechanisms/linkage.md has them.
-const FOLDED: &str = r#"[mechanism]
+const FOLDED: &str = r#"gravity = ["0 m/s^2", "-9.81 m/s^2"]
+
+[mechanism]
 type = "linkage"
 drive = "crank bearing"
 keep_branch = true

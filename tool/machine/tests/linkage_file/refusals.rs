@@ -298,8 +298,8 @@ fn a_parallelogram_changes_its_branch() {
         Err(report) => crate::reading::rendered(&report),
         Ok(_) => panic!("accepted"),
     };
-    let named = report.contains("another branch") || report.contains("dead point");
-    assert!(named && report.contains("φ = "), "{report}");
+    let named = report.contains("φ = 0 deg and φ = 180 deg, a change point");
+    assert!(named && report.contains("keep_branch = true"), "{report}");
 }
 
 #[test]
