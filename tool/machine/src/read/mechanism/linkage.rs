@@ -93,17 +93,16 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         coordinate,
         poses: &poses,
         frames: &frames,
+        drawn_at,
     };
     let (assembly, change_points) = if kept {
-        kept_on_branch(&context, domain, drawn_at)
+        kept_on_branch(&context, domain)
     } else {
-        assembled(&context, domain, drawn_at).map(|assembly| (assembly, Vec::new()))
+        assembled(&context, domain).map(|assembly| (assembly, Vec::new()))
     }
     .map_err(|error| match (error, &keep) {
         (LinkageError::NoChangePoint, Some(keep)) => context.never_flat(keep),
-        _ => context.problem(error, kept, || {
-            Ok(kept_on_branch(&context, domain, drawn_at)?.1)
-        }),
+        _ => context.problem(error, kept, || Ok(kept_on_branch(&context, domain)?.1)),
     })?;
     wheels::check(&assembly, &bodies, &joints)?;
     cam::check(&assembly, &bodies, &joints)?;
@@ -129,13 +128,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 
 /// Out of line, so that the stations leave the stack with it.
 #[inline(never)]
-fn assembled(
-    context: &Context,
-    domain: Domain,
-    drawn_at: f64,
-) -> std::result::Result<Boxed, LinkageError> {
+fn assembled(context: &Context, domain: Domain) -> std::result::Result<Boxed, LinkageError> {
     let linkage = context.linkage()?;
-    let assembly = linkage.assemble::<STATIONS>(domain, drawn_at, context.poses)?;
+    let assembly = linkage.assemble::<STATIONS>(domain, context.drawn_at, context.poses)?;
     Ok(Boxed(Box::new(assembly)))
 }
 
@@ -144,13 +139,12 @@ fn assembled(
 fn kept_on_branch(
     context: &Context,
     domain: Domain,
-    drawn_at: f64,
 ) -> std::result::Result<(Boxed, Vec<ChangePoint>), LinkageError> {
     let assembly = context
         .linkage()?
         .assemble_through_change_points::<STATIONS, CHANGE_POINTS>(
             domain,
-            drawn_at,
+            context.drawn_at,
             context.poses,
         )?;
     let within = assembly.flat();

@@ -29,6 +29,8 @@ pub(super) struct Context<'a> {
     pub(super) coordinate: Coordinate,
     pub(super) poses: &'a [Pose],
     pub(super) frames: &'a [Frame],
+    /// φ of the drawing (rad, or m).
+    pub(super) drawn_at: f64,
 }
 
 /// Refuses bodies without a joint, bodies not connected to the ground, and linkages with other than one degree of freedom.
@@ -110,7 +112,7 @@ impl Context<'_> {
             {
                 return self.crossing(joint, &flat);
             }
-            if (self.drawn_at()).is_some_and(|drawn| (phi - drawn).abs() < HAIR) {
+            if (phi - self.drawn_at).abs() < HAIR {
                 return self.drawn_flat(phi, joint);
             }
         }
@@ -317,7 +319,7 @@ impl Context<'_> {
 
     /// Range of the drive on both sides of the drawn position.
     fn reach(&self) -> Option<[f64; 2]> {
-        let drawn = self.drawn_at()?;
+        let drawn = self.drawn_at;
         let mut ends = [0.0; 2];
         for (end, way) in ends.iter_mut().zip([-1.0, 1.0]) {
             let far = drawn + way * self.search();
@@ -347,14 +349,6 @@ impl Context<'_> {
                     .fold(0.0_f64, |most, c| most.max(c.abs()));
                 4.0 * far.max(1e-3)
             }
-        }
-    }
-
-    fn drawn_at(&self) -> Option<f64> {
-        let joint = self.joints.get(self.drive)?;
-        match joint.pair {
-            Pair::Joint(joint) => Some(joint.coordinate(self.frames).value),
-            _ => None,
         }
     }
 
