@@ -288,13 +288,12 @@ impl<
         }
         // Few stations, or a dead point nearby: follow the linkage from the station.
         let start = self.domain.position(cell as f64 / cells);
-        let mut place = match below.filter(|window| !window.is_below(start)) {
-            Some(window) => upper(window),
-            None => {
-                self.between(cell, 0.0, frames);
-                let placed = self.linkage.placed(start, frames.clone());
-                placed.map_err(|why| why.at(start))?
-            }
+        let mut place = if let Some(window) = below.filter(|window| !window.is_below(start)) {
+            upper(window)
+        } else {
+            self.between(cell, 0.0, frames);
+            let placed = self.linkage.placed(start, frames.clone());
+            placed.map_err(|why| why.at(start))?
         };
         let span = self.domain.span();
         self.linkage.walk(&mut place, phi, Gait::strict(span))?;

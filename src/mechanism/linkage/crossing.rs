@@ -87,13 +87,8 @@ impl<const LINKS: usize> Crossing<LINKS> {
         let links = self.coordinates[end].iter().take(count);
         let frames = links.map(|[x, y, psi]| Frame::turned([*x, *y], *psi));
         // A window ends so far from where the determinants are zero that the first step of the way may do without them.
-        let determinants = [0.0; _];
-        Place::new(
-            self.ends[end],
-            self.solved[end],
-            frames.collect(),
-            determinants,
-        )
+        let unknown = [0.0; _];
+        Place::new(self.ends[end], self.solved[end], frames.collect(), &unknown)
     }
 
     /// Puts `count` links at a position in the window into `frames`.
@@ -182,7 +177,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             stalled.phi,
             stalled.solved,
             stalled.frames.clone(),
-            stalled.determinants,
+            &stalled.determinants,
         );
         to(&mut near, stalled.phi - way * FIRST * unit).ok()?;
         let mut far = self.beyond(&near, stalled.phi + way * FIRST * unit)?;

@@ -63,14 +63,14 @@ impl Place {
         phi: f64,
         solved: Solved,
         frames: Frames,
-        determinants: Determinants,
+        determinants: &Determinants,
     ) -> Self {
         Self {
             phi,
             solved,
             frames,
-            determinants,
-            largest: determinants,
+            determinants: *determinants,
+            largest: *determinants,
         }
     }
 
@@ -129,7 +129,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     pub(super) fn placed(&self, phi: f64, mut frames: Frames) -> Result<Place, Unsolved> {
         let mut determinants = [1.0; _];
         let solved = self.solve_noting(phi, &mut frames, &mut determinants)?;
-        Ok(Place::new(phi, solved, frames, determinants))
+        Ok(Place::new(phi, solved, frames, &determinants))
     }
 
     /// The pair that moves the links worst at a place, of what it did on the way there.
