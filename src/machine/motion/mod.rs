@@ -1,10 +1,12 @@
 //! Motion laws and moves of the drive link.
 
+mod characteristic;
 mod law;
 mod polynomial;
 mod sine_constant_cosine;
 
-pub use law::{Characteristic, Law};
+pub use characteristic::Characteristic;
+pub use law::Law;
 pub use polynomial::{End, Polynomial};
 
 use crate::math::Real;

@@ -7,7 +7,8 @@
 
 use core::f64::consts::FRAC_2_PI;
 
-use super::law::{Characteristic, versine};
+use super::characteristic::Characteristic;
+use super::law::versine;
 use crate::math::{self, Real};
 use crate::number::error::RangeError;
 

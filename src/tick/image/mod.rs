@@ -5,15 +5,17 @@
 //! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: an image that passes both can be ticked.
 
 mod check;
+mod encode;
 mod error;
 mod kind;
 
 pub use check::ImageCheck;
 pub(crate) use check::Progress;
+pub(crate) use encode::seal;
+pub use encode::{encode, identify, image_len};
 pub use error::ImageError;
 
-use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
-use crate::number::Number;
+use crate::curve::{CONSTANTS, Format, Set, Shape, Table};
 use crate::{AnyModel, Domain, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
@@ -337,85 +339,6 @@ pub(crate) fn covered<'a>(
         });
     }
     Ok(covered)
-}
-
-/// Two half-words in one word.
-const fn word_of(low: u16, high: u16) -> u32 {
-    low as u32 | (high as u32) << 16
-}
-
-/// Words of the image of a table of `cells` cells.
-#[must_use]
-pub const fn image_len<F: Format>(cells: u32, set: Set) -> usize {
-    HEADER_WORDS + (words_len::<F>(cells, set) * size_of::<F::Word>()).div_ceil(4) + 1
-}
-
-/// Writes the image of `table` and returns it. The table was checked when it was built.
-///
-/// # Errors
-/// A buffer shorter than [`image_len`], or a number type that is not stored in images (f64).
-pub fn encode<'b, F: Format>(
-    table: &Table<'_, F>,
-    validity: Validity,
-    buffer: &'b mut [u32],
-) -> Result<&'b [u32], ImageError> {
-    let [code, layout] = F::CODES.ok_or(ImageError::NotStored(<F::Number as Number>::NAME))?;
-    let rows: &[u8] = bytemuck::cast_slice(table.words());
-    let needed = image_len::<F>(table.cells(), table.set());
-    let given = buffer.len();
-    let short = ImageError::BufferTooShort { needed, given };
-    let image = buffer.get_mut(..needed).ok_or(short)?;
-    let (domain, from, to) = match table.domain().to::<f32>() {
-        Domain::Turn => (TURN, 0.0, 0.0),
-        Domain::Stroke { from, to } => (STROKE, from, to),
-    };
-    let scale = table.scale();
-    let words: [u32; HEADER_WORDS - CONSTANTS] = [
-        MAGIC,
-        word_of(VERSION, HEADER_WORDS as u16),
-        needed as u32,
-        u32::from_le_bytes([code, table.set() as u8, layout, domain]),
-        table.cells(),
-        from.to_bits(),
-        to.to_bits(),
-        scale.torque().to_bits(),
-        scale.speed().to_bits(),
-        scale.inertia().to_bits(),
-        validity.omega.to_bits(),
-        validity.alpha.to_bits(),
-        validity.torque_error.to_bits(),
-    ];
-    let constants = F::header(table.constants(), table.set());
-    image.fill(0);
-    for (slot, word) in image.iter_mut().zip(words.iter().chain(&constants)) {
-        *slot = *word;
-    }
-    let bytes: &mut [u8] = bytemuck::cast_slice_mut(image);
-    for (slot, byte) in bytes.iter_mut().skip(4 * HEADER_WORDS).zip(rows) {
-        *slot = *byte;
-    }
-    seal(image);
-    Ok(image)
-}
-
-/// Writes the identifier of a machine into its image, as `jred export` does.
-///
-/// # Errors
-/// Words that are no image.
-pub fn identify(image: &mut [u32], machine: u32) -> Result<(), ImageError> {
-    Image::new(image)?;
-    if let Some(word) = image.get_mut(MACHINE) {
-        *word = machine;
-    }
-    seal(image);
-    Ok(())
-}
-
-/// Makes the CRC of an image.
-pub(crate) fn seal(image: &mut [u32]) {
-    if let Some((crc, covered)) = image.split_last_mut() {
-        *crc = Progress::START.all(covered);
-    }
 }
 
 /// Bytes on a 4-byte boundary; made by [`include_image!`](crate::include_image).

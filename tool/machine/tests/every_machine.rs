@@ -40,7 +40,8 @@ fn dalembert_agrees_with_the_reduced_equation() {
         let machine = &file.machine;
         let mut size = 0.0_f64;
         let mut worst = (0.0_f64, 0.0);
-        for phi in places(machine.domain(), 200) {
+        let determined = |phi: &f64| machine.mechanism().determined(*phi);
+        for phi in places(machine.domain(), 200).filter(determined) {
             let forces = machine.forces(phi, OMEGA, ALPHA).unwrap();
             let terms = machine.bare_reduction(phi).unwrap().torque(OMEGA, ALPHA);
             size = terms
@@ -73,8 +74,15 @@ fn energy_balances_over_a_cycle() {
         let ends = [from, to].map(|phi| machine.bare_reduction(phi).unwrap());
         let kinetic = 0.5 * OMEGA * OMEGA * (ends[1].inertia - ends[0].inertia);
         let potential = ends[1].potential_energy - ends[0].potential_energy;
-        // d'Alembert's torque knows neither J nor U.
-        let drive = |phi: f64| machine.forces(phi, OMEGA, 0.0).unwrap().drive;
+        // d'Alembert's torque knows neither J nor U; close to a change point there are no forces, and the reduced equation stands in.
+        let drive = |phi: f64| {
+            if machine.mechanism().determined(phi) {
+                machine.forces(phi, OMEGA, 0.0).unwrap().drive
+            } else {
+                let reduction = machine.bare_reduction(phi).unwrap();
+                reduction.torque(OMEGA, 0.0).total()
+            }
+        };
         let torque = places(domain, 50).fold(0.0_f64, |most, phi| most.max(drive(phi).abs()));
         let size = (torque * domain.span())
             .max(kinetic.abs())
@@ -106,24 +114,22 @@ fn energy_balances_over_a_cycle() {
     }
 }
 
-/// Every joint of every machine carries finite forces, and its reactions do no work.
+/// The reactions of every joint of every machine do no work: of the largest power of one of their parts, over all places.
 #[test]
 fn joints_do_no_work() {
     for (path, file) in machines() {
         let mechanism = file.machine.mechanism();
+        let names = mechanism.joint_names();
+        assert_eq!(mechanism.links().len(), mechanism.link_names().len());
+        let mut most = vec![1e-3_f64; names.len()];
+        let mut works = Vec::new();
         for phi in places(mechanism.domain(), 60) {
             let frames = mechanism.frames(phi).unwrap();
             let joints = mechanism.joints(phi, &frames).unwrap();
-            assert_eq!(
-                joints.len(),
-                mechanism.joint_names().len(),
-                "{}",
-                path.display()
-            );
-            assert_eq!(mechanism.links().len(), mechanism.link_names().len());
-            for (joint, name) in joints.iter().zip(mechanism.joint_names()) {
+            assert_eq!(joints.len(), names.len(), "{}", path.display());
+            for (k, joint) in joints.iter().enumerate() {
                 for pair in &joint.unit_reactions(&frames) {
-                    let (mut power, mut size) = (0.0, 1e-3_f64);
+                    let mut power = 0.0;
                     for wrench in pair {
                         let frame = wrench.body.frame(&frames);
                         let turn = frame.psi.d1;
@@ -137,15 +143,19 @@ fn joints_do_no_work() {
                             wrench.moment * turn,
                         ];
                         power += parts.iter().sum::<f64>();
-                        size = parts.iter().fold(size, |most, p| most.max(p.abs()));
+                        most[k] = parts.iter().fold(most[k], |most, p| most.max(p.abs()));
                     }
-                    assert!(
-                        power.abs() <= 1e-11 * size,
-                        "{}: {name} works at φ = {phi}: {power:e} of {size:e}",
-                        path.display()
-                    );
+                    works.push((k, phi, power));
                 }
             }
+        }
+        for (k, phi, power) in works {
+            let (name, size) = (&names[k], most[k]);
+            assert!(
+                power.abs() <= 1e-11 * size,
+                "{}: {name} works at φ = {phi}: {power:e} of {size:e}",
+                path.display()
+            );
         }
     }
 }

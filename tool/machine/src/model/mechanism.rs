@@ -1,11 +1,13 @@
 //! Any mechanism that a machine file can name, with the names of its parts.
 
+mod parts;
+
 use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
 use jred::machine::PoseError;
-use jred::machine::{Action, Element, Frames, Jointed, Joints, Load, Mechanism};
+use jred::machine::{Action, Frames, Jointed, Joints, Load, Mechanism};
 use jred::mechanism::linkage::Pair;
 use jred::{Domain, Error, Link};
 
@@ -14,50 +16,12 @@ use crate::model::laden::Laden;
 use crate::model::on_stroke::OnStroke;
 use crate::model::tabulated::{Course, StandIn, Tabulated};
 
+pub use parts::{ChangePoint, Contact, Fact, NamedElement, NamedLoad, NamedPoint};
+
 /// A mechanism that knows its joints and can be kept in a machine.
 pub trait Inner: Jointed + fmt::Debug + Send + Sync + Any {}
 
 impl<M: Jointed + fmt::Debug + Send + Sync + Any> Inner for M {}
-
-/// A point of a link, with the name that tables and drawings use.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedPoint {
-    /// Such as `B`.
-    pub name: String,
-    /// Index of the link.
-    pub link: usize,
-    /// Where it is in the link's frame (m).
-    pub at: [f64; 2],
-}
-
-/// A joint in which two surfaces only press on each other, as a follower on its cam.
-#[derive(Clone, Debug)]
-pub struct Contact {
-    /// Index of the joint.
-    pub joint: usize,
-    /// Whether the file names it; otherwise it is the only one.
-    pub named: bool,
-    /// The pieces of the drive's range in which it is smooth.
-    pub pieces: Vec<jred::mechanism::cam::Piece>,
-}
-
-/// A position at which bodies of a linkage come into line, and which it passes on its branch, guided.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ChangePoint {
-    /// Position of the drive link (rad, or m).
-    pub at: f64,
-    /// How close to it the forces in the joints are not determined (rad, or m).
-    pub within: f64,
-}
-
-/// A property of one kind of mechanism, such as the largest pressure angle of a cam.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Fact {
-    /// Its name.
-    pub label: String,
-    /// The figure, its unit and where it is.
-    pub text: String,
-}
 
 /// Any mechanism that a machine file can name, with the names of its parts.
 #[derive(Clone, Debug)]
@@ -433,22 +397,4 @@ impl Jointed for AnyMechanism {
     fn determined(&self, phi: f64) -> bool {
         self.inner.determined(phi)
     }
-}
-
-/// A load with the name that reports use.
-#[derive(Clone, Debug)]
-pub struct NamedLoad {
-    /// Name from the file, or made from what the load does.
-    pub name: String,
-    /// The load.
-    pub load: Load,
-}
-
-/// A spring or a damper with the name that reports use.
-#[derive(Clone, Debug)]
-pub struct NamedElement {
-    /// Name from the file, or made from its ends.
-    pub name: String,
-    /// The spring or damper.
-    pub element: Element,
 }

@@ -80,7 +80,15 @@ const TYPES: [(&str, &[&str], Reader); 23] = [
     (BELT, &[], train::read_belt),
     (
         LINKAGE,
-        &["drive", "drawn_at", "stroke", "ground", "body", "joint"],
+        &[
+            "drive",
+            "drawn_at",
+            "keep_branch",
+            "stroke",
+            "ground",
+            "body",
+            "joint",
+        ],
         linkage::read,
     ),
     (
