@@ -107,6 +107,8 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Ok(assembly)
     }
 
+    /// Out of line, so that its places leave the stack with it.
+    #[inline(never)]
     fn assemble_along<const STATIONS: usize, const FLATS: usize>(
         self,
         domain: Domain,
