@@ -234,17 +234,21 @@ fn refine(
             }
             Err(obstacle) => return Err(NoMotion::at(&field, &track, obstacle)),
         };
-        if let Err(empty) = between::check(&field, &ends, &track, &pieces) {
-            // Between the places of a cell two limits that meet at the largest speed may cross.
-            if task.limits.forces.is_some() && finer.is_empty() && count < ENOUGH && may_go_on {
-                count *= 2;
-                continue;
+        if let Err(closed) = between::check(&field, &ends, &track, &pieces) {
+            // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
+            if !(task.limits.forces.is_some() && may_go_on) {
+                return Err(closed.why);
             }
-            return Err(empty);
+            if finer.is_empty() && count < ENOUGH {
+                count *= 2;
+            } else {
+                finer.extend(closed.places);
+            }
+            continue;
         }
         let times = sweep::times(&track, &pieces);
         let time: f64 = times.iter().sum();
-        if finer.is_empty() {
+        if settled.is_infinite() {
             let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
             before = Some(time);
             if change > SETTLED * time && may_go_on {

@@ -3,7 +3,7 @@
 use jred::machine::motion::State;
 
 use super::NoMotion;
-use super::field::{Field, speed};
+use super::field::Field;
 use super::sweep::Piece;
 use super::track::{Ends, Track};
 use crate::trace::{Node, Trace};
@@ -31,6 +31,14 @@ pub(super) fn within_step(a: &Node, b: &Node, share: f64) -> State<f64> {
     state
 }
 
+/// Where the limits leave no acceleration on a motion.
+pub(super) struct Closed {
+    /// The first such place, in words.
+    pub(super) why: NoMotion,
+    /// Distances at which cells must meet so that the machine is better known there.
+    pub(super) places: Vec<f64>,
+}
+
 /// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
 ///
 /// At the largest speed that forces in joints leave, one acceleration is left. Between the places of a cell it is known about as well as the
@@ -40,33 +48,40 @@ pub(super) fn check(
     ends: &Ends,
     track: &Track,
     pieces: &[Piece],
-) -> Result<(), NoMotion> {
+) -> Result<(), Box<Closed>> {
     if !field.may_be_empty() {
         return Ok(());
     }
     let forces = field.limits.forces.is_some();
+    let mut closed: Option<Closed> = None;
     for Piece { cell, step, .. } in pieces {
         let cell = &track.cells[*cell];
         for end in [0, 1] {
             let (place, z) = (cell.spot(step.u[end]), step.z[end]);
-            let [low, high] = [field.least_by(&place, z), field.most_by(&place, z)];
-            let rounding = 1e-9 * (low.0.abs() + high.0.abs());
+            let [low, high] = [field.least_by(&place, z).0, field.most_by(&place, z).0];
+            let rounding = 1e-9 * (low.abs() + high.abs());
             let known = if forces {
-                1e-3 * (z / ends.length + low.0.abs() + high.0.abs())
+                1e-3 * (z / ends.length + low.abs() + high.abs())
             } else {
                 rounding
             };
-            if low.0 > high.0 + known {
-                return Err(NoMotion::Empty {
-                    phi: place.phi,
-                    speed: speed(z),
-                    least: low,
-                    most: high,
-                });
+            if low <= high + known {
+                continue;
+            }
+            let found = closed.get_or_insert_with(|| Closed {
+                why: NoMotion::empty(field, &place, z),
+                places: Vec::new(),
+            });
+            let middle = cell.x + 0.5 * cell.length;
+            if found.places.last() != Some(&middle) {
+                found.places.push(middle);
             }
         }
     }
-    Ok(())
+    match closed {
+        None => Ok(()),
+        Some(closed) => Err(Box::new(closed)),
+    }
 }
 
 /// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at

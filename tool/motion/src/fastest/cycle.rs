@@ -5,6 +5,7 @@ use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 
 use super::field::{Binding, Limits};
+use super::obstacle::input;
 use super::rms::{Asked, Refused, Rms, slowest, within};
 use super::{Fastest, NoMotion, Task, priced, solve};
 use crate::moves::{Move, Part};
@@ -91,7 +92,7 @@ pub fn cycle(
     });
     let slow = slowest(file, actuator, ways).map_err(|why| (0, why.into()))?;
     let at = |asked: &mut Asked| at_price(file, actuator, &limits, parts, asked);
-    let found = within(rms, slow, at).map_err(|why| match why {
+    let found = within(rms, slow, input(file), at).map_err(|why| match why {
         Refused::Move(why) => why,
         Refused::Limit(why) => (0, why),
     });
@@ -174,7 +175,7 @@ pub fn single(
         })
     };
     let slow = slowest(file, actuator, [[task.from, task.to]])?;
-    let found = within(rms, slow, at).map_err(|why| match why {
+    let found = within(rms, slow, input(file), at).map_err(|why| match why {
         Refused::Move(why) | Refused::Limit(why) => why,
     });
     found.map(|found| with_costs(file, actuator, found))

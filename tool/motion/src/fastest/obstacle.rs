@@ -8,8 +8,11 @@ use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 
+use jred_sizing::catalogue::MotorKind;
+use jred_sizing::select::fit::input_kind;
+
 use super::field::{Binding, Field, speed};
-use super::joint_force::JointForce;
+use super::joint_force::{JointForce, Spot};
 use super::sweep::Obstacle;
 use super::track::Track;
 
@@ -98,17 +101,21 @@ pub enum NoMotion {
     LoadJumps {
         /// Position (rad, or m).
         phi: f64,
-        /// Torque of the motor before and after (N·m).
+        /// Torque of the motor before and after (N·m, or N).
         torques: [f64; 2],
+        /// Their unit: N of a motor that slides.
+        unit: Coordinate,
         /// In whose words it is said.
         axis: Axis,
     },
     /// Even slow motions take more RMS torque than allowed.
     RmsTooLarge {
-        /// Least RMS torque (N·m) that was found.
+        /// Least RMS torque (N·m, or N) that was found.
         rms: f64,
         /// What it may be.
         allowed: f64,
+        /// Their unit: N of a motor that slides.
+        unit: Coordinate,
     },
     /// The winding gets warmer than allowed in every motion that was found.
     TooWarm {
@@ -118,6 +125,8 @@ pub enum NoMotion {
         limit: f64,
         /// That of the surroundings.
         ambient: f64,
+        /// Whether the motion goes on for ever, without pauses.
+        endless: bool,
     },
     /// The temperature of the motor's winding is not known.
     WindingUnknown,
@@ -150,21 +159,37 @@ pub enum NoMotion {
     /// Forces in joints are limited beside jerk, torque rate or RMS torque.
     JointForceAlone,
     /// No acceleration is left.
-    Empty {
-        /// Position (rad, or m).
-        phi: f64,
-        /// Speed (rad/s, or m/s).
-        speed: f64,
-        /// The least acceleration and its limit.
-        least: (f64, Binding),
-        /// The largest acceleration, which is smaller, and its limit.
-        most: (f64, Binding),
-    },
+    Empty(Box<Empty>),
+}
+
+/// Where limits leave no acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Empty {
+    /// Position (rad, or m).
+    pub phi: f64,
+    /// Speed (rad/s, or m/s).
+    pub speed: f64,
+    /// The least acceleration and its limit.
+    pub least: (f64, Binding),
+    /// The largest acceleration, which is smaller, and its limit.
+    pub most: (f64, Binding),
+    /// Both limits in words, with the joint whose force it is.
+    names: [Box<str>; 2],
+    /// In whose words it is said.
+    axis: Axis,
 }
 
 impl From<Error> for NoMotion {
     fn from(error: Error) -> Self {
         Self::Machine(error)
+    }
+}
+
+/// Whether the motor of a machine turns or slides.
+pub(super) fn input(file: &MachineFile) -> Coordinate {
+    match input_kind(file) {
+        MotorKind::Rotary => Coordinate::Angle,
+        MotorKind::Linear => Coordinate::Length,
     }
 }
 
@@ -190,14 +215,22 @@ impl NoMotion {
         }
     }
 
+    /// At a place and speed that leave no acceleration.
+    pub(super) fn empty(field: &Field, place: &Spot, z: f64) -> Self {
+        let [least, most] = [field.least_by(place, z), field.most_by(place, z)];
+        Self::Empty(Box::new(Empty {
+            phi: place.phi,
+            speed: speed(z),
+            least,
+            most,
+            names: [least, most].map(|(_, limit)| in_words(limit, field)),
+            axis: field.way.file.axis(),
+        }))
+    }
+
     pub(super) fn at(field: &Field, track: &Track, obstacle: Obstacle) -> Self {
         let axis = field.way.file.axis();
-        let stages = field.way.file.drive_train.stages();
-        let unit = if stages.is_empty() {
-            field.way.coordinate()
-        } else {
-            Coordinate::Angle
-        };
+        let unit = input(field.way.file);
         let place = |index: usize, u: f64| track.cells[index].spot(u);
         match obstacle {
             Obstacle::Stops(index, u) => {

@@ -21,6 +21,7 @@ use crate::gentlest::shape::Shape;
 use crate::gentlest::{self};
 
 use super::field::{Binding, Field, Limits};
+use super::obstacle::input;
 use super::track::Ends;
 use super::{Fastest, NoMotion};
 use interior::{Point, Stuck, minimise};
@@ -333,6 +334,7 @@ impl Asked<'_> {
                 return Err(NoMotion::LoadJumps {
                     phi: self.ends.from + way.direction * x,
                     torques: [before, after],
+                    unit: input(way.file),
                     axis: way.file.axis(),
                 });
             }

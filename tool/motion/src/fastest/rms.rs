@@ -13,6 +13,7 @@
 //! 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with it.
 
 use jred::Error;
+use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 
 use super::NoMotion;
@@ -127,6 +128,7 @@ fn price(share: f64, limit: f64, slow: f64) -> Price {
 pub(super) fn within<E>(
     rms: Option<Rms>,
     slow: f64,
+    unit: Coordinate,
     at: impl Fn(&mut Asked) -> Result<Cycle, E>,
 ) -> Result<(Cycle, bool), Refused<E>> {
     let mut asked = Asked::default();
@@ -166,6 +168,7 @@ pub(super) fn within<E>(
         return Err(Refused::Limit(NoMotion::RmsTooLarge {
             rms: least,
             allowed: limit,
+            unit,
         }));
     };
     let mut last = dear;

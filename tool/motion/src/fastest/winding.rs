@@ -281,15 +281,17 @@ pub fn cooled(
         });
     }
     let mut coolest = temperatures.greatest;
+    let endless = free.moves.iter().any(|made| made.task.endless);
     let refused = |coolest: f64| {
         let why = NoMotion::TooWarm {
             greatest: coolest,
             limit,
             ambient: winding.ambient(),
+            endless,
         };
         Err((None, why))
     };
-    if free.moves.iter().any(|made| made.task.endless) {
+    if endless {
         return refused(coolest);
     }
     // RMS torques that are too small or cool enough, and too large.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jred::Domain;
 use jred_machine::read;
+use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::{Binding, JointForces, Limits, NoMotion, Task, solve};
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::Node;
@@ -190,4 +191,30 @@ fn a_steep_turn_is_accurate() {
         .sum();
     close(found.time, free, 0.02);
     assert!(found.time < free, "{} {free}", found.time);
+}
+
+/// Near the inner dead centre the force of the crank pin hardly depends on the acceleration, and what it leaves of the speed changes within a degree.
+#[test]
+fn a_pin_at_its_dead_centre() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/shaking-feeder.toml");
+    let file = read::read(&path).unwrap();
+    let names = file.machine.mechanism().joint_names();
+    let pin = names.iter().position(|name| name == "crank pin").unwrap();
+    let mut before = f64::INFINITY;
+    for force in [3900.0, 4000.0, 4100.0] {
+        let asked = Task {
+            limits: Limits {
+                forces: JointForces::default().with(pin, force),
+                ..Limits::default()
+            },
+            ..turn(0.0)
+        };
+        let found = solve(&file, &motor([50.0; 2], 314.159), &asked).unwrap();
+        assert!(found.time < before, "{} s after {before} s", found.time);
+        before = found.time;
+        let [most] = reached(&file, &asked.limits.forces, &found.trace).unwrap()[..] else {
+            panic!("one joint is limited");
+        };
+        close(most.force, force, 1e-6);
+    }
 }

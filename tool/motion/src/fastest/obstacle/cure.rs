@@ -64,6 +64,9 @@ impl NoMotion {
             Self::RmsTooLarge { .. } => {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
+            Self::TooWarm { endless: true, .. } => {
+                "limit the speed (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
+            }
             Self::TooWarm { .. } => {
                 "give the cycle more time at rest, limit the speed (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
             }
@@ -78,9 +81,13 @@ impl NoMotion {
             Self::JointForceAlone => {
                 "leave one of them out: without --max-jerk, --max-torque-rate, --max-rms and --max-winding-temperature the forces in joints are limited".to_owned()
             }
-            Self::Empty { .. } => {
-                "allow a larger acceleration or deceleration, or take a drive with more torque".to_owned()
-            }
+            Self::Empty(place) => match [place.least.1, place.most.1] {
+                [Binding::JointForce(_), Binding::JointForce(_)] => {
+                    format!("{LARGER_FORCE}; or limit the speed (--max-speed)")
+                }
+                _ => "allow a larger acceleration or deceleration, or take a drive with more torque"
+                    .to_owned(),
+            },
         }
     }
 }

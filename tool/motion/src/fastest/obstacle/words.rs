@@ -5,7 +5,7 @@ use std::fmt;
 use jred_machine::number::rounding::short;
 
 use super::super::field::Binding;
-use super::NoMotion;
+use super::{Empty, NoMotion};
 
 impl NoMotion {
     /// Which limits leave nothing at a place.
@@ -31,21 +31,7 @@ impl NoMotion {
                     short(*limit)
                 )
             }
-            Self::Empty {
-                phi,
-                speed,
-                least,
-                most,
-            } => write!(
-                f,
-                "no acceleration is left at position {} (rad or m) and speed {} (per s): the {} asks for at least {}, the {} allows at most {} (per s^2)",
-                short(*phi),
-                short(*speed),
-                least.1.name(),
-                short(least.0),
-                most.1.name(),
-                short(most.0)
-            ),
+            Self::Empty(place) => write!(f, "{place}"),
             _ => Ok(()),
         }
     }
@@ -75,13 +61,16 @@ impl NoMotion {
             Self::LoadJumps {
                 phi,
                 torques: [before, after],
+                unit,
                 axis,
             } => write!(
                 f,
-                "the torque rate cannot be limited: at {} a load jumps, and the motor torque at constant speed with it from {} to {} N m",
+                "the {effort} rate cannot be limited: at {} a load jumps, and the motor {effort} at constant speed with it from {} to {} {}",
                 axis.place(*phi),
                 short(*before),
-                short(*after)
+                short(*after),
+                unit.effort_unit(),
+                effort = unit.vocabulary().torque.word
             ),
             Self::WindingUnknown => {
                 write!(f, "the temperature of the motor's winding is not known")
@@ -109,16 +98,19 @@ impl NoMotion {
     /// What a search came to that did not find one.
     fn not_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::RmsTooLarge { rms, allowed } => write!(
+            Self::RmsTooLarge { rms, allowed, unit } => write!(
                 f,
-                "no motion with an RMS torque of {} N m or less was found: the search met {} N m at the least. A slower motion may have less, and weight and friction may keep it above the limit",
+                "no motion with an RMS {effort} of {} {u} or less was found: the least one met was {} {u}. A slower motion may have less, and weight and friction may keep it above the limit",
                 short(*allowed),
-                short(*rms)
+                short(*rms),
+                effort = unit.vocabulary().torque.word,
+                u = unit.effort_unit()
             ),
             Self::TooWarm {
                 greatest,
                 limit,
                 ambient,
+                ..
             } => {
                 let greatest = if greatest.is_finite() {
                     format!("reaches {} °C", short(*greatest))
@@ -160,6 +152,23 @@ impl NoMotion {
             }
             _ => Ok(()),
         }
+    }
+}
+
+impl fmt::Display for Empty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { axis, names, .. } = self;
+        let [asks, allows] = names;
+        let unit = axis.coordinate.speed_unit();
+        let rate = |rate: f64| short(axis.rate(rate));
+        write!(
+            f,
+            "no acceleration is left at {} and {} {unit}: the {asks} asks for at least {} {unit}^2, the {allows} allows at most {}",
+            axis.place(self.phi),
+            rate(self.speed),
+            rate(self.least.0),
+            rate(self.most.0)
+        )
     }
 }
 
@@ -254,7 +263,7 @@ impl fmt::Display for NoMotion {
             Self::RmsTooLarge { .. } | Self::TooWarm { .. } | Self::NotFound { .. } => {
                 self.not_found(f)
             }
-            Self::JointForce { .. } | Self::Empty { .. } => self.at_a_place(f),
+            Self::JointForce { .. } | Self::Empty(_) => self.at_a_place(f),
         }
     }
 }
