@@ -42,7 +42,7 @@ pub use phases::Phase;
 pub use programme::{Price, Start, Warm};
 pub use rms::Rms;
 use sweep::{Obstacle, Piece};
-pub use tool_speed::ToolSpeed;
+pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::{Ends, Track};
 
 /// Cells of the first try, and the most.

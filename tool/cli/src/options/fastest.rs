@@ -82,9 +82,9 @@ pub struct Fastest {
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
     /// Largest speed of a point of the tool in a part of the way: a named point or a link, the speed, and two positions of the drive link, e.g.
-    /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere.
+    /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere. Several times: for several parts.
     #[arg(long, value_name = "POINT, SPEED, FROM, TO")]
-    pub max_tool_speed: Option<String>,
+    pub max_tool_speed: Vec<String>,
     /// Largest force in a joint, e.g. "crank pin=2 kN"; `jred check` lists the joints. Several times: for several joints.
     #[arg(long, value_name = "JOINT=FORCE")]
     pub max_reaction: Vec<String>,

@@ -198,6 +198,17 @@ fn slow_through_the_work() {
             &with("slider, 60 mm/s, 300 deg, 300 deg"),
             &with("slider, 60 mm/s, 30 deg, 300 deg"),
             &with("slider, 60 mm/s, 300 deg, 30 deg"),
+            &[
+                with("slider, 0.2 m/s, 270 deg, 320 deg").as_slice(),
+                &["--max-tool-speed", "slider, 60 mm/s, 320 deg, 360 deg"],
+            ]
+            .concat(),
+            &[
+                &turn[..turn.len() - 1],
+                &["--max-reaction", "crank pin=4 kN"],
+                &["--max-reaction", "crank pin=5 kN"],
+            ]
+            .concat(),
         ]),
     );
 }
@@ -238,7 +249,8 @@ fn fastest_says_what_was_asked() {
             &with("axis.toml", "nut, 0.1 m/s, -100 mm, -200 mm"),
             &with("axis.toml", "nut, 0.1 m/s, -7200 deg, -3600 deg"),
             &with("axis.toml", "nut, 0.1 m/s, -100 mm, -2 m"),
-            &with("endless.toml", "nut, 0.1 m/s, -2 mm, -1 mm"),
+            &with("endless.toml", "nut, 0.1 m/s, -200 mm, -100 mm"),
+            &with("endless.toml", "nut, 0.1 m/s, -200 mm, 40 deg"),
             &[
                 "fastest",
                 "press.toml",

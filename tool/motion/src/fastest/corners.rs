@@ -94,31 +94,34 @@ fn edges(field: &Field, from: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The ends of the part in which the tool's speed is limited, and where that limit is the other one of the drive link's speed.
+/// The ends of the parts in which the tool's speed is limited, and where another limit of the drive link's speed begins to rule.
 fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
-    let Some(tool) = &field.limits.tool else {
-        return Ok(Vec::new());
-    };
-    let places: Vec<f64> = tool
-        .places(field.way.file.machine.domain(), PLACES as usize)
-        .collect();
-    let mut found: Vec<f64> = places
-        .first()
-        .into_iter()
-        .chain(places.last())
-        .copied()
-        .collect();
+    let machine = &field.way.file.machine;
+    let mechanism = machine.mechanism();
     let (top, _) = field.top();
-    let inner = places.get(1..places.len() - 1).unwrap_or_default();
-    for pair in inner.windows(2) {
-        let slower = |phi: f64| Ok::<_, Error>(field.tool_speed(phi)? < top);
-        let first = slower(pair[0])?;
-        if first != slower(pair[1])? {
-            found.push(edge(
-                |phi| Ok::<_, Error>(slower(phi)? == first),
-                pair[0],
-                pair[1],
-            )?);
+    let tools = &field.limits.tool;
+    // Which limit rules at a position: the tool's, by its number, or another one.
+    let ruling = |phi: f64| -> Result<Option<usize>, Error> {
+        let mut least = (top, None);
+        for (k, tool) in tools.iter().enumerate() {
+            let own = tool.at(mechanism, phi)?;
+            if own < least.0 {
+                least = (own, Some(k));
+            }
+        }
+        Ok(least.1)
+    };
+    let mut found = Vec::new();
+    for tool in tools.iter() {
+        let places: Vec<f64> = tool.places(machine.domain(), PLACES as usize).collect();
+        found.extend(places.first().into_iter().chain(places.last()));
+        let inner = places.get(1..places.len() - 1).unwrap_or_default();
+        for pair in inner.windows(2) {
+            let first = ruling(pair[0])?;
+            if first != ruling(pair[1])? {
+                let same = |phi: f64| Ok::<_, Error>(ruling(phi)? == first);
+                found.push(edge(same, pair[0], pair[1])?);
+            }
         }
     }
     Ok((found.into_iter())

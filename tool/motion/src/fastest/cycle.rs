@@ -7,6 +7,7 @@ use jred_machine::model::machine::MachineFile;
 use super::field::{Binding, Limits};
 use super::obstacle::input;
 use super::rms::{Asked, Refused, Rms, slowest, within};
+use super::tool_speed::ToolSpeeds;
 use super::{Fastest, NoMotion, Task, priced, solve};
 use crate::moves::{Move, Part};
 use crate::trace::{Node, Trace};
@@ -301,7 +302,7 @@ fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, L
         Binding::GearboxTorque => limits.gearbox_torque = None,
         Binding::GearboxSpeed => limits.gearbox_speed = None,
         Binding::Speed => limits.speed = None,
-        Binding::ToolSpeed => limits.tool = None,
+        Binding::ToolSpeed => limits.tool = ToolSpeeds::default(),
         Binding::Acceleration => limits.acceleration = None,
         Binding::Deceleration => limits.deceleration = None,
         Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),

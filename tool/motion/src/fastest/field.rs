@@ -9,7 +9,7 @@ use jred_sizing::select::fit::input_kind;
 use super::joint_force::{JointForces, Spot};
 pub use super::reserve::Reserve;
 use super::sweep::Side;
-use super::tool_speed::ToolSpeed;
+use super::tool_speed::ToolSpeeds;
 use crate::way::{Place, Way};
 
 /// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
@@ -17,8 +17,8 @@ use crate::way::{Place, Way};
 pub struct Limits {
     /// Largest speed (rad/s, or m/s).
     pub speed: Option<f64>,
-    /// Largest speed of the tool in a part of the way.
-    pub tool: Option<ToolSpeed>,
+    /// Largest speeds of the tool in parts of the way.
+    pub tool: ToolSpeeds,
     /// Largest acceleration while the speed grows (rad/s², or m/s²).
     pub acceleration: Option<f64>,
     /// Largest while it falls.
@@ -188,9 +188,7 @@ impl Field<'_, '_> {
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn tool_speed(&self, phi: f64) -> Result<f64, Error> {
-        let mechanism = self.way.file.machine.mechanism();
-        let tool = self.limits.tool.as_ref();
-        tool.map_or(Ok(f64::INFINITY), |tool| tool.at(mechanism, phi))
+        self.limits.tool.at(self.way.file.machine.mechanism(), phi)
     }
 
     /// The least of them, and which it is.

@@ -12,6 +12,9 @@ use jred_machine::model::mechanism::AnyMechanism;
 /// Positions at which the largest transfer function is looked for.
 const POSITIONS: usize = 720;
 
+/// Most limits of the tool's speed.
+pub const MOST: usize = 8;
+
 /// Share of it below which the tool stands, and limits nothing.
 const STANDS: f64 = 1e-6;
 
@@ -23,6 +26,8 @@ pub struct ToolSpeed {
     /// Largest speed (m/s).
     speed: f64,
     between: [f64; 2],
+    /// Whether the part comes again with every turn.
+    repeats: bool,
     /// Transfer function (m/rad, or m/m) below which the point stands.
     stands: f64,
 }
@@ -44,6 +49,7 @@ impl ToolSpeed {
             at,
             speed,
             between,
+            repeats: true,
             stands: 0.0,
         };
         let mut most = 0.0f64;
@@ -52,6 +58,18 @@ impl ToolSpeed {
         }
         limit.stands = STANDS * most;
         Ok((most > 0.0).then_some(limit))
+    }
+
+    /// The same in a part that does not come again with every turn, as a length of an axis, which takes several: from the smaller position to the
+    /// larger one.
+    #[must_use]
+    pub const fn once(self) -> Self {
+        let [a, b] = self.between;
+        Self {
+            between: [a.min(b), a.max(b)],
+            repeats: false,
+            ..self
+        }
     }
 
     /// |r′| of the point.
@@ -68,7 +86,7 @@ impl ToolSpeed {
     fn width(&self, domain: Domain) -> f64 {
         let [from, to] = self.between;
         match domain {
-            Domain::Turn if to <= from => (to - from).rem_euclid(TAU),
+            Domain::Turn if self.repeats && to <= from => (to - from).rem_euclid(TAU),
             _ => to - from,
         }
     }
@@ -80,8 +98,8 @@ impl ToolSpeed {
     pub fn at(&self, mechanism: &AnyMechanism, phi: f64) -> Result<f64, Error> {
         let domain = mechanism.domain();
         let into = match domain {
-            Domain::Turn => (phi - self.between[0]).rem_euclid(TAU),
-            Domain::Stroke { .. } => phi - self.between[0],
+            Domain::Turn if self.repeats => (phi - self.between[0]).rem_euclid(TAU),
+            _ => phi - self.between[0],
         };
         if !(0.0..=self.width(domain)).contains(&into) {
             return Ok(f64::INFINITY);
@@ -89,9 +107,57 @@ impl ToolSpeed {
         Ok(self.speed / self.slope(mechanism, phi)?.max(self.stands))
     }
 
-    /// Positions between which it is smooth: the ends of its part, and so many places inside it.
-    pub fn places(&self, domain: Domain, count: usize) -> impl Iterator<Item = f64> {
+    /// Positions between which it is smooth: the ends of its part, and places inside it, so many in a turn or on a stroke.
+    pub fn places(&self, domain: Domain, count: usize) -> impl Iterator<Item = f64> + use<> {
         let (from, width) = (self.between[0], self.width(domain));
+        let turns = match domain {
+            Domain::Turn => (width / TAU).ceil().max(1.0) as usize,
+            Domain::Stroke { .. } => 1,
+        };
+        let count = count * turns;
         (0..=count).map(move |k| from + width * k as f64 / count as f64)
+    }
+}
+
+/// Several limits of the tool's speed, at most [`MOST`]; none at first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToolSpeeds([Option<ToolSpeed>; MOST]);
+
+impl ToolSpeeds {
+    /// With one more; `None`: there are too many.
+    #[must_use]
+    pub fn with(mut self, limit: ToolSpeed) -> Option<Self> {
+        *self.0.iter_mut().find(|own| own.is_none())? = Some(limit);
+        Some(self)
+    }
+
+    /// Whether there is one.
+    pub fn is_some(&self) -> bool {
+        self.iter().next().is_some()
+    }
+
+    /// Each of them.
+    pub fn iter(&self) -> impl Iterator<Item = &ToolSpeed> {
+        self.0.iter().flatten()
+    }
+
+    /// The largest speed of the drive link that all of them leave at a position; infinite: any.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn at(&self, mechanism: &AnyMechanism, phi: f64) -> Result<f64, Error> {
+        let mut least = f64::INFINITY;
+        for limit in self.iter() {
+            least = least.min(limit.at(mechanism, phi)?);
+        }
+        Ok(least)
+    }
+}
+
+impl From<ToolSpeed> for ToolSpeeds {
+    fn from(limit: ToolSpeed) -> Self {
+        let mut all = Self::default();
+        all.0[0] = Some(limit);
+        all
     }
 }

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred_motion::fastest::{Binding, Fastest, Limits, NoMotion, Task, ToolSpeed, solve};
+use jred_motion::fastest::{
+    Binding, Fastest, Limits, NoMotion, Task, ToolSpeed, ToolSpeeds, solve,
+};
 
 use jred_motion::trace::Node;
 use jred_motion::way::Way;
@@ -273,9 +275,10 @@ fn a_tool_speed_with_a_limited_jerk() {
         .position(|name| name == "slider")
         .unwrap();
     let between = [1.8 * std::f64::consts::PI, TAU];
-    let tool = ToolSpeed::new(mechanism, (slider, [0.0; 2]), 0.2, between).unwrap();
+    let tool = ToolSpeed::new(mechanism, (slider, [0.0; 2]), 0.2, between);
+    let tool = ToolSpeeds::from(tool.unwrap().unwrap());
     let motor = motor([300.0, 200.0], 90.0);
-    let asked = |tool, jerk: Option<f64>| Task {
+    let asked = |tool: ToolSpeeds, jerk: Option<f64>| Task {
         limits: Limits {
             tool,
             jerk,
@@ -285,7 +288,7 @@ fn a_tool_speed_with_a_limited_jerk() {
         ..task(3.2, 9.0)
     };
     let both = smooth(&file, &motor, &asked(tool, Some(2e4)));
-    let [one, other] = [asked(tool, None), asked(None, Some(2e4))]
+    let [one, other] = [asked(tool, None), asked(ToolSpeeds::default(), Some(2e4))]
         .map(|asked| solve(&file, &motor, &asked).unwrap().time);
     assert!(
         both.time > 1.001 * one.max(other),
@@ -293,7 +296,7 @@ fn a_tool_speed_with_a_limited_jerk() {
         both.time
     );
     // The node at the beginning of the part, where the tool is fastest, belongs to it.
-    let limit = |phi: f64| tool.unwrap().at(mechanism, phi + 1e-9).unwrap();
+    let limit = |phi: f64| tool.at(mechanism, phi + 1e-9).unwrap();
     let share = |node: &Node| node.omega / limit(node.phi);
     let most = both.trace.nodes().iter().map(share).fold(0.0, f64::max);
     assert!((most - 1.0).abs() <= WITHIN, "{most}");

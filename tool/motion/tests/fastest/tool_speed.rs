@@ -1,7 +1,7 @@
 //! A limit of the tool's speed in a part of the way.
 
 use jred::machine::Mechanism as _;
-use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed};
+use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed, ToolSpeeds};
 
 use super::{close, fastest, machine, motor, task};
 
@@ -26,7 +26,7 @@ fn a_tool_is_slow_in_a_part_of_its_way() {
         let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * slow, [a, b]).unwrap();
         let asked = Task {
             limits: Limits {
-                tool: limit,
+                tool: limit.unwrap().into(),
                 ..Limits::default()
             },
             ..task(0.0, end)
@@ -82,12 +82,12 @@ fn a_press_is_slow_through_the_work() {
         ..task(degrees(180.0), degrees(540.0))
     };
     let press = motor([400.0; 2], 100.0);
-    let free = fastest(&file, &press, &asked(None));
+    let free = fastest(&file, &press, &asked(ToolSpeeds::default()));
     let x = |phi: f64| mechanism.frames(phi).unwrap()[slider].x;
     // A slow tool asks for a speed of the crank that grows a thousandfold within a cell at the dead centre.
     for speed in [0.06, 0.01, 0.001, 0.0001] {
         let limit = ToolSpeed::new(mechanism, (slider, [0.0; 2]), speed, between).unwrap();
-        let found = fastest(&file, &press, &asked(limit));
+        let found = fastest(&file, &press, &asked(limit.unwrap().into()));
         let mut slow = 0.0;
         for phase in found
             .phases
@@ -123,4 +123,53 @@ fn a_press_is_slow_through_the_work() {
             free.time
         );
     }
+}
+
+/// At constant inertia, through parts of two speeds one after the other, of which the second comes with the second turn alone: α·(s + o) = slow² is
+/// the braking between them.
+#[test]
+fn a_programme_of_speeds_over_two_turns() {
+    let file = machine(
+        "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rack-and-pinion\"\n\
+         pinion = { radius = \"50 mm\", mass = \"1 kg\", inertia = \"2 kg m^2\" }\nrack = { mass = \"3 kg\" }\n",
+    );
+    let inertia = file.machine.bare_reduction(0.0).unwrap().inertia;
+    let alpha = 10.0 / inertia;
+    let mechanism = file.machine.mechanism();
+    let names = mechanism.link_names();
+    let rack = names.iter().position(|name| name == "rack").unwrap();
+    let slow = |speed: f64, between: [f64; 2]| {
+        let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * speed, between);
+        limit.unwrap().unwrap().once()
+    };
+    let turn = std::f64::consts::TAU;
+    let [fast, slower] = [0.8, 0.5];
+    let [a, b, c, end] = [2.0, 3.5, turn + 1.0, turn + 3.0];
+    // The two overlap: from b on the slower one rules.
+    let both = ToolSpeeds::from(slow(fast, [a, c])).with(slow(slower, [c, b]));
+    let asked = Task {
+        limits: Limits {
+            tool: both.unwrap(),
+            ..Limits::default()
+        },
+        ..task(0.0, end)
+    };
+    let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
+    let beside = |way: f64, speed: f64| {
+        let peak = (alpha * way + 0.5 * speed * speed).sqrt();
+        (2.0 * peak - speed) / alpha
+    };
+    // Before b it brakes from the one to the other.
+    let braking = (fast * fast - slower * slower) / (2.0 * alpha);
+    let time = beside(a, fast)
+        + (b - a - braking) / fast
+        + (fast - slower) / alpha
+        + (c - b) / slower
+        + beside(end - c, slower);
+    close(found.time, time, 1e-9);
+    // Of a turn that comes again the second turn is slow as well.
+    let again = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * fast, [2.0, 3.0]);
+    let again = again.unwrap().unwrap();
+    let at = |limit: ToolSpeed, phi: f64| limit.at(mechanism, phi).unwrap();
+    assert!(at(again, 2.5 + turn) < 1.0 && at(again.once(), 2.5 + turn).is_infinite());
 }

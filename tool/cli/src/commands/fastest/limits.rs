@@ -1,5 +1,7 @@
 //! What the command line allows a fastest motion.
 
+use std::collections::BTreeSet;
+
 use miette::{Result, miette};
 
 use super::{motor_coordinate, quantity, rate};
@@ -16,7 +18,8 @@ use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 use jred_machine::plain;
 use jred_machine::read;
-use jred_motion::fastest::{JointForces, Limits, ToolSpeed};
+use jred_motion::fastest::tool_speed::MOST;
+use jred_motion::fastest::{JointForces, Limits, ToolSpeed, ToolSpeeds};
 
 /// The options that were given, but for those of which the answer speaks anyway: moves, drive and reserve.
 fn asked(options: &Options) -> Vec<String> {
@@ -77,8 +80,7 @@ pub(super) fn limits(
             "--ends zero alone has no fastest motion: the faster the acceleration rises from zero, the less time the motion takes"
         ));
     }
-    let tool = options.max_tool_speed.as_deref();
-    let (tool, words) = tool.map(|text| tool_speed(text, file)).transpose()?.unzip();
+    let (tool, words) = tool_speeds(&options.max_tool_speed, file)?;
     let limits = Limits {
         speed: read("max-speed", &options.max_speed, read::largest_speed)?,
         tool,
@@ -96,6 +98,7 @@ pub(super) fn limits(
 /// "crank pin=2 kN", for each joint.
 fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
     let mut forces = JointForces::default();
+    let mut named = BTreeSet::new();
     let joints = joints_with_force(file.machine.mechanism()).map_err(core_report)?;
     for text in texts {
         let given = format!("--max-reaction {}", plain::quoted(text));
@@ -116,9 +119,62 @@ fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
         };
         let force = read::drive_effort(force.trim(), Coordinate::Length)
             .map_err(|why| miette!("{given} cannot be used: {why}"))?;
+        if !named.insert(*joint) {
+            return Err(miette!(
+                help = "give each joint one largest force",
+                "--max-reaction names the joint {} twice",
+                plain::quoted(name)
+            ));
+        }
         forces = forces.with(*joint, force);
     }
     Ok(forces)
+}
+
+/// Each with where it holds.
+fn tool_speeds(texts: &[String], file: &MachineFile) -> Result<(ToolSpeeds, Vec<String>)> {
+    let mut all = ToolSpeeds::default();
+    let mut words = Vec::new();
+    for text in texts {
+        let (limit, own) = tool_speed(text, file)?;
+        all = all.with(limit).ok_or_else(|| {
+            miette!(
+                help = "one part of the way may take the place of two that touch",
+                "--max-tool-speed is given {} times, at most {MOST} are read",
+                texts.len()
+            )
+        })?;
+        words.push(own);
+    }
+    Ok((all, words))
+}
+
+/// Two positions of the drive link, and whether their part comes again with every turn: as angles of the drive link; a length along an axis does not.
+fn part(
+    [from, to]: [&str; 2],
+    domain: Domain,
+    drive: &Axis,
+    axis: &Axis,
+) -> Result<([f64; 2], bool), String> {
+    let both = |axes: [&Axis; 2]| {
+        let one = |text: &str| read::drive_positions(text, domain, axes).map(|all| all[0]);
+        Ok([one(from)?, one(to)?])
+    };
+    if domain != Domain::Turn {
+        return both([drive, axis]).map(|between| (between, true));
+    }
+    match both([drive, drive]) {
+        Ok(between) => Ok((between, true)),
+        Err(why) if axis.coordinate == drive.coordinate => Err(why),
+        Err(_) => {
+            let lengths = read::drive_positions(from, domain, [axis, axis]);
+            let between = both([drive, axis])?;
+            if lengths.is_err() || read::drive_positions(to, domain, [axis, axis]).is_err() {
+                return Err("one position is an angle, the other a length; write both as angles of the drive link, which come again with every turn, or both as lengths".to_owned());
+            }
+            Ok((between, false))
+        }
+    }
 }
 
 /// "slider, 60 mm/s, 300 deg, 360 deg"; the limit, and where it holds.
@@ -153,21 +209,17 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let domain = mechanism.domain();
     let turns = domain == Domain::Turn;
     let drive = Axis::of_drive(mechanism.coordinate());
-    // A part of a turn comes again with every turn, a length along the axis does not.
-    let spoken = if turns { drive } else { file.axis() };
-    let ends = format!("{from}, {to}");
-    let ends = read::drive_positions(&ends, domain, [&drive, &spoken]);
-    let &[start, end] = ends.map_err(refused)?.as_slice() else {
-        return Err(refused("it needs two positions".to_owned()));
-    };
-    let between = if turns {
+    let axis = file.axis();
+    let ([start, end], repeats) = part([from, to], domain, &drive, &axis).map_err(refused)?;
+    let spoken = if turns && repeats { drive } else { axis };
+    let between = if turns && repeats {
         [start, end]
     } else {
         // The axis may go back where the drive link goes on.
         [start.min(end), start.max(end)]
     };
     let width = between[1] - between[0];
-    if width == 0.0 || width.abs() > domain.span() {
+    if width == 0.0 || (repeats && width.abs() > domain.span()) {
         return Err(miette!(
             help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
             "{given}: from {from} to {to} is no part of the way"
@@ -190,7 +242,10 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     );
     let limit = ToolSpeed::new(mechanism, place, most, between);
     let limit = limit.map_err(core_report)?;
-    let limit = limit.map(|limit| (limit, words));
+    let limit = limit.map(|limit| {
+        let limit = if repeats { limit } else { limit.once() };
+        (limit, words)
+    });
     limit.ok_or_else(|| {
         miette!(
             help = "choose a point or a link that moves with the drive link",
