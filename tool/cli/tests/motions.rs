@@ -451,3 +451,21 @@ fn the_error_of_a_plan_is_looked_at() {
         "from 0.0001 % to 10 %",
     );
 }
+
+/// An ending that says nothing of the form of a plan is refused before anything is computed.
+#[test]
+fn a_plan_has_a_known_ending() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", press_text());
+    for name in ["q.txt", "q", "q.rs.bak"] {
+        let plan = folder.path(name);
+        let arguments = [
+            "retime",
+            press.to_str().unwrap(),
+            "--plan",
+            plan.to_str().unwrap(),
+        ];
+        run(&arguments).ends(2).says(&[".rs is Rust source"]);
+        assert!(!plan.exists(), "{name}");
+    }
+}

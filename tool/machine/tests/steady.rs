@@ -64,6 +64,24 @@ pub(crate) fn rotor(loads: &str, simulation: &str) -> String {
     )
 }
 
+/// A moment that keeps its sign, either way of turning: ±3 N m of the motor and −1 N m of the load against 0.05·ω, 2π of each torque a turn.
+#[test]
+fn a_moment_resists_one_way_and_drives_the_other() {
+    let loads = "[[load]]\non = \"shaft-1\"\nviscous_moment = \"0.05 N m s/rad\"\n\
+                 [[load]]\non = \"shaft-1\"\nmoment = \"-1 N m\"";
+    let tight = budget::STEADY;
+    for (torque, way) in [("3 N m", 1.0), ("-3 N m", -1.0)] {
+        let found = of(&rotor(loads, &format!("torque = \"{torque}\"")));
+        let figures = found.cycle.unwrap().figures;
+        let drag = 3.0 - way;
+        near("speed", figures.mean_speed, way * drag / 0.05, tight);
+        let [motor, process, losses] = figures.works;
+        near("motor", motor, 3.0 * TAU, tight);
+        near("process", process, -way * TAU, tight);
+        near("losses", losses, drag * TAU, tight);
+    }
+}
+
 /// A line of torque against viscous and Coulomb friction: one constant speed, reached as an exponential function.
 #[test]
 fn a_line_against_friction() {

@@ -2,7 +2,7 @@
 
 use miette::{Result, miette};
 
-use crate::options::plan::PlanFile;
+use crate::options::plan::{Form, PlanFile};
 use crate::output;
 use jred::Reducible as _;
 use jred_machine::export::{plan_c_source, plan_source};
@@ -28,14 +28,13 @@ pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Re
     }
     let says = list::plan::text(&plan, trace);
     let title = format!("{}: {says}", file.title);
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let bytes = match ending.to_str() {
-        Some("rs") => plan_source(&title, machine, &plan.words).into_bytes(),
-        Some("h" | "hh" | "hpp" | "hxx" | "c" | "cc" | "cpp" | "cxx") => {
+    let bytes = match Form::of(path) {
+        Some(Form::Rust) => plan_source(&title, machine, &plan.words).into_bytes(),
+        Some(Form::C) => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             plan_c_source(&title, &name, machine, &plan.words).into_bytes()
         }
-        _ => plan.bytes(),
+        Some(Form::Image) | None => plan.bytes(),
     };
     output::write(path, &bytes)?;
     Ok(format!("plan written to {}: {says}\n", plain::path(path)))

@@ -1,8 +1,9 @@
 //! `--plan` of the commands that make a motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::TypedValueParser;
 
 use super::output_file;
 
@@ -10,12 +11,47 @@ use super::output_file;
 #[derive(Debug, Args)]
 pub struct PlanFile {
     /// Write the motion of the drive link as a plan that firmware follows (docs/table-image.md): Rust source if the name ends in .rs, source of C
-    /// and C++ if in .h, .hh, .hpp, .hxx, .c, .cc, .cpp or .cxx, otherwise a binary image.
-    #[arg(long, value_name = "FILE", value_parser = output_file())]
+    /// and C++ if in .h, .hh, .hpp, .hxx, .c, .cc, .cpp or .cxx, a binary image if in .jred, .bin, .img or .dat.
+    #[arg(long, value_name = "FILE", value_parser = plan_file())]
     pub plan: Option<PathBuf>,
     /// Share of the greatest speed and acceleration by which the plan may be off, of the way a tenth of it.
     #[arg(long, value_name = "SHARE", default_value = "0.1 %", requires = "plan", value_parser = share)]
     pub plan_error: f64,
+}
+
+/// What a plan is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Rust source.
+    Rust,
+    /// Source of C and C++.
+    C,
+    /// The words as they are.
+    Image,
+}
+
+impl Form {
+    /// That of a file's ending, in any case.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_ascii_lowercase();
+        match ending.to_str()? {
+            "rs" => Some(Self::Rust),
+            "h" | "hh" | "hpp" | "hxx" | "c" | "cc" | "cpp" | "cxx" => Some(Self::C),
+            "jred" | "bin" | "img" | "dat" => Some(Self::Image),
+            _ => None,
+        }
+    }
+}
+
+fn plan_file() -> impl TypedValueParser<Value = PathBuf> {
+    output_file().try_map(|path| {
+        if Form::of(&path).is_some() {
+            return Ok(path);
+        }
+        Err(
+            "its ending says what is written: .rs is Rust source; .h, .hh, .hpp, .hxx, .c, .cc, .cpp and .cxx are source of C and C++; .jred, .bin, .img and .dat are a binary image",
+        )
+    })
 }
 
 fn share(text: &str) -> Result<f64, String> {

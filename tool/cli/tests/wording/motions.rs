@@ -74,6 +74,14 @@ fn steady() {
                 "4",
             ],
             &["steady", "press.toml", "--delta", "0.9", "--positions", "4"],
+            &[
+                "steady",
+                "press.toml",
+                "--torque",
+                "-20 N m",
+                "--positions",
+                "4",
+            ],
         ]),
     );
 }
@@ -299,14 +307,9 @@ fn fastest_within_the_force_of_a_joint() {
 /// A motor of whose temperatures nothing is known, one of which all is, in other letters than the catalogue's.
 #[test]
 fn fastest_with_a_warm_winding() {
-    let cat = "[[motor]]\nkey = \"warm-1\"\nmaker = \"Example\"\nmodel = \"Warm 1\"\nsource = \"example\"\nrated_torque = \"8 N m\"\nrated_speed = \"3000 rpm\"\n\
-        standstill_torque = \"9 N m\"\npeak_curve = \"0 rpm: 24 N m; 6000 rpm: 24 N m\"\nmax_speed = \"6000 rpm\"\nrotor_inertia = \"6 kg cm^2\"\n\
-        commutation = \"sine\"\ntorque_constant = \"0.8 N m/A\"\nwinding_resistance = \"0.9 Ohm\"\nthermal_resistance_winding = \"0.25 K/W\"\n\
-        thermal_resistance_housing = \"0.6 K/W\"\nthermal_time_winding = \"60 s\"\nthermal_time_housing = \"30 min\"\n\
-        [[gearbox]]\nkey = \"box-4\"\nmaker = \"Example\"\nmodel = \"Box 4\"\nsource = \"example\"\nratio = 4\nrated_output_torque = \"100 N m\"\n\
-        max_input_speed = \"6000 rpm\"\ninput_inertia = \"2 kg cm^2\"\nefficiency = \"96 %\"\n";
+    let cat = include_str!("../../../../examples/data/thermal-drive.toml");
     let desk = Desk::new()
-        .with_machines(&["press.toml"])
+        .with_machines(&["press.toml", "eccentric-press.toml"])
         .with("warm.toml", cat);
     let press = ["fastest", "press.toml"];
     let own = ["--catalogue", "warm.toml", "--drive", "WARM-1+Box-4"];
@@ -315,6 +318,13 @@ fn fastest_with_a_warm_winding() {
     let with = |drive: &[&'static str], limit: &'static str| {
         [&press[..], drive, &["--max-winding-temperature", limit]].concat()
     };
+    // Without a pause.
+    let turning = [
+        &["fastest", "eccentric-press.toml"],
+        &own[..],
+        &["--max-winding-temperature", "60 degC"],
+    ]
+    .concat();
     let json = [
         with(&own, "110 degC"),
         vec!["--format", "json", "--instants", "2"],
@@ -328,6 +338,9 @@ fn fastest_with_a_warm_winding() {
             &with(&own, "250 degC"),
             &with(&own, "30 degC"),
             &with(&own, "-5 K"),
+            &with(&own, "110 C"),
+            &turning,
+            &with(&own, "230 degF"),
             &with(&plain, "110 degC"),
             &with(&drive, "110 degC"),
         ]),

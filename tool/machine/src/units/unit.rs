@@ -16,7 +16,7 @@ pub struct Unit {
 }
 
 /// Units that are not accepted, and what to write instead.
-const FOREIGN: [(&[&str], &str); 18] = [
+const FOREIGN: [(&[&str], &str); 19] = [
     (&["min"], "1 min = 60 s; turns per minute are \"rpm\""),
     (&["h", "hr", "hour"], "1 h = 3600 s"),
     (&["sec", "second", "seconds"], "seconds are \"s\""),
@@ -51,6 +51,10 @@ const FOREIGN: [(&[&str], &str); 18] = [
     ),
     (&["RPM", "Rpm", "U/min"], "turns per minute are \"rpm\""),
     (&["percent", "pct"], "per cent is \"%\""),
+    (
+        &["degF", "°F", "Fahrenheit", "fahrenheit"],
+        "a temperature in °F less 32, times 5/9, is one in \"degC\"",
+    ),
 ];
 
 /// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`].

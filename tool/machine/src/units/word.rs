@@ -148,19 +148,19 @@ pub(super) const LISTED: &[Word] = &[
     ten("uH", -6, INDUCTANCE),
     ten("K", 0, TEMPERATURE),
     ten("degC", 0, TEMPERATURE),
+    ten("C", 0, TEMPERATURE),
     // Of data sheets.
     ten("J", 0, TORQUE),
     ten("kJ", 3, TORQUE),
     sized("min", 60.0, TIME),
     sized("krpm", 1e3 * RPM, ANGULAR_SPEED),
     ten("ohm", 0, RESISTANCE),
-    ten("C", 0, TEMPERATURE),
     ten("Arms", 0, CURRENT),
     sized("Apeak", 1.0 / SQRT_2, CURRENT),
 ];
 
 /// The words of machine files.
-pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - 8).0;
+pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - 7).0;
 
 /// Words multiplied. Powers of ten are added up as exponents: "g mm^2" is exactly 1e-9.
 pub(super) struct Product {

@@ -125,7 +125,7 @@ pub enum NoMotion {
         limit: f64,
         /// That of the surroundings.
         ambient: f64,
-        /// Whether the motion goes on for ever, without pauses.
+        /// Whether the motion turns for ever, without a pause.
         endless: bool,
     },
     /// The temperature of the motor's winding is not known.

@@ -110,6 +110,11 @@ impl Winding {
         self.surroundings.ambient
     }
 
+    /// The maximum temperature (°C) of the winding, if it is known.
+    pub const fn maximum(&self) -> Option<f64> {
+        self.motor.thermal.max_temperature
+    }
+
     fn model(&self, duration: f64) -> Result<Model, Unknown> {
         Model::of(&self.motor, &self.prepared, &self.surroundings, duration)
             .map_err(Unknown::Figures)
@@ -341,10 +346,12 @@ pub fn cooled(
                 phase.limit = Binding::WindingTemperature;
             }
         }
-        made.costs = vec![Cost {
+        // What the other limits cost stays.
+        made.costs.retain(|cost| cost.limit != Binding::RmsTorque);
+        made.costs.push(Cost {
             limit: Binding::WindingTemperature,
             time: before.fastest.time,
-        }];
+        });
     }
     Ok(Cooled {
         bound: Some([free.trace.duration(), cycle.load.rms]),

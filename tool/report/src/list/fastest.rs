@@ -159,10 +159,23 @@ impl Answer<'_> {
         let bounds = cycle.moves.iter().map(|made| made.fastest.bound);
         if let Some(bounds) = bounds.collect::<Option<Vec<f64>>>() {
             let least: f64 = bounds.iter().sum();
+            let torque = self.words().torque;
+            let binds = self.warmth.is_some_and(|warmth| warmth.bound.is_some());
+            // A limit of the temperature is kept as one of the RMS torque.
+            let (near, rms) = if binds {
+                let near = format!(
+                    "no motion near it with its RMS {torque} is faster; one that spreads its losses otherwise over the cycle may be"
+                );
+                (near, format!(", RMS {torque} and winding temperature"))
+            } else {
+                (
+                    "no motion near it is faster".to_owned(),
+                    format!(" and RMS {torque}"),
+                )
+            };
             let says = format!(
-                "no motion near it is faster; without limits of jerk, {torque} rate and RMS {torque} the moves take {} s, and none takes less",
-                short(least),
-                torque = self.words().torque
+                "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, and none takes less",
+                short(least)
             );
             line(&mut text, "optimum", &says);
         }

@@ -4,6 +4,7 @@ use miette::{Result, miette};
 
 use super::Chosen;
 use crate::options::fastest::Fastest as Options;
+use crate::output;
 use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
@@ -49,5 +50,12 @@ pub(super) fn limit<'a>(
             chosen.name
         )
     })?;
+    if let Some(maximum) = winding.maximum().filter(|maximum| limit > *maximum) {
+        output::say(&format!(
+            "warning: {given} is above the {} °C that the winding of {} withstands (max_winding_temperature of the catalogue)",
+            short(maximum),
+            chosen.name
+        ));
+    }
     Ok(Some((winding, limit)))
 }

@@ -65,7 +65,7 @@ impl NoMotion {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
             Self::TooWarm { endless: true, .. } => {
-                "limit the speed (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
+                "turn more slowly (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
             }
             Self::TooWarm { .. } => {
                 "give the cycle more time at rest, limit the speed (--max-speed), take a motor with more continuous torque, or allow more (--max-winding-temperature)".to_owned()
