@@ -14,6 +14,7 @@
 //! - [`solve`](self): Newton's method.
 //! - [`bound`](self): the lower bound;
 //! - [`task`](self): mesh after mesh, and the time that is better waited;
+//! - [`waiting`](self): a wait on the way, where holding costs less than at the ends;
 //! - [`outcome`](self): cost, optimum and motion of what was found.
 
 use jred::Error;
@@ -34,6 +35,7 @@ pub(crate) mod shape;
 mod solve;
 mod task;
 pub(crate) mod torque;
+mod waiting;
 
 /// What is to be least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,10 +151,10 @@ pub fn without_drive() -> Actuator {
 pub struct Gentle {
     /// The move.
     pub travel: Travel,
-    /// How long it moves (s): less than the time of the move where waiting at an end costs less than to move slowly.
+    /// How long it moves (s): less than the time of the move where waiting costs less than to move slowly.
     pub moving: f64,
-    /// Whether it waits at its end, not at its start.
-    pub waits_at_end: bool,
+    /// Where it waits in the rest of the time (rad, or m).
+    pub waits_at: f64,
     /// ∫c dt: of the square of the torque (N²·m²·s), of the power (J), of the torque's power in units of itself.
     pub cost: f64,
     /// No motion costs less; for the RMS torque and the energy.
@@ -202,6 +204,25 @@ pub const GAP: f64 = 1e-4;
 /// # Errors
 /// See [`Fault`].
 pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
+    let found = from_end_to_end(way, travel, objective, false);
+    let may_wait = match &found {
+        Ok(gentle) => gentle.optimum != Optimum::Global,
+        Err(fault) => *fault == Fault::NotFound,
+    };
+    if may_wait && travel.ends().rest == [true; 2] {
+        waiting::on_the_way(way, travel, objective, found)
+    } else {
+        found
+    }
+}
+
+/// The gentlest motion that waits at its ends alone; at one of them in any case if it must.
+fn from_end_to_end(
+    way: &Way,
+    travel: &Travel,
+    objective: Objective,
+    must_wait: bool,
+) -> Result<Gentle, Fault> {
     for (what, value) in [
         ("distance", travel.distance.abs()),
         ("duration", travel.duration),
@@ -226,13 +247,14 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
     };
     let at_rest = travel.ends().rest == [true; 2];
     let held = if at_rest { task.held()? } else { [0.0; 2] };
-    let whole = task.solve(travel.duration, FIRST, None)?;
+    let whole = if must_wait {
+        None
+    } else {
+        task.solve(travel.duration, FIRST, None)?
+    };
     let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
         Some(solved) => solved,
-        None if at_rest => {
-            let moving = task.shorter(&held)?;
-            task.solve(moving, FIRST, None)?.ok_or(Fault::NotFound)?
-        }
+        None if at_rest => task.shorter(&held)?,
         None => return Err(Fault::NotFound),
     };
     let moving = solved.moving;

@@ -197,6 +197,14 @@ impl<'a> Way<'a> {
             .torque(&[0.0, torque, 0.0, 0.0, 0.0])
     }
 
+    /// The same at a position.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn holding_at(&self, phi: f64) -> Result<f64, Error> {
+        Ok(self.holding(&self.place_at_rest(phi)?))
+    }
+
     /// The torque at the gearbox output, the input of the drive train, that they ask for; positive where it drives.
     pub fn gearbox_demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
         self.gearbox

@@ -104,7 +104,12 @@ impl Solved<'_> {
         Ok(Gentle {
             travel: *task.travel,
             moving,
-            waits_at_end: waits.at_end,
+            waits_at: task.travel.start
+                + if waits.at_end {
+                    task.travel.distance
+                } else {
+                    0.0
+                },
             cost,
             bound,
             least_peak,

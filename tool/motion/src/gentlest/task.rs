@@ -9,9 +9,14 @@ use super::torque::Torque;
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
 use crate::way::{Place, Way};
 
-/// Most steps down to a time that is too short, and halvings after that.
+/// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
 const LONGEST: u32 = 60;
+const STEP: f64 = 0.8;
+const SHORTS: u32 = 4;
 const HALVINGS: u32 = 24;
+
+/// Share to which the time is found.
+const CLOSE: f64 = 1e-7;
 
 /// Ranges of the loads over which bends are rounded, one after another, as shares of the largest load.
 const RANGES: [f64; 2] = [1e-1, 1e-2];
@@ -105,36 +110,52 @@ pub(super) struct Solved<'t> {
 impl Task<'_> {
     /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
-        let torque = |phi: f64| Ok::<_, Fault>(self.way.holding(&self.way.place_at_rest(phi)?));
+        let torque = |phi: f64| self.way.holding_at(phi);
         let Travel {
             start, distance, ..
         } = *self.travel;
         Ok([torque(start)?, torque(start + distance)?])
     }
 
-    /// The time (s) after which waiting is better than to go on moving: where a second more costs what holding costs.
-    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<f64, Fault> {
+    /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
+        let is_short = |solved: &Solved| solved.excess(held) <= 0.0;
+        // Down to times that are too short, where there is one motion only: in a long time it may be caught where it crawls.
+        let mut time = self.travel.duration;
         let mut last: Option<Solved> = None;
-        let mut high = self.travel.duration;
-        // First down to a time that is too short, then between.
-        let mut low: Option<f64> = None;
-        let mut halvings = 0;
+        let mut shorts = 0;
         for _ in 0..LONGEST {
-            if halvings == HALVINGS {
+            time *= STEP;
+            let solved = self.solve(time, FIRST, None)?;
+            let short = solved.filter(is_short);
+            shorts = if short.is_some() { shorts + 1 } else { 0 };
+            last = short.or(last);
+            if shorts == SHORTS {
                 break;
             }
-            let middle = low.map_or(0.8 * high, |low| (low * high).sqrt());
-            halvings += u32::from(low.is_some());
-            let solved = self.solve(middle, FIRST, last.as_ref())?;
-            let short = solved.as_ref().map(|solved| solved.excess(held) <= 0.0);
-            if short == Some(true) {
-                low = Some(middle);
-            } else {
-                high = middle;
-            }
-            last = solved.or(last);
         }
-        low.ok_or(Fault::NotFound)
+        let Some(mut found) = last else {
+            return Err(Fault::NotFound);
+        };
+        // Up from there, and then between.
+        let mut high = self.travel.duration;
+        let mut is_bracketed = false;
+        for _ in 0..LONGEST + HALVINGS {
+            let next = if is_bracketed {
+                (found.moving * high).sqrt()
+            } else {
+                (found.moving / STEP).min(high)
+            };
+            if high - found.moving <= CLOSE * high {
+                break;
+            }
+            if let Some(solved) = self.solve(next, FIRST, Some(&found))?.filter(is_short) {
+                found = solved;
+            } else {
+                (high, is_bracketed) = (next, true);
+            }
+        }
+        Ok(found)
     }
 
     /// Scale of the torques, from the motion with w = 1.

@@ -53,12 +53,7 @@ fn the_duty_confirms_the_torque() {
             .map(|gentle| (gentle.travel.duration - gentle.moving, gentle))
             .filter(|(wait, _)| *wait > 0.0)
             .map(|(wait, gentle)| {
-                let at = if gentle.waits_at_end {
-                    gentle.travel.distance
-                } else {
-                    0.0
-                };
-                let held = file.bare_reduction(gentle.travel.start + at).unwrap();
+                let held = file.bare_reduction(gentle.waits_at).unwrap();
                 let torque = held.torque(0.0, 0.0).total() / file.drive_train.ratio();
                 wait * torque * torque / file.drive_train.efficiency().powi(2)
             })

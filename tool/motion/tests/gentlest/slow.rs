@@ -51,6 +51,49 @@ fn a_slow_motion_does_not_contradict_itself() {
     assert!(found >= 3 && found + refused == 6, "{found} {refused}");
 }
 
+/// A press that starts beside its dead centre, where it would have to be held: whatever time it has more it waits, where holding takes nothing. So ∫T² does not grow
+/// with the time, nor is it less than half of what the motion takes in the time that it needs of itself; and no other motion of the list is better.
+#[test]
+fn a_press_waits_at_its_dead_centre() {
+    for start in [182.0, 200.0] {
+        let mut before = f64::INFINITY;
+        let mut first = None;
+        for duration in [1.0, 1.7, 3.0, 10.0] {
+            let file = example(
+                "press",
+                &[
+                    ("start = \"180 deg\"", &format!("start = \"{start} deg\"")),
+                    (
+                        "duration = \"0.4 s\"",
+                        &format!("duration = \"{duration} s\""),
+                    ),
+                    ("[[motion.segment]]\ndwell = \"0.1 s\"\n", ""),
+                ],
+            );
+            let found = retimed(&file, Goal::Rms, 0.0);
+            let heat = found.best.rms.powi(2) * duration;
+            assert!(
+                heat <= before * (1.0 + 2e-3),
+                "{start} {duration}: {heat} after {before}"
+            );
+            before = heat;
+            let first = *first.get_or_insert(heat);
+            assert!(heat > 0.5 * first, "{start} {duration}: {heat} of {first}");
+            assert!(contradiction(found.trace.nodes()) <= 1e-6);
+            let time = found.trace.duration() / duration - 1.0;
+            assert!(time.abs() <= 1e-9, "{start} {duration}: {time}");
+            if let Some(bound) = found.bound {
+                assert!(bound <= found.best.rms);
+            }
+            let gentle = &found.moves[0];
+            if duration > 5.0 {
+                let centre = (gentle.waits_at.to_degrees() - 540.0).abs();
+                assert!(centre < 0.01 && gentle.moving < 5.0, "{gentle:?}");
+            }
+        }
+    }
+}
+
 /// A press with level ends and the least peak: the last power that comes to its end is taken, far below the laws, and no lower than what the press asks for anyway.
 #[test]
 fn the_peak_of_a_press_with_level_ends_is_found() {

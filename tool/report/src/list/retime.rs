@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::table::output::Format;
 use crate::table::sheet::Reading;
+use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
@@ -299,10 +300,10 @@ fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
     if waits > 0.0 {
         let _ = write!(
             says,
-            ": moves for {} s and waits for {} s at its {}, which takes less than moving more slowly",
+            ": moves for {} s and waits for {} s at {}, which takes less than moving more slowly",
             short(gentle.moving),
             short(waits),
-            if gentle.waits_at_end { "end" } else { "start" }
+            waits_at(gentle, &axis)
         );
     }
     if goal != Goal::Peak && waits == 0.0 {
@@ -322,6 +323,19 @@ fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
         }
     }
     says
+}
+
+/// Where a move waits.
+fn waits_at(gentle: &Gentle, axis: &Axis) -> String {
+    let travel = &gentle.travel;
+    let is = |end: f64| gentle.waits_at.total_cmp(&end).is_eq();
+    if is(travel.start) {
+        "its start".to_owned()
+    } else if is(travel.start + travel.distance) {
+        "its end".to_owned()
+    } else {
+        format!("{}, where holding takes least", axis.place(gentle.waits_at))
+    }
 }
 
 /// A share in per cent, to two digits.
@@ -382,7 +396,7 @@ fn json(shown: &Shown) -> Value {
             "law": gentle.law,
             "duration": gentle.travel.duration,
             "moving": gentle.moving,
-            "waits_at_end": gentle.waits_at_end,
+            "waits_at": axis.position(gentle.waits_at),
             "cost": gentle.cost,
             "bound": gentle.bound,
             "cost_per_second": gentle.per_second,

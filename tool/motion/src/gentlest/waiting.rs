@@ -1,0 +1,194 @@
+//! A wait on the way, where holding costs less than at the ends and less than to move slowly.
+//!
+//! A motion that waits at a place is one to it and one from it, each in the time that it takes of itself; the rest of the time is waited. What a
+//! second of either costs is what holding costs there. The place is one of least holding torque; the bound is that of all motions.
+
+use jred::machine::motion::Polynomial;
+use jred_machine::model::motion::Phase;
+use jred_machine::number::numerics::{least, zero};
+
+use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_end};
+use crate::way::Way;
+
+/// Places at which the holding torque is looked at.
+const LOOKS: u32 = 360;
+
+/// Most places that are tried, those of least holding torque.
+const MOST: usize = 4;
+
+/// Share by which a wait must be better.
+const BETTER: f64 = 1e-6;
+
+/// Share of the time, or of the way, that is rounding.
+const ROUNDED: f64 = 1e-9;
+
+/// Share of its place to which a zero is found.
+const CLOSE: f64 = 1e-15;
+
+/// The motion that was found, or a better one that waits on its way.
+///
+/// # Errors
+/// Those of what was found, if no other motion is.
+pub(super) fn on_the_way(
+    way: &Way,
+    travel: &Travel,
+    objective: Objective,
+    found: Result<Gentle, Fault>,
+) -> Result<Gentle, Fault> {
+    let per_square = match objective {
+        Objective::Rms => 1.0,
+        Objective::Energy { copper } => copper,
+        // The largest torque is the same, wherever it waits.
+        Objective::Peak => return found,
+    };
+    let mut best = found;
+    for (place, torque) in places(way, travel)? {
+        let rate = per_square * torque * torque;
+        let Some(made) = waiting_at(way, travel, objective, (place, rate)) else {
+            continue;
+        };
+        best = match best {
+            Ok(best) if made.cost >= best.cost * (1.0 - BETTER) => Ok(best),
+            Ok(best) => Ok(judged(made, best.bound, best.optimum)),
+            Err(_) => Ok(judged(made, None, Optimum::Local(Reason::LongTime))),
+        };
+    }
+    best
+}
+
+/// With a bound of all motions; of another motion it is known whether that is a local optimum only, and why.
+fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
+    // What is less than a bound refutes it.
+    let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDED));
+    let proved = bound.is_some_and(|bound| made.cost - bound <= GAP * made.cost);
+    let optimum = match of_other {
+        _ if proved => Optimum::Global,
+        Optimum::Global => Optimum::Local(Reason::LongTime),
+        local @ Optimum::Local(_) => local,
+    };
+    Gentle {
+        bound,
+        optimum,
+        ..made
+    }
+}
+
+/// Positions at which holding takes least, with the torque (N·m): zeros, the least ones among their neighbours, and the better end.
+fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
+    let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(LOOKS);
+    let torques: Vec<f64> = (0..=LOOKS)
+        .map(|k| way.holding_at(at(k)))
+        .collect::<Result<_, _>>()?;
+    let mut found = Vec::new();
+    for k in 1..LOOKS {
+        let [before, here, after] = [k - 1, k, k + 1].map(|k| torques[k as usize]);
+        if here * after < 0.0 {
+            let phi = zero(
+                |phi| way.holding_at(phi),
+                [at(k), at(k + 1)],
+                [here, after],
+                CLOSE,
+            )?;
+            found.push(phi);
+        } else if here.abs() <= before.abs() && here.abs() < after.abs() && before * here >= 0.0 {
+            let size = |phi: f64| way.holding_at(phi).map(f64::abs);
+            found.push(least(size, at(k - 1), at(k + 1))?);
+        }
+    }
+    let [first, last] = [torques[0], torques[LOOKS as usize]].map(f64::abs);
+    let (end, at_end) = if last <= first {
+        (travel.start + travel.distance, last)
+    } else {
+        (travel.start, first)
+    };
+    let mut all = Vec::with_capacity(found.len());
+    for phi in found {
+        all.push((phi, way.holding_at(phi)?.abs()));
+    }
+    // A place that takes more than an end is none.
+    all.retain(|(_, torque)| *torque <= at_end);
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all.truncate(MOST);
+    all.push((end, at_end));
+    Ok(all)
+}
+
+fn is(place: f64, other: f64) -> bool {
+    place.total_cmp(&other).is_eq()
+}
+
+/// The motion that waits at a place where a second costs so much; none where it takes longer than the time of the move.
+fn waiting_at(
+    way: &Way,
+    travel: &Travel,
+    objective: Objective,
+    (place, rate): (f64, f64),
+) -> Option<Gentle> {
+    let end = travel.start + travel.distance;
+    let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
+        let part = Travel {
+            start: ends[0],
+            distance: ends[1] - ends[0],
+            duration,
+            ..*travel
+        };
+        from_end_to_end(way, &part, objective, must_wait).ok()
+    };
+    if is(place, travel.start) || is(place, end) {
+        return part([travel.start, end], travel.duration, true);
+    }
+    let ways = [[travel.start, place], [place, end]];
+    let [mut to, mut from] = [
+        part(ways[0], travel.duration, true)?,
+        part(ways[1], travel.duration, true)?,
+    ];
+    if to.moving + from.moving > travel.duration {
+        // The longer one gets what the other leaves: near the time that it would take of itself that hardly costs more.
+        if to.moving > from.moving {
+            to = part(ways[0], travel.duration - from.moving, false)?;
+        } else {
+            from = part(ways[1], travel.duration - to.moving, false)?;
+        }
+    }
+    let rest = travel.duration - to.moving - from.moving;
+    if rest < -ROUNDED * travel.duration {
+        return None;
+    }
+    let near = ROUNDED * travel.distance.abs();
+    let mut phases = [moving(&to, (place, near), true)?, &[]].concat();
+    if rest > 0.0 {
+        phases.push(Phase {
+            duration: rest,
+            polynomial: Polynomial::constant_jerk([0.0; 3]),
+        });
+    }
+    phases.extend_from_slice(moving(&from, (place, near), false)?);
+    let cost = |part: &Gentle| part.cost - rate * (part.travel.duration - part.moving);
+    Some(Gentle {
+        travel: *travel,
+        moving: travel.duration - rest.max(0.0),
+        waits_at: place,
+        cost: cost(&to) + cost(&from) + rate * rest,
+        bound: None,
+        least_peak: None,
+        per_second: rate,
+        optimum: Optimum::Local(Reason::LongTime),
+        discretisation: to.discretisation.max(from.discretisation),
+        elements: to.elements + from.elements,
+        law: None,
+        phases,
+    })
+}
+
+/// The motion of a part without the wait at its end, or at its start; none if it waits elsewhere.
+fn moving(part: &Gentle, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
+    let phases = part.phases.as_slice();
+    if part.moving >= part.travel.duration {
+        return Some(phases);
+    }
+    if (part.waits_at - place).abs() > near {
+        return None;
+    }
+    let (before, behind) = (phases.split_last()?.1, phases.split_first()?.1);
+    Some(if at_end { before } else { behind })
+}
