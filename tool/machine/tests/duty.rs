@@ -37,6 +37,29 @@ fn constant_speed_needs_only_friction() {
     assert_eq!(duty.hold_torque, 0.0);
 }
 
+/// A segment shorter than rounding, as a calculated motion may hold one, changes nothing of a machine with load windows.
+#[test]
+fn a_sliver_of_a_segment_changes_nothing() {
+    let text = press_text();
+    let file = read(&text);
+    let of = |segments: &[Segment]| {
+        let motion = Motion::segments(std::f64::consts::PI, segments, true).unwrap();
+        Duty::new(&file, &motion, 50).unwrap()
+    };
+    let turn = Segment::law(2.0 * std::f64::consts::PI, 0.4, Law::Polynomial345);
+    let [with, without] = [
+        of(&[turn.clone(), Segment::dwell(1e-15)]),
+        of(std::slice::from_ref(&turn)),
+    ];
+    assert!(!file.machine.loads().is_empty());
+    near("cycle", with.duration, without.duration, 1e-14);
+    let largest = |duty: &Duty| {
+        let torques = duty.instants.iter().map(|now| now.input_torque.abs());
+        torques.fold(0.0, f64::max)
+    };
+    near("torque", largest(&with), largest(&without), 1e-12);
+}
+
 /// Over every law, the integral of ω is the way and that of α nothing; those of ω² and α² are the law's constants.
 #[test]
 fn laws_integrate_to_their_way() {

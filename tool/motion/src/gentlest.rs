@@ -209,7 +209,7 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
     };
-    if may_wait && travel.ends().rest == [true; 2] {
+    if may_wait && (travel.ring || travel.ends().rest == [true; 2]) {
         waiting::on_the_way(way, travel, objective, found)
     } else {
         found

@@ -2,8 +2,11 @@
 //!
 //! A motion that waits at a place is one to it and one from it, each in the time that it takes of itself; the rest of the time is waited. What a
 //! second of either costs is what holding costs there. The place is one of least holding torque; the bound is that of all motions.
+//!
+//! A motion that turns for ever waits once in its period: it is the move from that place round to it, begun elsewhere. Of all motions that turn that has no
+//! bound of its own.
 
-use jred::machine::motion::Polynomial;
+use jred::machine::motion::{End, Polynomial};
 use jred_machine::model::motion::Phase;
 use jred_machine::number::numerics::{least, zero};
 
@@ -44,7 +47,12 @@ pub(super) fn on_the_way(
     let mut best = found;
     for (place, torque) in places(way, travel)? {
         let rate = per_square * torque * torque;
-        let Some(made) = waiting_at(way, travel, objective, (place, rate)) else {
+        let made = if travel.ring {
+            turning_from(way, travel, objective, place)
+        } else {
+            waiting_at(way, travel, objective, (place, rate))
+        };
+        let Some(made) = made else {
             continue;
         };
         best = match best {
@@ -73,15 +81,18 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
     }
 }
 
-/// Positions at which holding takes least, with the torque (N·m): zeros, the least ones among their neighbours, and the better end.
+/// Positions at which holding takes least, with the torque (N·m): zeros, the least ones among their neighbours, and the better end, where there are ends.
 fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(LOOKS);
     let torques: Vec<f64> = (0..=LOOKS)
         .map(|k| way.holding_at(at(k)))
         .collect::<Result<_, _>>()?;
     let mut found = Vec::new();
-    for k in 1..LOOKS {
-        let [before, here, after] = [k - 1, k, k + 1].map(|k| torques[k as usize]);
+    let first = u32::from(!travel.ring);
+    for k in first..LOOKS {
+        // Of a ring the place before its start is the last one before its end.
+        let before = k.checked_sub(1).unwrap_or(LOOKS - 1);
+        let [before, here, after] = [before, k, k + 1].map(|k| torques[k as usize]);
         if here * after < 0.0 {
             let phi = zero(
                 |phi| way.holding_at(phi),
@@ -92,7 +103,8 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
             found.push(phi);
         } else if here.abs() <= before.abs() && here.abs() < after.abs() && before * here >= 0.0 {
             let size = |phi: f64| way.holding_at(phi).map(f64::abs);
-            found.push(least(size, at(k - 1), at(k + 1))?);
+            let aside = travel.distance / f64::from(LOOKS);
+            found.push(least(size, at(k) - aside, at(k + 1))?);
         }
     }
     let [first, last] = [torques[0], torques[LOOKS as usize]].map(f64::abs);
@@ -106,10 +118,12 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
         all.push((phi, way.holding_at(phi)?.abs()));
     }
     // A place that takes more than an end is none.
-    all.retain(|(_, torque)| *torque <= at_end);
+    all.retain(|(_, torque)| travel.ring || *torque <= at_end);
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all.truncate(MOST);
-    all.push((end, at_end));
+    if !travel.ring {
+        all.push((end, at_end));
+    }
     Ok(all)
 }
 
@@ -177,6 +191,69 @@ fn waiting_at(
         elements: to.elements + from.elements,
         law: None,
         phases,
+    })
+}
+
+/// The motion that turns for ever and waits at a place once in its period.
+fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) -> Option<Gentle> {
+    let turn = Travel {
+        start: place,
+        ramp: 0.0,
+        ring: false,
+        ..*travel
+    };
+    let made = from_end_to_end(way, &turn, objective, true).ok()?;
+    let offset = (travel.start - place) / travel.distance;
+    let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
+    Some(Gentle {
+        travel: *travel,
+        waits_at: place,
+        phases,
+        ..made
+    })
+}
+
+/// A periodic motion begun so far behind its start.
+fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
+    let time: f64 = phases.iter().map(|phase| phase.duration).sum();
+    let mut passed = 0.0;
+    for (k, phase) in phases.iter().enumerate() {
+        let [rise, ..] = phase.polynomial.at(phase.duration);
+        let beyond =
+            |t: f64| Ok::<_, Fault>((passed + phase.polynomial.at(t)[0] - offset) * rise.signum());
+        let ends = [0.0, phase.duration];
+        let values = [beyond(ends[0]).ok()?, beyond(ends[1]).ok()?];
+        if rise != 0.0 && values[1] >= 0.0 {
+            let at = zero(beyond, ends, values, CLOSE).ok()?;
+            let short = ROUNDED * time;
+            // No phase as short as rounding.
+            let (before, behind) = if at <= short {
+                (None, Some(*phase))
+            } else if phase.duration - at <= short {
+                (Some(*phase), None)
+            } else {
+                let [before, behind] = halves(phase, at);
+                (Some(before), Some(behind))
+            };
+            let whole = behind.into_iter().chain(phases[k + 1..].iter().copied());
+            let whole = whole.chain(phases[..k].iter().copied()).chain(before);
+            return Some(whole.collect());
+        }
+        passed += rise;
+    }
+    None
+}
+
+/// A phase in two parts. Its polynomial is one of fifth degree, as theirs are.
+fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
+    let polynomial = &phase.polynomial;
+    let [start, middle, end] = [0.0, at, phase.duration].map(|t| (t, polynomial.at(t)));
+    [[start, middle], [middle, end]].map(|[(from, first), (to, last)]| {
+        let [first_end, last_end] = [first, last].map(|[_, v, a, _]| End::new(v, a));
+        Phase {
+            duration: to - from,
+            polynomial: Polynomial::between(last[0] - first[0], to - from, first_end, last_end),
+        }
     })
 }
 

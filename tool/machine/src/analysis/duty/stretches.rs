@@ -76,7 +76,7 @@ pub(crate) fn smooth_stretches(
         let mut cuts = file.schedule.times();
         let machine_at = |t: f64| {
             // At its end a stretch still belongs to itself.
-            let inside = t.clamp(from, to - least);
+            let inside = t.clamp(from, (to - least).max(from));
             file.schedule
                 .number(&Now::of(inside, motion.at(inside).omega)) as i64
         };
