@@ -8,7 +8,6 @@ use std::path::Path;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, not_contained, reduce};
-use jred_machine::analysis::simulate::simulate;
 use jred_machine::analysis::steady;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -292,25 +291,22 @@ fn curves_contain_what_acts_or_say_so() {
 
 /// What does not follow the motion refuses to leave it out.
 #[test]
-fn free_motions_refuse() {
+fn the_steady_cycle_refuses() {
     let motor = "[simulation]\nstart_angle = \"0 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\ntorque = \"20 N m\"\n";
     let file = machine(
         "0",
         &(load("opposing_force = \"9 N\"\ndirection = \"backward\"") + motor),
     );
     let simulation = file.simulation.as_ref().unwrap();
-    let free = simulate(&file, simulation).unwrap_err().to_string();
     let request = steady::Request {
         positions: 36,
         delta: None,
     };
-    let steady = steady::steady(&file, simulation, &request)
+    let message = steady::steady(&file, simulation, &request)
         .unwrap_err()
         .to_string();
-    for message in [free, steady] {
-        assert!(
-            message.starts_with("load \"load\" acts backward: that goes by [motion]"),
-            "{message}"
-        );
-    }
+    assert!(
+        message.starts_with("load \"load\" acts backward: that goes by [motion]"),
+        "{message}"
+    );
 }

@@ -11,6 +11,7 @@ mod missing;
 mod parting;
 mod pendulum;
 mod refusals;
+mod scheduled;
 mod stops;
 mod together;
 

@@ -99,11 +99,7 @@ fn add_forces(found: &mut Simulated, machines: &Together, asked: [bool; 2]) -> R
         let prefix = k
             .checked_sub(1)
             .map_or_else(String::new, |k| beside_name(k) + " ");
-        let states: Vec<[f64; 3]> = found
-            .states
-            .iter()
-            .map(|state| machine.state(*state))
-            .collect();
+        let states = found.states_of(&machine);
         let wider = add_columns(machine.file, &found.columns, &states, (asked, &prefix));
         found.columns = wider.map_err(core_report)?;
     }

@@ -125,16 +125,14 @@ struct Moving<'a> {
 
 impl Moving<'_> {
     /// The reduced link, and the torque with which carriages resist by their motion along their guides, which is not among its process
-    /// loads: it goes with masses and the square of the pace, as that of velocity does.
+    /// loads.
     fn parts(&mut self, now: &Now, phi: f64) -> Result<(Reduction, f64), Error> {
         if !self.file.schedule.flows() {
             return Ok((self.reduction(now, phi)?, 0.0));
         }
         let machine = self.file.machine_at(now, phi)?;
-        let mut reduction = self.file.reduction_of(&machine, phi)?;
-        let driving = self.file.carriage_torque(&machine, phi)?;
-        reduction.process -= driving;
-        Ok((reduction, -driving))
+        let reduction = self.file.reduction_of(&machine, phi)?;
+        self.file.apart(&machine, reduction, phi)
     }
 
     fn reduction(&mut self, now: &Now, phi: f64) -> Result<Reduction, Error> {

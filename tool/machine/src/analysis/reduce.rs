@@ -261,15 +261,15 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
     Ok(values)
 }
 
-/// Adds the columns of points, links and joint forces to rows of a motion, each with its φ, ω and α of the drive link, under names that begin
-/// with `prefix`.
+/// Adds the columns of points, links and joint forces to rows of a motion, each with its instant and φ, ω and α of the drive link, under names that
+/// begin with `prefix`.
 ///
 /// # Errors
 /// Those of the machine.
 pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
-    states: &[[f64; 3]],
+    states: &[(Now, [f64; 3])],
     ([points, reactions], prefix): ([bool; 2], &str),
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
@@ -286,8 +286,11 @@ pub fn add_columns(
         ..head
     });
     let mut wider = Columns::new(columns.heads().iter().cloned().chain(heads));
-    for (row, [phi, omega, alpha]) in columns.rows().iter().zip(states) {
-        let state = row_at(*phi, Some([*omega, *alpha]), None);
+    for (row, (now, [phi, omega, alpha])) in columns.rows().iter().zip(states) {
+        let state = Row {
+            now: *now,
+            ..row_at(*phi, Some([*omega, *alpha]), None)
+        };
         let more = values(&source, &sets, &state)?;
         wider.push(row.iter().copied().chain(more));
     }
@@ -345,7 +348,7 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
         now: Now {
             t,
             omega,
-            starts: None,
+            ..Now::default()
         },
         phi,
         state,

@@ -3,17 +3,20 @@
 //! Beside the motion it integrates the work of the motor, of the signed process loads, and the losses, so that the energy
 //! balance closes only if motion and reduction agree.
 
+mod clock;
 mod control;
 mod error;
 mod free;
 mod geared;
 pub(super) mod machine;
 mod observe;
+mod point;
 pub(super) mod run;
 mod simulated;
 mod variator;
 pub(super) mod watch;
 
+pub use clock::Moment;
 pub use error::SimulationError;
 pub use geared::{Geared, Together};
 pub use machine::beside_name;
@@ -45,7 +48,7 @@ pub fn simulate_together(
     let motor = simulation.own_motor().ok_or(SimulationError::NoMotor)?;
     let file = machines.first;
     if let Some(variator) = &file.variator {
-        check(machines)?;
+        refuse_scheduled(file)?;
         let plant = variator::Plant::new(file, variator, simulation, motor)?;
         return run::run(&plant, simulation, &mut Nobody);
     }
@@ -62,25 +65,28 @@ pub fn simulate_under(
     motor: &impl Motor,
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
-    check(machines)?;
-    match simulation.control.zip(machines.first.motion.as_ref()) {
-        Some((control, motion)) => run::run(
-            &control::Controlled::new(machines.clone(), simulation, control, motion, motor)?,
-            simulation,
-            observer,
-        ),
-        None => run::run(
-            &machine::Plant::new(machines.clone(), simulation, motor),
-            simulation,
-            observer,
-        ),
+    use control::{CONTROLLED, CONTROLLED_WITH_GUESTS};
+    use free::{PLAIN, WITH_GUESTS};
+    let has_guests = machines.guests().contains(&true);
+    if let Some((control, motion)) = simulation.control.zip(machines.first.motion.as_ref()) {
+        let plant = control::Controlled::new(machines.clone(), simulation, control, motion, motor)?;
+        return if has_guests {
+            run::run::<CONTROLLED_WITH_GUESTS>(&plant, simulation, observer)
+        } else {
+            run::run::<CONTROLLED>(&plant, simulation, observer)
+        };
+    }
+    let plant = machine::Plant::new(machines.clone(), simulation, motor);
+    if has_guests {
+        run::run::<WITH_GUESTS>(&plant, simulation, observer)
+    } else {
+        run::run::<PLAIN>(&plant, simulation, observer)
     }
 }
 
-/// Refuses machines that go by the motion of their file.
-fn check(machines: &Together) -> Result<(), SimulationError> {
-    let mut all = machines.all();
-    match all.find_map(|machine| machine.file.scheduled().next()) {
+/// Refuses a machine of which something goes by the motion of its file, where that is not simulated.
+fn refuse_scheduled(file: &MachineFile) -> Result<(), SimulationError> {
+    match file.scheduled().next() {
         Some(ByMotion { what, cure }) => Err(SimulationError::Scheduled { what, cure }),
         None => Ok(()),
     }

@@ -149,6 +149,22 @@ impl MachineFile {
         Ok(torques.sum())
     }
 
+    /// The reduced link of a machine of [`machine_at`](Self::machine_at) without the share of carriages in its process torque, and the torque (N·m)
+    /// with which they resist by their motion along their guides: it goes with masses and the square of the pace, as that of velocity does.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn apart(
+        &self,
+        machine: &Machine<AnyMechanism>,
+        mut reduction: Reduction,
+        phi: f64,
+    ) -> Result<(Reduction, f64), Error> {
+        let driving = self.carriage_torque(machine, phi)?;
+        reduction.process -= driving;
+        Ok((reduction, -driving))
+    }
+
     /// The reduced link at `phi` without the drive train and without what the schedule says, as [`Machine::bare_reduction`] gives it, but
     /// with the weight of payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that
     /// varies with the position has none.

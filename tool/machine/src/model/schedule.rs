@@ -15,73 +15,9 @@ use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 
-/// A direction of the drive link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Travel {
-    /// φ grows.
-    Forward,
-    /// φ falls.
-    Backward,
-}
+mod when;
 
-/// When something of the machine acts or is there.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct When {
-    /// Times [from, to) of the motion (s), the last up to its end; `None`: always.
-    pub spans: Option<Vec<[f64; 2]>>,
-    /// In one direction of travel only.
-    pub travel: Option<Travel>,
-}
-
-impl When {
-    /// Whether that is now, in a motion that lasts until `end`: at a time of a motion, if there is one, and with the speed ω, if it is known.
-    pub fn holds(&self, now: &Now, end: f64) -> bool {
-        let in_time = self.spans.as_ref().is_none_or(|spans| {
-            now.t.is_some_and(|t| {
-                let within = |[from, to]: &[f64; 2]| *from <= t && (t < *to || *to >= end);
-                spans.iter().any(within)
-            })
-        });
-        let ways = self.travel.is_none_or(|travel| {
-            let way = now.starts.or(now.omega);
-            way.is_some_and(|way| match travel {
-                Travel::Forward => way > 0.0,
-                Travel::Backward => way < 0.0,
-            })
-        });
-        in_time && ways
-    }
-}
-
-/// An instant: a time of the motion (s) and a speed of the drive link, as far as they are known.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Now {
-    /// Time of the motion (s).
-    pub t: Option<f64>,
-    /// Speed of the drive link (rad/s, or m/s).
-    pub omega: Option<f64>,
-    /// At rest, where a move begins: its direction, as a sign.
-    pub starts: Option<f64>,
-}
-
-impl Now {
-    /// A time of the motion, with the speed there.
-    pub const fn of(t: f64, omega: f64) -> Self {
-        Self {
-            t: Some(t),
-            omega: Some(omega),
-            starts: None,
-        }
-    }
-
-    /// A time of the motion at which a move in this direction begins from rest.
-    pub const fn starting(t: f64, direction: f64) -> Self {
-        Self {
-            starts: Some(direction),
-            ..Self::of(t, 0.0)
-        }
-    }
-}
+pub use when::{Now, Travel, When};
 
 /// A load that does not always act, or has a value of its own at rest.
 #[derive(Clone, Debug)]
@@ -168,7 +104,14 @@ impl Schedule {
         ];
         let mut states: Vec<State> = Vec::new();
         for t in times {
-            states.extend(speeds.map(|(omega, starts)| schedule.state(&Now { t, omega, starts })));
+            states.extend(speeds.map(|(omega, starts)| {
+                schedule.state(&Now {
+                    t,
+                    omega,
+                    starts,
+                    ..Now::default()
+                })
+            }));
         }
         states.sort();
         states.dedup();
@@ -227,6 +170,11 @@ impl Schedule {
     /// Whether the machine is another one at every instant, not one of a few.
     pub const fn flows(&self) -> bool {
         !self.carriages.is_empty()
+    }
+
+    /// Whether a load has a value of its own at rest.
+    pub fn has_values_at_rest(&self) -> bool {
+        self.loads.iter().any(|load| load.at_rest.is_some())
     }
 
     /// Whether a load has to be broken away from rest.
@@ -311,7 +259,7 @@ impl Schedule {
 
     fn state(&self, now: &Now) -> State {
         let share = |load: &Scheduled| {
-            if load.at_rest.is_some() && now.omega == Some(0.0) {
+            if load.at_rest.is_some() && now.is_at_rest() {
                 // Where no move begins the direction is unknown: its value at rest is that of every direction.
                 let travel = load.when.travel.filter(|_| now.starts.is_some());
                 let when = When {

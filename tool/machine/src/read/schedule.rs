@@ -131,6 +131,10 @@ impl<'m> Course<'m> {
                     segments.push([t, t + course.duration]);
                     t += course.duration;
                 }
+                // The sum of the parts may miss the whole by a rounding.
+                if let Some([_, end]) = segments.last_mut() {
+                    *end = motion.duration();
+                }
             }
         }
         Ok(Self { motion, segments })

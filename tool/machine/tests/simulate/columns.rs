@@ -1,7 +1,7 @@
 //! Points, links and joint forces in the rows of a simulation.
 
 use jred_machine::analysis::reduce::{At, Over, Request, Sets, add_columns, reduce_at};
-use jred_machine::analysis::simulate::simulate;
+use jred_machine::analysis::simulate::{Together, simulate};
 
 use crate::reading::parse;
 use crate::support::{Columns, budget, largest, press_text, within};
@@ -18,7 +18,10 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let file = parse(&text).unwrap();
     let found = simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
     let narrow = found.columns.heads().len();
-    let all = add_columns(&file, &found.columns, &found.states, ([true, true], "")).unwrap();
+    let alone = Together::alone(&file);
+    let machine = alone.all().next().unwrap();
+    let states = found.states_of(&machine);
+    let all = add_columns(&file, &found.columns, &states, ([true, true], "")).unwrap();
     let at: Vec<At> = (found.states.iter())
         .map(|[phi, omega, alpha]| At {
             phi: *phi,

@@ -4,6 +4,8 @@ use jred::machine::motion::State as Reference;
 use jred::{Error, Reducible as _};
 
 use super::SimulationError;
+use super::clock::{Clock, Corners, Moment};
+use super::free::{PLAIN, WITH_GUESTS, guests_of};
 use super::geared::Together;
 use super::machine::{Instant, Plant};
 use super::observe::Working;
@@ -16,8 +18,11 @@ use crate::model::motor::Motor;
 use crate::model::simulation::{Control, FeedForward, Simulation};
 use crate::number::columns::Column;
 
-/// φ, ω, integral of the speed controller (N·m), work of the motor, work of the process loads, losses.
-type State = [f64; 6];
+/// Values of a state without payloads and carriages: φ, ω, integral of the speed controller (N·m), and what follows ω without a controller.
+pub(super) const CONTROLLED: usize = PLAIN + 1;
+
+/// With them.
+pub(super) const CONTROLLED_WITH_GUESTS: usize = WITH_GUESTS + 1;
 
 /// Positions from which the mean inertia is taken.
 const POSITIONS: usize = 720;
@@ -74,27 +79,23 @@ impl<'a, M: Motor> Controlled<'a, M> {
     /// The motion of the file at the time `t`: repeated if it is cyclic, else at rest behind its end.
     fn reference(&self, t: f64) -> Reference<f64> {
         let duration = self.motion.duration();
-        if self.motion.cyclic {
-            let cycles = (t / duration).floor();
-            let state = self.motion.at(t - cycles * duration);
+        let (cycles, time) = Clock::of(self.plant.machines.first).split(t);
+        let state = self.motion.at(time.min(duration));
+        if time >= duration && !self.motion.cyclic {
             return Reference {
-                phi: state.phi + cycles * self.advance,
+                omega: 0.0,
+                alpha: 0.0,
                 ..state
             };
         }
-        let state = self.motion.at(t.min(duration));
-        if t < duration {
-            return state;
-        }
         Reference {
-            omega: 0.0,
-            alpha: 0.0,
+            phi: state.phi + cycles * self.advance,
             ..state
         }
     }
 
     /// T_ff.
-    fn feed_forward(&self, reference: &Reference<f64>) -> Result<f64, Error> {
+    fn feed_forward(&self, t: f64, reference: &Reference<f64>) -> Result<f64, Error> {
         let Reference {
             phi, omega, alpha, ..
         } = *reference;
@@ -105,18 +106,20 @@ impl<'a, M: Motor> Controlled<'a, M> {
                 let inertias = &self.mean_inertia;
                 Ok(self.plant.accelerating(direction, [omega, alpha], inertias))
             }
-            FeedForward::Model => self.plant.required(direction, [phi, omega, alpha]),
+            FeedForward::Model => {
+                let moment = Moment::new(t, direction);
+                self.plant.required(&moment, [phi, omega, alpha])
+            }
         }
     }
 
-    fn command(&self, t: f64, y: &State) -> Result<Command, Error> {
-        let [phi, omega, integral, ..] = *y;
+    fn command(&self, t: f64, [phi, omega, integral]: [f64; 3]) -> Result<Command, Error> {
         let reference = self.reference(t);
         let ratio = self.plant.ratio();
         let gain = self.control.position_gain;
         let wanted = reference.omega + gain * (reference.phi - phi);
         let push = self.control.speed_gain * (wanted - omega) * ratio;
-        let asked = self.feed_forward(&reference)? + push + integral;
+        let asked = self.feed_forward(t, &reference)? + push + integral;
         let [least, most] = self.plant.motor.limits(omega * ratio);
         let torque = asked.max(least).min(most);
         Ok(Command {
@@ -127,20 +130,29 @@ impl<'a, M: Motor> Controlled<'a, M> {
     }
 
     /// Torque at the motor shaft, of the motor or, once it is switched off, of the brake; what is asked for; z′.
-    fn torque(&self, direction: f64, t: f64, y: &State) -> Result<[f64; 3], Error> {
-        let command = self.command(t, y)?;
-        let on = self.simulation.halt.is_none_or(|halt| t < halt.time);
-        if on {
+    fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<[f64; 3], Error> {
+        let command = self.command(moment.t, y)?;
+        if !self.is_off(moment.t) {
             return Ok([command.torque, command.asked, command.integral_rate]);
         }
-        let brake = self.plant.halted(t, direction, || 0.0);
+        let brake = self.plant.halted(moment, || 0.0);
         Ok([brake, brake, 0.0])
     }
 
-    fn now(&self, direction: f64, t: f64, y: &State) -> Result<(Instant, f64), Error> {
-        let [torque, _, rate] = self.torque(direction, t, y)?;
-        Ok((self.plant.under(direction, [y[0], y[1]], torque)?, rate))
+    /// Whether the motor has been switched off.
+    fn is_off(&self, t: f64) -> bool {
+        self.simulation.halt.is_some_and(|halt| t >= halt.time)
     }
+
+    fn now(&self, moment: &Moment, y: [f64; 3]) -> Result<(Instant, f64), Error> {
+        let [torque, _, rate] = self.torque(moment, y)?;
+        Ok((self.plant.under(moment, [y[0], y[1]], torque)?, rate))
+    }
+}
+
+/// φ, ω and the integral.
+fn controlled<const N: usize>(y: &[f64; N]) -> [f64; 3] {
+    [y[0], y[1], y[2]]
 }
 
 /// The mean of a machine's inertia over its range.
@@ -153,55 +165,61 @@ fn mean(file: &MachineFile) -> Result<f64, Error> {
     Ok(sum / places.len() as f64)
 }
 
-impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
-    fn start(&self) -> Result<State, Error> {
-        let Simulation {
-            start_angle,
-            start_speed,
-            ..
-        } = *self.simulation;
-        Ok([start_angle, start_speed, 0.0, 0.0, 0.0, 0.0])
+impl<M: Motor, const N: usize> run::Plant<N> for Controlled<'_, M> {
+    fn start(&self) -> Result<[f64; N], Error> {
+        run::Plant::<N>::start(&self.plant)
     }
 
-    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
-        if direction == 0.0 {
+    fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
+        let mut slope = [0.0; N];
+        let guests = guests_of::<N>(3);
+        if moment.direction == 0.0 {
             // The integral rises until the motor breaks away.
-            let [_, _, rate] = self.torque(direction, t, y)?;
-            return Ok([0.0, 0.0, rate, 0.0, 0.0, 0.0]);
+            [.., slope[2]] = self.torque(moment, controlled(y))?;
+            if let Some(at) = guests {
+                slope[at + 1] = self.plant.held_power(moment, y[0])?;
+            }
+            return Ok(slope);
         }
-        let (now, rate) = self.now(direction, t, y)?;
-        let works = [now.motor_power, now.process_power, now.loss];
-        Ok([y[1], now.alpha, rate, works[0], works[1], works[2]])
+        let (now, rate) = self.now(moment, controlled(y))?;
+        (slope[0], slope[1], slope[2]) = (y[1], now.alpha, rate);
+        if let Some(at) = guests {
+            slope[at + 1] = now.carriage_power;
+        }
+        slope[N - 3] = now.motor_power;
+        slope[N - 2] = now.process_power;
+        slope[N - 1] = now.loss;
+        Ok(slope)
     }
 
-    fn link(&self, _: f64, y: &State) -> Result<[f64; 2], Error> {
+    fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {
         Ok([y[0], y[1]])
     }
 
-    fn with_link(&self, _: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
-        Ok([phi, omega, y[2], y[3], y[4], y[5]])
+    fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error> {
+        run::Plant::<N>::with_link(&self.plant, t, y, link)
     }
 
-    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.now(direction, t, y)?.0.alpha)
+    fn guests(&self) -> Option<usize> {
+        guests_of::<N>(3)
     }
 
-    fn check(&self, _: f64, _: f64, _: &State) -> Result<(), SimulationError> {
+    fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error> {
+        Ok(self.now(moment, controlled(y))?.0.alpha)
+    }
+
+    fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
+        self.plant.starts(moment, |moment| self.alpha(moment, y))
+    }
+
+    fn check(&self, _: &Moment, _: &[f64; N]) -> Result<(), SimulationError> {
         Ok(())
     }
 
-    fn corners(&self) -> Vec<f64> {
-        let duration = self.motion.duration();
-        let end = self.simulation.duration;
-        let cycles = if self.motion.cyclic {
-            end / duration
-        } else {
-            0.0
-        };
-        let starts = (0..=cycles as u32).map(|k| f64::from(k) * duration);
-        let stretches = self.motion.stretches();
-        let ends = starts.flat_map(|start| stretches.iter().map(move |(_, end)| start + end));
-        ends.chain(self.plant.halts()).collect()
+    fn corners(&self) -> Corners {
+        let clock = Clock::of(self.plant.machines.first);
+        let ends = self.motion.stretches().into_iter().map(|(_, end)| end);
+        self.plant.changes().by(clock, ends)
     }
 
     fn machines(&self) -> Together<'_> {
@@ -215,26 +233,25 @@ impl<M: Motor> run::Plant<6> for Controlled<'_, M> {
         own.chain([Column::other(error, position.unit)]).collect()
     }
 
-    fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
-        let [torque, asked, _] = self.torque(direction, t, y)?;
-        let link = [y[0], y[1]];
-        let working = (self.plant).working_at(t, direction, link, [torque, asked])?;
-        let on = self.simulation.halt.is_none_or(|halt| t < halt.time);
+    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<Working>, Error> {
+        let [torque, asked, _] = self.torque(moment, controlled(y))?;
+        let working = (self.plant).working_at(moment, [y[0], y[1]], [torque, asked])?;
+        let on = !self.is_off(moment.t);
         Ok(Some(Working {
-            error: on.then(|| self.reference(t).phi - y[0]),
+            error: on.then(|| self.reference(moment.t).phi - y[0]),
             ..working
         }))
     }
 
-    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
-        let alpha = if direction == 0.0 {
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error> {
+        let alpha = if moment.direction == 0.0 {
             0.0
         } else {
-            self.alpha(direction, t, y)?
+            self.alpha(moment, y)?
         };
-        let [torque, ..] = self.torque(direction, t, y)?;
-        let mut row = self.plant.written([y[0], y[1], alpha], torque)?;
-        let reference = self.axis.shown(self.reference(t).phi);
+        let [torque, ..] = self.torque(moment, controlled(y))?;
+        let mut row = self.plant.written(moment, [y[0], y[1], alpha], torque)?;
+        let reference = self.axis.shown(self.reference(moment.t).phi);
         row.figures.push(reference - self.axis.shown(y[0]));
         Ok(row)
     }

@@ -17,8 +17,8 @@ pub enum SimulationError {
          the catalogue: --drive MOTOR+GEARBOX"
     ))]
     NoMotor,
-    /// The machine goes by the motion of the file, which a free motion does not follow.
-    #[error("{what}: that goes by [motion], which a free motion does not follow")]
+    /// Something behind a variator goes by the motion of the file.
+    #[error("{what}: that goes by [motion], and is not simulated behind a [variator]")]
     #[diagnostic(help(
         "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
     ))]

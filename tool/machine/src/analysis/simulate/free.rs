@@ -3,8 +3,9 @@
 use jred::Error;
 
 use super::SimulationError;
+use super::clock::{Corners, Moment};
 use super::geared::Together;
-use super::machine::{Instant, Plant, State};
+use super::machine::{Instant, Plant};
 use super::observe::Working;
 use super::run::{self, HAIR, Row};
 use super::simulated::Missing;
@@ -12,60 +13,91 @@ use crate::model::motor::Motor;
 use crate::model::simulation::Simulation;
 use crate::number::columns::Column;
 
+/// Values of a state without payloads and carriages: φ, ω, work of the motor, work of the process loads, losses.
+pub(super) const PLAIN: usize = 5;
+
+/// With them: energy that payloads have brought, and work of the second axes, behind φ and ω.
+pub(super) const WITH_GUESTS: usize = PLAIN + 2;
+
 impl<M: Motor> Plant<'_, M> {
     /// The torque at the motor's shaft without a controller.
-    fn torque(&self, t: f64, direction: f64, omega: f64) -> f64 {
-        self.halted(t, direction, || self.motor(omega)[0])
+    fn torque(&self, moment: &Moment, omega: f64) -> f64 {
+        self.halted(moment, || self.motor(omega)[0])
     }
 
-    /// What happens at a state at the time `t`.
-    fn now(&self, direction: f64, t: f64, [phi, omega, ..]: &State) -> Result<Instant, Error> {
-        self.under(direction, [*phi, *omega], self.torque(t, direction, *omega))
+    /// What happens at a state at an instant.
+    fn now(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Instant, Error> {
+        self.under(moment, [phi, omega], self.torque(moment, omega))
     }
 }
 
-impl<M: Motor> run::Plant<5> for Plant<'_, M> {
-    fn start(&self) -> Result<State, Error> {
+/// The place of the guests' two values in a state of `N` values, which begins with `own` values.
+pub(super) fn guests_of<const N: usize>(own: usize) -> Option<usize> {
+    (N == own + 5).then_some(own)
+}
+
+impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
+    fn start(&self) -> Result<[f64; N], Error> {
         let Simulation {
             start_angle,
             start_speed,
             ..
         } = *self.simulation;
-        Ok([start_angle, start_speed, 0.0, 0.0, 0.0])
+        let mut y = [0.0; N];
+        (y[0], y[1]) = (start_angle, start_speed);
+        Ok(y)
     }
 
-    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
-        if direction == 0.0 {
-            return Ok([0.0; 5]);
+    fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
+        let mut slope = [0.0; N];
+        let guests = guests_of::<N>(2);
+        if moment.direction == 0.0 {
+            if let Some(at) = guests {
+                slope[at + 1] = self.held_power(moment, y[0])?;
+            }
+            return Ok(slope);
         }
-        let now = self.now(direction, t, y)?;
-        Ok([
-            y[1],
-            now.alpha,
-            now.motor_power,
-            now.process_power,
-            now.loss,
-        ])
+        let now = self.now(moment, [y[0], y[1]])?;
+        (slope[0], slope[1]) = (y[1], now.alpha);
+        if let Some(at) = guests {
+            slope[at + 1] = now.carriage_power;
+        }
+        slope[N - 3] = now.motor_power;
+        slope[N - 2] = now.process_power;
+        slope[N - 1] = now.loss;
+        Ok(slope)
     }
 
-    fn link(&self, _: f64, y: &State) -> Result<[f64; 2], Error> {
+    fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {
         Ok([y[0], y[1]])
     }
 
-    fn with_link(&self, _: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
-        Ok([phi, omega, y[2], y[3], y[4]])
+    fn with_link(&self, _: f64, y: &[f64; N], [phi, omega]: [f64; 2]) -> Result<[f64; N], Error> {
+        let mut y = *y;
+        (y[0], y[1]) = (phi, omega);
+        Ok(y)
     }
 
-    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.now(direction, t, y)?.alpha)
+    fn guests(&self) -> Option<usize> {
+        guests_of::<N>(2)
     }
 
-    fn check(&self, _: f64, _: f64, _: &State) -> Result<(), SimulationError> {
+    fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error> {
+        Ok(self.now(moment, [y[0], y[1]])?.alpha)
+    }
+
+    fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
+        Plant::starts(self, moment, |moment| {
+            Ok(self.now(moment, [y[0], y[1]])?.alpha)
+        })
+    }
+
+    fn check(&self, _: &Moment, _: &[f64; N]) -> Result<(), SimulationError> {
         Ok(())
     }
 
-    fn corners(&self) -> Vec<f64> {
-        self.halts()
+    fn corners(&self) -> Corners {
+        self.changes()
     }
 
     fn machines(&self) -> Together<'_> {
@@ -76,34 +108,39 @@ impl<M: Motor> run::Plant<5> for Plant<'_, M> {
         self.columns()
     }
 
-    fn working(&self, direction: f64, t: f64, y: &State) -> Result<Option<Working>, Error> {
-        let torque = self.torque(t, direction, y[1]);
-        let working = self.working_at(t, direction, [y[0], y[1]], [torque; 2])?;
+    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<Working>, Error> {
+        let torque = self.torque(moment, y[1]);
+        let working = self.working_at(moment, [y[0], y[1]], [torque; 2])?;
         Ok(Some(working))
     }
 
-    fn missing(&self, y: &State) -> Result<Option<Missing>, Error> {
+    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<Missing>, Error> {
         let [given, _] = self.motor(0.0);
         let push = (given * self.ratio()).signum();
         if given == 0.0 || self.simulation.halt.is_some() {
             return Ok(None);
         }
-        let needed = self.keeping(push, [y[0], push * HAIR])?;
+        // Both by what acts at rest and by what acts in motion.
         let sign = given.signum();
-        Ok((needed * sign > given * sign).then_some(Missing {
+        let moments = [Moment::starting(t, push), Moment::new(t, push)];
+        let mut needed = f64::NEG_INFINITY;
+        for moment in moments {
+            needed = needed.max(sign * self.keeping(&moment, [y[0], push * HAIR])?);
+        }
+        Ok((needed > given * sign).then_some(Missing {
             phi: y[0],
             given,
-            needed,
+            needed: sign * needed,
         }))
     }
 
-    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
-        let alpha = if direction == 0.0 {
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error> {
+        let [phi, omega] = [y[0], y[1]];
+        let alpha = if moment.direction == 0.0 {
             0.0
         } else {
-            self.alpha(direction, t, y)?
+            self.now(moment, [phi, omega])?.alpha
         };
-        let [phi, omega, ..] = *y;
-        self.written([phi, omega, alpha], self.torque(t, direction, omega))
+        self.written(moment, [phi, omega, alpha], self.torque(moment, omega))
     }
 }

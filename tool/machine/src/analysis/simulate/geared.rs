@@ -10,11 +10,12 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Reducible as _, Reduction};
+use jred::{Domain, Reducible as _};
 
 use super::SimulationError;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::model::schedule::Schedule;
 use crate::model::simulation::{Shaft, Simulation};
 
 /// A machine, and how its drive link goes with that of the first one: φ_k = offset + ratio·φ.
@@ -62,12 +63,6 @@ impl<'a> Geared<'a> {
         edges.flat_map(move |edge| {
             (0..turns).map(move |k| (edge + TAU * f64::from(k) - offset) / ratio)
         })
-    }
-
-    /// The reduced link where the first drive link is at `phi`.
-    pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
-        let [phi, ..] = self.state([phi, 0.0, 0.0]);
-        Ok(self.file.machine.bare_reduction(phi)?)
     }
 }
 
@@ -156,6 +151,18 @@ impl<'a> Together<'a> {
             return String::new();
         }
         format!(", on one shaft with {}", beside.join(" and "))
+    }
+
+    /// Whether payloads come and go, and whether carriages move.
+    pub(super) fn guests(&self) -> [bool; 2] {
+        let has = |such: fn(&Schedule) -> bool| {
+            let mut all = self.all();
+            all.any(|machine| such(&machine.file.schedule))
+        };
+        [
+            has(|schedule| !schedule.payloads().is_empty()),
+            has(Schedule::flows),
+        ]
     }
 
     /// The machines beside the first.

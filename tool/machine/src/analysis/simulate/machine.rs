@@ -1,21 +1,17 @@
 //! A machine, or several, that a motor drives through fixed ratios.
 
-use jred::machine::motion::State as Moving;
-use jred::mechanism::{TrainInput, TrainOutput};
-use jred::{Error, Reduction};
+mod shown;
 
+use jred::Error;
+use jred::mechanism::{TrainInput, TrainOutput};
+
+use super::clock::{Corners, Moment};
 use super::geared::{Geared, Together};
-use super::observe::Working;
-use super::run::Row;
+use super::point::{Points, sign};
 use crate::model::axis::Axis;
-use crate::model::coordinate::Coordinate;
 use crate::model::motor::{Motor, loads_of};
 use crate::model::simulation::{Shaft, Simulation};
-use crate::number::columns::{Column, Quantity};
 use crate::number::numerics::newton;
-
-/// φ, ω, work of the motor, work of the process loads, losses.
-pub(in crate::analysis) type State = [f64; 5];
 
 /// The machine with its drive and motor torque.
 pub(in crate::analysis) struct Plant<'a, M> {
@@ -35,7 +31,19 @@ pub(in crate::analysis) struct Instant {
     pub(in crate::analysis) input_torque: f64,
     pub(in crate::analysis) motor_power: f64,
     pub(in crate::analysis) process_power: f64,
+    /// Of the second axes that move carriages.
+    pub(super) carriage_power: f64,
     pub(in crate::analysis) loss: f64,
+}
+
+/// The energy of the machines, their drive trains and the motor.
+pub(super) struct Stored {
+    /// Inertia of all at the first drive link.
+    pub(super) inertia: f64,
+    /// Kinetic energy beyond ½·J·ω²: that of carriages along their guides (J).
+    pub(super) beyond: f64,
+    /// (J)
+    pub(super) potential: f64,
 }
 
 /// What a motor gives so that the drive link delivers a torque in its motion.
@@ -51,34 +59,6 @@ struct Through {
 /// What a machine beside the first is called in columns; the first of them has the index 0.
 pub fn beside_name(index: usize) -> String {
     format!("machine {}", index + 2)
-}
-
-/// The reduced links of all machines.
-struct Points<'a> {
-    first: (Geared<'a>, Reduction),
-    beside: Vec<(Geared<'a>, Reduction)>,
-}
-
-impl<'a> Points<'a> {
-    fn all(&self) -> impl Iterator<Item = (Geared<'a>, &Reduction)> {
-        let all = std::iter::once(&self.first).chain(&self.beside);
-        all.map(|(machine, point)| (*machine, point))
-    }
-}
-
-/// The sign of a direction; none at rest.
-fn sign(direction: f64) -> f64 {
-    if direction == 0.0 {
-        0.0
-    } else {
-        direction.signum()
-    }
-}
-
-/// The torque at a drive link that keeps its speed; only the sign of the direction counts.
-fn resisting(point: &Reduction, direction: f64, omega: f64) -> f64 {
-    let load = point.load_torque() - point.viscous * omega - point.coulomb * sign(direction);
-    0.5 * point.inertia_slope * omega * omega - load
 }
 
 impl<'a, M: Motor> Plant<'a, M> {
@@ -153,26 +133,28 @@ impl<'a, M: Motor> Plant<'a, M> {
     /// The motor torque that keeps the speed `omega` at the position `phi`.
     pub(in crate::analysis) fn keeping(
         &self,
-        direction: f64,
+        moment: &Moment,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
         match self.simulation.at {
-            Shaft::DriveLink => self.resisting(direction, [phi, omega]),
-            Shaft::Motor => self.required(direction, [phi, omega, 0.0]),
+            Shaft::DriveLink => self.resisting(moment, [phi, omega]),
+            Shaft::Motor => self.required(moment, [phi, omega, 0.0]),
         }
     }
 
     /// The torque at the motor shaft that a motion asks for.
     pub(super) fn required(
         &self,
-        direction: f64,
+        moment: &Moment,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<f64, Error> {
-        let points = self.points(phi)?;
+        let direction = moment.direction;
+        let points = self.points(moment, [phi, omega])?;
         let loads = points.all().map(|(machine, point)| {
             let [_, omega, alpha] = machine.state([phi, omega, alpha]);
-            let resisting = resisting(point, direction * machine.ratio(), omega);
-            (machine, [point.inertia * alpha + resisting, point.inertia])
+            let resisting = point.resisting(direction * machine.ratio(), omega);
+            let inertia = point.reduction.inertia;
+            (machine, [inertia * alpha + resisting, inertia])
         });
         Ok(self.through(direction, [omega, alpha], loads).torque)
     }
@@ -191,11 +173,12 @@ impl<'a, M: Motor> Plant<'a, M> {
         self.through(direction, [omega, alpha], loads).torque
     }
 
-    /// Torque of the motor and of the brake at the time `t`: the motor's is `driving` until it is switched off.
-    pub(super) fn halted(&self, t: f64, direction: f64, driving: impl Fn() -> f64) -> f64 {
+    /// Torque of the motor and of the brake at an instant: the motor's is `driving` until it is switched off.
+    pub(super) fn halted(&self, moment: &Moment, driving: impl Fn() -> f64) -> f64 {
+        let t = moment.t;
         match self.simulation.halt {
             Some(halt) if t >= halt.time + halt.brake_delay => {
-                -halt.brake_torque * direction * self.ratio().signum()
+                -halt.brake_torque * moment.direction * self.ratio().signum()
             }
             Some(halt) if t >= halt.time => 0.0,
             _ => driving(),
@@ -210,68 +193,76 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// The reduced links at a position.
-    fn points(&self, phi: f64) -> Result<Points<'a>, Error> {
-        let phi = self.inside(phi);
+    /// The reduced links at a position and speed.
+    fn points(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Points<'a>, Error> {
         let first = Geared::first(self.machines.first);
-        let beside = self.machines.beside().iter();
-        let beside = beside.map(|machine| Ok((*machine, machine.point(phi)?)));
-        Ok(Points {
-            first: (first, first.point(phi)?),
-            beside: beside.collect::<Result<_, Error>>()?,
-        })
+        let link = [self.inside(phi), omega];
+        Points::new(first, self.machines.beside(), moment, link)
     }
 
     /// The torque at the first drive link that keeps the speed `omega` at the position `phi`, without the losses of drive trains.
     pub(in crate::analysis) fn resisting(
         &self,
-        direction: f64,
+        moment: &Moment,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let points = self.points(phi)?;
+        let points = self.points(moment, [phi, omega])?;
         let each = points.all().map(|(machine, point)| {
             let ratio = machine.ratio();
-            ratio * resisting(point, direction * ratio, omega * ratio)
+            ratio * point.resisting(moment.direction * ratio, omega * ratio)
         });
         Ok(each.sum())
     }
 
-    /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy.
+    /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy. Without
+    /// what the schedule says.
     pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
+        let stored = self.stored(&Moment::default(), [phi, 0.0])?;
+        Ok([stored.inertia, stored.potential])
+    }
+
+    /// Inertia and energies at a position and speed.
+    pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<Stored, Error> {
         // The motor and the drive trains turn with the drive link.
         let ratio = self.machines.first.drive_train.ratio();
         let [own, ..] = self.motor.coefficients().0;
         let mut at_input = own * self.motor.ratio();
-        let [mut inertia, mut potential] = [0.0; 2];
-        for (machine, point) in self.points(phi)?.all() {
+        let [mut inertia, mut potential, mut beyond] = [0.0; 3];
+        for (machine, point) in self.points(moment, link)?.all() {
             at_input += machine.file.drive_train.inertia_at_input();
-            inertia += point.inertia * machine.ratio() * machine.ratio();
-            potential += point.potential_energy;
+            inertia += point.reduction.inertia * machine.ratio() * machine.ratio();
+            potential += point.reduction.potential_energy;
+            beyond += point.kinetic_beyond();
         }
-        Ok([inertia + at_input * ratio * ratio, potential])
+        Ok(Stored {
+            inertia: inertia + at_input * ratio * ratio,
+            beyond,
+            potential,
+        })
     }
 
-    /// The acceleration that solves the equation of motion through the losses of the drive train.
+    /// The acceleration that solves the equation of motion through the losses of the drive train, under the motor at this speed.
     ///
     /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
     /// sides with its power), so Newton's method ends after a few steps.
     pub(in crate::analysis) fn instant(
         &self,
-        direction: f64,
-        [phi, omega, ..]: &State,
+        moment: &Moment,
+        [phi, omega]: [f64; 2],
     ) -> Result<Instant, Error> {
-        let [torque, _] = self.motor(*omega);
-        self.under(direction, [*phi, *omega], torque)
+        let [torque, _] = self.motor(omega);
+        self.under(moment, [phi, omega], torque)
     }
 
     /// The same under a torque of the motor.
     pub(super) fn under(
         &self,
-        direction: f64,
+        moment: &Moment,
         [phi, omega]: [f64; 2],
         torque: f64,
     ) -> Result<Instant, Error> {
-        let points = self.points(phi)?;
+        let direction = moment.direction;
+        let points = self.points(moment, [phi, omega])?;
         let speed = omega * self.ratio();
         // With the torque at the drive link, what sits in front of it only drags along.
         let (at_motor, at_link) = match self.simulation.at {
@@ -285,21 +276,23 @@ impl<'a, M: Motor> Plant<'a, M> {
         let alpha = newton(|alpha| {
             let loads = points.all().enumerate().map(|(k, (machine, point))| {
                 let [_, omega, alpha] = machine.state([phi, omega, alpha]);
-                let resisting = resisting(point, direction * machine.ratio(), omega);
-                let torque = point.inertia * alpha + resisting - at(k);
-                (machine, [torque, point.inertia])
+                let resisting = point.resisting(direction * machine.ratio(), omega);
+                let inertia = point.reduction.inertia;
+                (machine, [inertia * alpha + resisting - at(k), inertia])
             });
             let through = self.through(direction, [omega, alpha], loads);
             loss = through.loss;
             input_torque = through.input_torque;
             [through.torque - at_motor, through.per_alpha]
         });
-        let mut process_power = 0.0;
+        let [mut process_power, mut carriage_power] = [0.0; 2];
         for (machine, point) in points.all() {
-            let omega = omega * machine.ratio();
+            let [_, omega, alpha] = machine.state([phi, omega, alpha]);
             let direction = sign(direction * machine.ratio());
-            process_power += point.process * omega;
-            loss += (point.viscous * omega + point.coulomb * direction) * omega;
+            let reduction = &point.reduction;
+            process_power += reduction.process * omega;
+            carriage_power += point.carriage_power(alpha);
+            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega;
         }
         Ok(Instant {
             alpha,
@@ -307,108 +300,49 @@ impl<'a, M: Motor> Plant<'a, M> {
             input_torque,
             motor_power: torque * speed,
             process_power,
+            carriage_power,
             loss,
         })
     }
 
-    /// What the motor does at a state under a torque at its shaft; `asked` is what a controller asks for.
-    fn working(
-        &self,
-        direction: f64,
-        [phi, omega]: [f64; 2],
-        [torque, asked]: [f64; 2],
-    ) -> Result<Working, Error> {
-        let held = direction == 0.0;
-        let now = if held {
-            None
-        } else {
-            Some(self.under(direction, [phi, omega], torque)?)
-        };
-        Ok(Working {
-            phi,
-            speed: omega * self.ratio(),
-            torque,
-            asked,
-            // Held at rest, friction takes any share of it.
-            input_torque: now.map_or(torque * self.motor.ratio(), |now| now.input_torque),
-            error: None,
-        })
+    /// What the second axes give where friction holds the machine (W).
+    pub(super) fn held_power(&self, moment: &Moment, phi: f64) -> Result<f64, Error> {
+        let points = self.points(moment, [phi, 0.0])?;
+        Ok(points
+            .all()
+            .map(|(_, point)| point.carriage_power(0.0))
+            .sum())
     }
 
-    /// The same at a time: behind the switching off the torque is the brake's, and the motor has none.
-    pub(super) fn working_at(
+    /// Whether the motor would drive the machine on from rest in this direction, by the acceleration `alpha` at an instant and a
+    /// speed: both by what acts at rest and by what acts in motion.
+    pub(super) fn starts(
         &self,
-        t: f64,
-        direction: f64,
-        link: [f64; 2],
-        torques: [f64; 2],
-    ) -> Result<Working, Error> {
-        let working = self.working(direction, link, torques)?;
-        let is_off = self.simulation.halt.is_some_and(|halt| t >= halt.time);
-        Ok(Working {
-            torque: if is_off { 0.0 } else { working.torque },
-            asked: if is_off { 0.0 } else { working.asked },
-            ..working
-        })
+        moment: &Moment,
+        alpha: impl Fn(&Moment) -> Result<f64, Error>,
+    ) -> Result<bool, Error> {
+        let drives = |moment: &Moment| Ok::<_, Error>(alpha(moment)? * moment.direction > 0.0);
+        let mut machines = self.machines.all();
+        let at_rest = machines.any(|machine| machine.file.schedule.has_values_at_rest());
+        if at_rest && !drives(&Moment::starting(moment.t, moment.direction))? {
+            return Ok(false);
+        }
+        drives(moment)
+    }
+
+    /// When something changes: by what goes by [motion], where the motor is switched off and where the brake closes.
+    pub(super) fn changes(&self) -> Corners {
+        let mut corners = Corners::at(self.halts());
+        for machine in self.machines.all() {
+            corners = corners.of_schedule(machine.file);
+        }
+        corners
     }
 
     /// When the motor is switched off, and when the brake closes.
-    pub(super) fn halts(&self) -> Vec<f64> {
+    fn halts(&self) -> Vec<f64> {
         let halt = self.simulation.halt;
         let times = halt.map(|halt| [halt.time, halt.time + halt.brake_delay]);
         times.into_iter().flatten().collect()
-    }
-
-    /// The columns of a row.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let [speed, acceleration] = self.axis.coordinate.rates();
-        let (motor, unit) = if self.simulation.drives_a_slide(self.machines.first) {
-            ("motor force", "N")
-        } else {
-            ("motor torque", "N m")
-        };
-        let coordinate = self.coordinate();
-        let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
-        let own = [
-            self.axis.column(),
-            speed,
-            acceleration,
-            Column::new(Quantity::MotorEffort, motor, unit),
-            Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
-        ];
-        let beside = self.machines.beside().iter().enumerate();
-        let positions = beside.map(|(k, machine)| {
-            let column = machine.file.axis().column();
-            Column::other(format!("{} {}", beside_name(k), column.name), column.unit)
-        });
-        own.into_iter().chain(positions).collect()
-    }
-
-    /// That of the drive link.
-    fn coordinate(&self) -> Coordinate {
-        self.machines.first.machine.mechanism().coordinate()
-    }
-
-    /// The row of a state with its motor torque.
-    pub(super) fn written(&self, [phi, omega, alpha]: [f64; 3], torque: f64) -> Result<Row, Error> {
-        let [inertia, potential] = self.inertia(phi)?;
-        let shown = self.axis.state(&Moving { phi, omega, alpha });
-        let own = [
-            self.axis.shown(phi),
-            shown.omega,
-            shown.alpha,
-            torque,
-            inertia,
-        ];
-        let beside = self.machines.beside().iter();
-        let positions = beside.map(|machine| {
-            let [phi, ..] = machine.state([phi, omega, alpha]);
-            machine.file.axis().shown(phi)
-        });
-        Ok(Row {
-            figures: own.into_iter().chain(positions).collect(),
-            kinetic: 0.5 * inertia * omega * omega,
-            potential,
-        })
     }
 }

@@ -5,11 +5,12 @@ mod rows;
 mod start;
 mod stops;
 
-pub(in crate::analysis) use rows::{Row, Works, cells, heads};
+pub(in crate::analysis) use rows::{Row, Terms, Works, cells, heads};
 
 use jred::Error;
 
 use super::SimulationError;
+use super::clock::{Corners, EDGE, Moment};
 use super::error::stopped;
 use super::geared::Together;
 use super::observe::{Controlling, Observer, Working};
@@ -23,22 +24,19 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
 
-/// A hair beside a corner, per second of time: what jumps there belongs to both sides.
-const EDGE: f64 = 1e-13;
-
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
 pub(super) const HAIR: f64 = 1e-12;
 
 /// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work
 /// of the motor, and of the brake after it, the work of the process loads, and the losses (J).
 ///
-/// `direction` is the one of the drive link, which friction opposes: +1, −1, or 0 where friction holds it.
+/// The direction of a [`Moment`] is the one of the drive link, which friction opposes.
 pub(in crate::analysis) trait Plant<const N: usize> {
     /// The state at the start.
     fn start(&self) -> Result<[f64; N], Error>;
 
-    /// y′ at the time `t`.
-    fn slope(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<[f64; N], Error>;
+    /// y′ at an instant.
+    fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error>;
 
     /// φ and ω of the drive link.
     fn link(&self, t: f64, y: &[f64; N]) -> Result<[f64; 2], Error>;
@@ -46,25 +44,35 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// The state with another φ and ω of the drive link.
     fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error>;
 
+    /// Where in y two values are those of guests: the energy that payloads have brought, and the work of the axes that move carriages (J).
+    fn guests(&self) -> Option<usize> {
+        None
+    }
+
     /// α of the drive link in motion.
-    fn alpha(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<f64, Error>;
+    fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error>;
+
+    /// Whether the drive link, at rest but for a hair of speed in this direction, starts to move that way.
+    fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
+        Ok(self.alpha(moment, y)? * moment.direction > 0.0)
+    }
 
     /// Refuses a state that the equations do not describe.
-    fn check(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<(), SimulationError>;
+    fn check(&self, moment: &Moment, y: &[f64; N]) -> Result<(), SimulationError>;
 
-    /// Times at which y′ has a corner or a jump (s), in any order: no step passes over one.
-    fn corners(&self) -> Vec<f64>;
+    /// Times at which y′ has a corner or a jump (s): no step passes over one.
+    fn corners(&self) -> Corners;
 
     /// The machines that move.
     fn machines(&self) -> Together<'_>;
 
     /// What the motor does, if there is one to look at.
-    fn working(&self, _direction: f64, _t: f64, _y: &[f64; N]) -> Result<Option<Working>, Error> {
+    fn working(&self, _moment: &Moment, _y: &[f64; N]) -> Result<Option<Working>, Error> {
         Ok(None)
     }
 
-    /// What is missing for the motor to drive the machine on from rest, where it has no controller.
-    fn missing(&self, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
+    /// What is missing for the motor to drive the machine on from rest at a time, where it has no controller.
+    fn missing(&self, _t: f64, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
         Ok(None)
     }
 
@@ -72,7 +80,7 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     fn heads(&self) -> Vec<Column>;
 
     /// What is written about a state.
-    fn row(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<Row, Error>;
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error>;
 }
 
 /// Runs a simulation.
@@ -86,8 +94,8 @@ pub(super) fn run<const N: usize>(
 ) -> Result<Simulated, SimulationError> {
     let machines = plant.machines();
     let file = machines.first;
-    let mut corners = plant.corners();
-    corners.sort_by(f64::total_cmp);
+    let corners = plant.corners();
+    let [has_payloads, has_carriages] = machines.guests();
     let mut run = Run {
         plant,
         file,
@@ -125,8 +133,14 @@ pub(super) fn run<const N: usize>(
     }
     let figures = plant.heads().into_iter().chain(run.observer.columns());
     let has_brake = (simulation.halt).is_some_and(|halt| halt.brake_torque != 0.0);
-    let mut columns = Columns::new(heads(figures.collect(), has_brake));
+    let terms = Terms {
+        brake: has_brake,
+        payloads: has_payloads,
+        carriages: has_carriages,
+    };
+    let mut columns = Columns::new(heads(figures.collect(), terms));
     let mut states = Vec::new();
+    let mut moments = Vec::new();
     let steps = (simulation.duration / simulation.output_step)
         .round()
         .max(1.0) as usize;
@@ -138,11 +152,13 @@ pub(super) fn run<const N: usize>(
         let step = run.output_step(&corners, simulation.halt, [t, end], y);
         let row = step.and_then(|state| {
             y = state;
-            let mut row = plant.row(run.direction, end, &y)?;
-            if let Some(working) = plant.working(run.direction, end, &y)? {
+            let at = run.at(end, &y)?;
+            let mut row = plant.row(&at.moment, &y)?;
+            if let Some(working) = plant.working(&at.moment, &y)? {
                 row.figures.extend(run.observer.figures(&working));
             }
-            states.push(run.at(end, &y)?.state);
+            states.push(at.state);
+            moments.push(at.moment);
             Ok(row)
         });
         let row = match row {
@@ -153,14 +169,17 @@ pub(super) fn run<const N: usize>(
             }
         };
         t = end;
-        let energy = row.kinetic + row.potential;
+        let energy = row.kinetic + row.beyond + row.potential;
         let start = *start_energy.get_or_insert(energy);
         // Once it is switched off the motor does nothing: what is done at its shaft then is the brake's.
         let [at_shaft, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
         let motor = run.driven.filter(|_| has_brake).unwrap_or(at_shaft);
+        let guest = |k: usize, has: bool| plant.guests().filter(|_| has).map(|at| y[at + k]);
         let works = Works {
             motor,
             brake: has_brake.then_some(at_shaft - motor),
+            payloads: guest(0, has_payloads),
+            carriages: guest(1, has_carriages),
             process,
             losses,
         };
@@ -174,6 +193,7 @@ pub(super) fn run<const N: usize>(
         torque_limit: run.controlling.limit,
         following: run.controlling.following,
         states,
+        moments,
         ended,
     })
 }
@@ -208,7 +228,7 @@ impl<P> Run<'_, P> {
     /// Integrates over an output step, from corner to corner.
     fn output_step<const N: usize>(
         &mut self,
-        corners: &[f64],
+        corners: &Corners,
         halt: Option<Halt>,
         [mut t, end]: [f64; 2],
         mut y: [f64; N],
@@ -217,14 +237,13 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         loop {
-            let passed = corners.partition_point(|at| *at <= t);
-            let before = passed.checked_sub(1).map(|last| corners[last]);
-            let after = corners.get(passed).copied();
+            let [before, after] = corners.around(t);
             let hair = EDGE * (1.0 + t);
-            self.inside = [
+            let inside = [
                 before.map_or(f64::NEG_INFINITY, |at| at + hair),
                 after.map_or(f64::INFINITY, |at| at - hair),
             ];
+            y = self.enter(inside, t, y)?;
             if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {
                 let [phi, omega] = self.plant.link(t, &y)?;
                 self.halt = Some([t, phi]);
@@ -339,7 +358,7 @@ impl<P> Run<'_, P> {
         }
         // Counted from here, short intervals keep all their digits.
         let steps = self.accuracy.steps(
-            |x, y| self.plant.slope(self.direction, self.within(t + x), y),
+            |x, y| self.plant.slope(&self.moment(t + x), y),
             *y,
             end - t,
             |x, y| self.is_over(t + x, y),
@@ -363,6 +382,35 @@ impl<P> Run<'_, P> {
         Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
     }
 
+    /// Goes on in another smooth stretch, between these times. What payloads bring where one comes, and take away, is theirs.
+    fn enter<const N: usize>(
+        &mut self,
+        inside: [f64; 2],
+        t: f64,
+        mut y: [f64; N],
+    ) -> Result<[f64; N], Error>
+    where
+        P: Plant<N>,
+    {
+        let before = self.moment(t);
+        self.inside = inside;
+        let after = self.moment(t);
+        if let Some(at) = self.plant.guests().filter(|_| before.t < after.t) {
+            let energy = |moment: &Moment| -> Result<f64, Error> {
+                let row = self.plant.row(moment, &y)?;
+                Ok(row.kinetic + row.beyond + row.potential)
+            };
+            let brought = energy(&after)? - energy(&before)?;
+            y[at] += brought;
+        }
+        Ok(y)
+    }
+
+    /// The instant of a time inside the smooth stretch around.
+    fn moment(&self, t: f64) -> Moment {
+        Moment::new(self.within(t), self.direction)
+    }
+
     /// A time inside the smooth stretch around.
     fn within(&self, t: f64) -> f64 {
         let [from, to] = self.inside;
@@ -374,13 +422,14 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         let [phi, omega] = self.plant.link(t, y)?;
+        let moment = self.moment(t);
         let alpha = if self.direction == 0.0 {
             0.0
         } else {
-            self.plant.alpha(self.direction, t, y)?
+            self.plant.alpha(&moment, y)?
         };
         let state = [phi, omega, alpha];
-        Ok(At { t, state })
+        Ok(At { moment, state })
     }
 
     /// Refuses the way from one step to the next where a joint lets go or the equations do not hold.
@@ -393,7 +442,7 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         for (t, y) in [from, to] {
-            self.plant.check(self.direction, *t, y)?;
+            self.plant.check(&self.moment(*t), y)?;
         }
         self.observe(from, to)?;
         if self.watch.is_idle() || self.direction == 0.0 {
@@ -404,7 +453,7 @@ impl<P> Run<'_, P> {
             let share = (t - from.0) / (to.0 - from.0);
             let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
             let y = self.plant.with_link(t, &y, link)?;
-            Ok(self.plant.alpha(self.direction, t, &y)?)
+            Ok(self.plant.alpha(&self.moment(t), &y)?)
         })
     }
 }

@@ -1,7 +1,10 @@
 //! What a simulation gives.
 
 use super::SimulationError;
+use super::clock::Moment;
+use super::geared::Geared;
 use crate::model::coordinate::Coordinate;
+use crate::model::schedule::Now;
 use crate::number::columns::Columns;
 
 /// A motion, as far as it came.
@@ -21,6 +24,8 @@ pub struct Simulated {
     pub following: Option<Following>,
     /// φ, ω, α of the drive link in each row.
     pub states: Vec<[f64; 3]>,
+    /// When that is, and which way it moves.
+    pub moments: Vec<Moment>,
     /// Why the motion ends before its time.
     pub ended: Option<SimulationError>,
 }
@@ -92,6 +97,16 @@ pub struct Following {
 }
 
 impl Simulated {
+    /// For each row, the instant of a machine, and φ, ω and α of its drive link.
+    pub fn states_of(&self, machine: &Geared) -> Vec<(Now, [f64; 3])> {
+        let rows = self.moments.iter().zip(&self.states);
+        rows.map(|(moment, state)| {
+            let state = machine.state(*state);
+            (moment.now(machine, state[1]), state)
+        })
+        .collect()
+    }
+
     /// The columns with position, speed and acceleration of the drive link, whatever people speak of: for figures over its angle.
     pub fn columns_of_drive(&self, drive: Coordinate) -> Columns {
         let [speed, acceleration] = drive.rates();

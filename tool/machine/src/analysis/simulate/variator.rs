@@ -7,6 +7,7 @@ use jred::mechanism::TrainOutput;
 use jred::number::RangeError;
 
 use super::SimulationError;
+use super::clock::{Corners, Moment};
 use super::geared::Together;
 use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
@@ -209,9 +210,9 @@ impl run::Plant<7> for Plant<'_> {
         Ok([0.0, first, self.simulation.start_angle, own, 0.0, 0.0, 0.0])
     }
 
-    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
-        let now = self.instant(direction, t, y)?;
-        let held = direction == 0.0;
+    fn slope(&self, moment: &Moment, y: &State) -> Result<State, Error> {
+        let now = self.instant(moment.direction, moment.t, y)?;
+        let held = moment.direction == 0.0;
         let free = if held && !self.creeps() { 0.0 } else { 1.0 };
         let moving = if held { 0.0 } else { 1.0 };
         let second = if self.creeps() { now.alpha[1] } else { 0.0 };
@@ -247,21 +248,21 @@ impl run::Plant<7> for Plant<'_> {
         Ok(y)
     }
 
-    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.instant(direction, t, y)?.alpha[2])
+    fn alpha(&self, moment: &Moment, y: &State) -> Result<f64, Error> {
+        Ok(self.instant(moment.direction, moment.t, y)?.alpha[2])
     }
 
-    fn check(&self, direction: f64, t: f64, y: &State) -> Result<(), SimulationError> {
-        let now = self.instant(direction, t, y)?;
+    fn check(&self, moment: &Moment, y: &State) -> Result<(), SimulationError> {
+        let now = self.instant(moment.direction, moment.t, y)?;
         if now.contact_loss < -ROUNDING * (now.contact * now.omega[0]).abs() {
             let power = -now.contact_loss;
-            return Err(SimulationError::PowerFlowsBack { t, power });
+            return Err(SimulationError::PowerFlowsBack { t: moment.t, power });
         }
         Ok(())
     }
 
-    fn corners(&self) -> Vec<f64> {
-        self.variator.ratio.breaks().collect()
+    fn corners(&self) -> Corners {
+        Corners::at(self.variator.ratio.breaks())
     }
 
     fn machines(&self) -> Together<'_> {
@@ -284,15 +285,15 @@ impl run::Plant<7> for Plant<'_> {
         ]
     }
 
-    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
+    fn row(&self, moment: &Moment, y: &State) -> Result<Row, Error> {
         let n = self.file.drive_train.ratio();
         let train = self.file.drive_train.inertia_at_input() + self.variator.inertia[1];
         let input = self.variator.inertia[0] + self.simulation.rotor_inertia;
-        let now = self.instant(direction, t, y)?;
-        let held = direction == 0.0;
+        let now = self.instant(moment.direction, moment.t, y)?;
+        let held = moment.direction == 0.0;
         let [second, omega] = if held { [0.0; 2] } else { now.omega };
         let behind = now.inertia + train * n * n;
-        let speed = self.speed_ratio(t, y)?;
+        let speed = self.speed_ratio(moment.t, y)?;
         Ok(Row {
             figures: vec![
                 y[2].to_degrees(),
@@ -308,6 +309,7 @@ impl run::Plant<7> for Plant<'_> {
             ],
             kinetic: 0.5 * (input * y[1] * y[1] + train * second * second)
                 + 0.5 * now.inertia * omega * omega,
+            beyond: 0.0,
             potential: now.potential,
         })
     }

@@ -1,11 +1,15 @@
 //! Ends a simulation where a follower leaves its cam or a rope goes slack.
 
+use std::borrow::Cow;
+
 use jred::machine::motion::{End, Polynomial};
-use jred::{Domain, Reducible as _};
+use jred::{Domain, Error, Machine, Reducible as _};
 
 use super::SimulationError;
+use super::clock::Moment;
 use super::geared::{Geared, Together};
 use crate::analysis::contact::OneWay;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::numerics;
 
 /// Between the integrator's steps the forces are looked at this many times over the drive link's range.
@@ -14,8 +18,8 @@ const PER_RANGE: f64 = 720.0;
 /// A state of the drive link.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct At {
-    /// Time (s).
-    pub(crate) t: f64,
+    /// When.
+    pub(crate) moment: Moment,
     /// φ, ω, α.
     pub(crate) state: [f64; 3],
 }
@@ -73,10 +77,10 @@ impl<'a> Watch<'a> {
         let way = between([from, to]);
         let at = |share: f64| -> Result<At, SimulationError> {
             let [phi, omega] = way(share);
-            let t = from.t + share * (to.t - from.t);
+            let t = from.moment.t + share * (to.moment.t - from.moment.t);
             let alpha = alpha(t, [phi, omega])?;
             Ok(At {
-                t,
+                moment: Moment { t, ..from.moment },
                 state: [phi, omega, alpha],
             })
         };
@@ -103,7 +107,8 @@ impl<'a> Watch<'a> {
     fn first_open(&self, at: At) -> Result<Option<(Watched<'a>, f64)>, SimulationError> {
         for watched in &self.joints {
             let Watched { machine, joint } = watched;
-            let force = joint.force(&machine.file.machine, machine.state(at.state))?;
+            let state = machine.state(at.state);
+            let force = joint.force(&*machine_at(machine, &at)?, state)?;
             if !joint.holds(force) {
                 return Ok(Some((*watched, force)));
             }
@@ -112,12 +117,21 @@ impl<'a> Watch<'a> {
     }
 }
 
-fn parted(watched: Watched, force: f64, At { t, state }: At) -> SimulationError {
+/// A machine as it is at an instant.
+fn machine_at<'f>(machine: &Geared<'f>, at: &At) -> Result<Cow<'f, Machine<AnyMechanism>>, Error> {
+    let [phi, omega, _] = machine.state(at.state);
+    let now = at.moment.now(machine, omega);
+    machine.file.machine_at(&now, phi)
+}
+
+fn parted(watched: Watched, force: f64, at: At) -> SimulationError {
     let Watched { machine, joint } = watched;
-    let [phi, omega, _] = machine.state(state);
-    match joint.parted(&machine.file.machine, [phi, omega], force) {
+    let [phi, omega, _] = machine.state(at.state);
+    let parted =
+        machine_at(&machine, &at).and_then(|machine| joint.parted(&machine, [phi, omega], force));
+    match parted {
         Ok(parted) => SimulationError::Parted {
-            t,
+            t: at.moment.t,
             what: parted.what,
             state: parted.state,
             cure: parted.cure,
@@ -128,7 +142,7 @@ fn parted(watched: Watched, force: f64, At { t, state }: At) -> SimulationError 
 
 /// φ and ω between two states, at a share of the time: the polynomial of the fifth degree with their positions, speeds and accelerations.
 pub(super) fn between([from, to]: [At; 2]) -> impl Fn(f64) -> [f64; 2] {
-    let span = to.t - from.t;
+    let span = to.moment.t - from.moment.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
     let through =
         (span > 0.0).then(|| Polynomial::between(q - p, span, End::new(v, a), End::new(w, b)));
@@ -148,7 +162,7 @@ mod tests {
     #[test]
     fn the_way_between_two_states() {
         let at = |t: f64| At {
-            t,
+            moment: Moment::new(t, 1.0),
             state: [
                 1.0 + 2.0 * t - 3.0 * t.powi(3) + t.powi(5),
                 2.0 - 9.0 * t * t + 5.0 * t.powi(4),

@@ -239,7 +239,7 @@ impl Missing {
             place: coordinate.place(phi),
             phi,
             given: turning.plant.motor(0.0)[0],
-            needed: turning.plant.keeping(turning.direction, state)?,
+            needed: turning.plant.keeping(&turning.moment(), state)?,
         })
     }
 }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use super::SteadyError;
 use super::turn::{Reached, State, Turning, starting};
-use crate::analysis::simulate::run::{Plant as _, Works, cells, heads};
+use crate::analysis::simulate::Moment;
+use crate::analysis::simulate::run::{Plant as _, Terms, Works, cells, heads};
 use crate::analysis::simulate::watch::{At, Watch};
 use crate::number::columns::Columns;
 use crate::number::numerics;
@@ -89,18 +90,26 @@ impl Figures {
             let [torque, speed] = plant.motor(turning.direction * omega);
             torque * speed
         };
-        let mut course = Columns::new(heads(plant.heads(), false));
+        let mut course = Columns::new(heads(plant.columns(), Terms::default()));
         let mut start = None;
         let (mut imbalance, mut turned_over) = (0.0f64, 0.0f64);
         for (_, (x, y)) in nodes.iter().enumerate().filter(|(k, _)| listed.contains(k)) {
             let omega = turning.direction * (2.0 * y[0]).sqrt();
             let state = [turning.at(*x), omega, y[2], y[3], y[4]];
-            let row = plant.row(turning.direction, y[1], &state)?;
+            let row = plant.row(
+                &Moment {
+                    t: y[1],
+                    ..turning.moment()
+                },
+                &state,
+            )?;
             turned_over = turned_over.max(row.kinetic);
             let start = *start.get_or_insert(row.kinetic + row.potential);
             let works = Works {
                 motor: y[2],
                 brake: None,
+                payloads: None,
+                carriages: None,
                 process: y[3],
                 losses: y[4],
             };
@@ -145,7 +154,13 @@ impl Figures {
             let alpha = turning.instant(*x, speed)?.alpha;
             let state = [turning.at(*x), turning.direction * speed, alpha];
             watch
-                .check(At { t: y[1], state })
+                .check(At {
+                    moment: Moment {
+                        t: y[1],
+                        ..turning.moment()
+                    },
+                    state,
+                })
                 .map_err(SteadyError::Parted)?;
         }
         Ok(())

@@ -159,7 +159,7 @@ impl Classical {
         // torque is constant, and no flywheel stores it.
         let asked = |x: f64| -> Result<f64, SteadyError> {
             let state = [turning.at(x), turning.direction * speed];
-            Ok(plant.resisting(turning.direction, state)? * turning.direction)
+            Ok(plant.resisting(&turning.moment(), state)? * turning.direction)
         };
         let places = turning.places(720);
         let size = turning.effort(speed);

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use jred::Error;
 
 use super::SteadyError;
-use crate::analysis::simulate::Together;
 use crate::analysis::simulate::machine::{Instant, Plant};
+use crate::analysis::simulate::{Moment, Together};
 use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
 use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
@@ -115,10 +115,15 @@ impl<'a> Turning<'a> {
         all
     }
 
+    /// In motion; nothing goes by the time.
+    pub(super) fn moment(&self) -> Moment {
+        Moment::new(0.0, self.direction)
+    }
+
     /// What happens at a position and speed.
     pub(super) fn instant(&self, x: f64, speed: f64) -> Result<Instant, Error> {
-        let state = [self.at(x), self.direction * speed, 0.0, 0.0, 0.0];
-        self.plant.instant(self.direction, &state)
+        let link = [self.at(x), self.direction * speed];
+        self.plant.instant(&self.moment(), link)
     }
 
     /// Energy turned over in a radian at this speed (J): what works are measured by.

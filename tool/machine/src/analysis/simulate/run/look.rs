@@ -2,6 +2,7 @@
 
 use super::{Plant, Run};
 use crate::analysis::simulate::SimulationError;
+use crate::analysis::simulate::clock::Moment;
 use crate::analysis::simulate::observe::{PARTS, Working};
 use crate::analysis::simulate::watch::between;
 use crate::number::numerics::dormand_prince::Point;
@@ -21,20 +22,17 @@ impl<P> Run<'_, P> {
         if !self.observed {
             return Ok(());
         }
-        let Some(first) = plant.working(direction, self.within(from.0), &from.1)? else {
+        let Some(first) = plant.working(&self.moment(from.0), &from.1)? else {
             return Ok(());
         };
         let mut before = first;
-        let ends = [
-            self.at(self.within(from.0), &from.1)?,
-            self.at(self.within(to.0), &to.1)?,
-        ];
+        let ends = [self.at(from.0, &from.1)?, self.at(to.0, &to.1)?];
         let (inside, way) = (self.inside, between(ends));
         let at = |share: f64| -> Result<Working, SimulationError> {
             let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
             let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
             let y = plant.with_link(t, &y, way(share))?;
-            let working = plant.working(direction, t, &y)?;
+            let working = plant.working(&Moment::new(t, direction), &y)?;
             Ok(working.unwrap_or(first))
         };
         let part = |k: u32| f64::from(k) / f64::from(PARTS);

@@ -3,6 +3,7 @@
 use jred::Error;
 
 use super::{HAIR, Plant, Run};
+use crate::analysis::simulate::clock::Moment;
 use crate::analysis::simulate::simulated::Stuck;
 
 impl<P> Run<'_, P> {
@@ -31,7 +32,7 @@ impl<P> Run<'_, P> {
                 continue;
             }
             let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
-            if self.plant.alpha(direction, t, &moved)? * direction > 0.0 {
+            if self.plant.starts(&Moment::new(t, direction), &moved)? {
                 return Ok(direction);
             }
         }
@@ -44,7 +45,7 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         if self.stuck.is_none() {
-            let missing = self.plant.missing(y)?;
+            let missing = self.plant.missing(self.within(time), y)?;
             self.stuck = missing.map(|missing| Stuck { time, missing });
         }
         Ok(())

@@ -1,8 +1,7 @@
 //! The ends of the drive link's way: stops that it bounces from or rests at, and the end of a stroke without any.
 
-use jred::Error;
-
 use super::{Plant, Run};
+use crate::analysis::simulate::clock::Moment;
 use crate::analysis::simulate::{Impacts, SimulationError};
 use crate::number::rounding::short;
 
@@ -64,18 +63,24 @@ impl<P> Run<'_, P> {
             count: 0,
         });
         impact.count += 1;
-        let kinetic = |y: &[f64; N]| -> Result<f64, Error> {
-            Ok(self.plant.row(self.direction, self.within(t), y)?.kinetic)
-        };
+        let row = |y: &[f64; N]| self.plant.row(&self.moment(t), y);
         let away = -omega.signum();
         let mut after = self.plant.with_link(t, y, [stop, -restitution * omega])?;
-        let back = self.plant.alpha(away, self.within(t), &after)? * away;
+        let back = (self.plant).alpha(&Moment::new(self.within(t), away), &after)? * away;
         let flight = 2.0 * restitution * omega.abs() / -back;
         let rests = restitution == 0.0 || (back < 0.0 && flight < BRIEFEST_FLIGHT);
         if rests {
             after = self.plant.with_link(t, y, [stop, 0.0])?;
         }
-        after[N - 1] += kinetic(&self.plant.with_link(t, y, [stop, omega])?)? - kinetic(&after)?;
+        let [hit, left] = [
+            row(&self.plant.with_link(t, y, [stop, omega])?)?,
+            row(&after)?,
+        ];
+        after[N - 1] += hit.kinetic - left.kinetic;
+        if let Some(at) = self.plant.guests() {
+            // The impulse with which its axis keeps the speed of a carriage along its guide.
+            after[at + 1] += left.beyond - hit.beyond;
+        }
         if rests {
             self.rests([t, stop]);
             self.direction = self.start_direction(t, &after)?;

@@ -1,0 +1,85 @@
+//! When something of a machine acts, and instants at which that is asked.
+
+/// A direction of the drive link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Travel {
+    /// φ grows.
+    Forward,
+    /// φ falls.
+    Backward,
+}
+
+/// When something of the machine acts or is there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct When {
+    /// Times [from, to) of the motion (s), the last up to its end; `None`: always.
+    pub spans: Option<Vec<[f64; 2]>>,
+    /// In one direction of travel only.
+    pub travel: Option<Travel>,
+}
+
+impl When {
+    /// Whether that is now, in a motion that lasts until `end`: at a time of a motion, if there is one, and with the speed ω, if it is known.
+    pub fn holds(&self, now: &Now, end: f64) -> bool {
+        let in_time = self.spans.as_ref().is_none_or(|spans| {
+            now.t.is_some_and(|t| {
+                let within = |[from, to]: &[f64; 2]| *from <= t && (t < *to || *to >= end);
+                spans.iter().any(within)
+            })
+        });
+        let ways = self.travel.is_none_or(|travel| {
+            let way = now.starts.or(now.moves).or(now.omega);
+            way.is_some_and(|way| match travel {
+                Travel::Forward => way > 0.0,
+                Travel::Backward => way < 0.0,
+            })
+        });
+        in_time && ways
+    }
+}
+
+/// An instant: a time of the motion (s) and a speed of the drive link, as far as they are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Now {
+    /// Time of the motion (s).
+    pub t: Option<f64>,
+    /// Speed of the drive link (rad/s, or m/s).
+    pub omega: Option<f64>,
+    /// At rest, where a move begins: its direction, as a sign.
+    pub starts: Option<f64>,
+    /// In motion: its direction, as a sign, where the speed alone does not say it because it is zero for an instant.
+    pub moves: Option<f64>,
+}
+
+impl Now {
+    /// A time of the motion, with the speed there.
+    pub const fn of(t: f64, omega: f64) -> Self {
+        Self {
+            t: Some(t),
+            omega: Some(omega),
+            starts: None,
+            moves: None,
+        }
+    }
+
+    /// A time of the motion, in motion in this direction with the speed there, which may be zero for an instant.
+    pub const fn moving(t: f64, omega: f64, direction: f64) -> Self {
+        Self {
+            moves: Some(direction),
+            ..Self::of(t, omega)
+        }
+    }
+
+    /// A time of the motion at which a move in this direction begins from rest.
+    pub const fn starting(t: f64, direction: f64) -> Self {
+        Self {
+            starts: Some(direction),
+            ..Self::of(t, 0.0)
+        }
+    }
+
+    /// Whether the drive link is known to stand still.
+    pub fn is_at_rest(&self) -> bool {
+        self.omega == Some(0.0) && self.moves.is_none()
+    }
+}
