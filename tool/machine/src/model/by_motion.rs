@@ -3,7 +3,9 @@
 use std::fmt;
 
 use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
 use crate::model::schedule::When;
+use crate::number::rounding::figure;
 
 /// A load, payload or carriage that goes by the motion.
 #[derive(Clone, Debug)]
@@ -76,12 +78,38 @@ impl MachineFile {
 
     /// What acts, or is carried, at such times, in words.
     pub fn scheduled_where(&self, such: impl Fn(&When) -> bool) -> impl Iterator<Item = String> {
+        let all = self.timed().filter(move |(.., when)| such(when));
+        all.map(|(words, _)| words)
+    }
+
+    /// Loads and payloads in words, and when they act or are carried.
+    fn timed(&self) -> impl Iterator<Item = (String, &When)> {
         let loads = self.schedule.loads().iter();
         let loads = loads.map(|load| ("load", &load.name, &load.words, &load.when));
         let payloads = self.schedule.payloads().iter();
         let payloads = payloads.map(|p| ("payload", &p.name, &p.words, &p.when));
-        let all = loads.chain(payloads).filter(move |(.., when)| such(when));
-        all.map(|(what, name, words, _)| format!("{what} \"{name}\" {words}"))
+        let all = loads.chain(payloads);
+        all.map(|(what, name, words, when)| (format!("{what} \"{name}\" {words}"), when))
+    }
+
+    /// What goes by the motion in a simulation that lasts so long (s), in words with its times, such as
+    /// `load "punch" acts in segment 2: from 0.3 s to 0.5 s, again every 1.2 s`.
+    pub fn by_the_clock(&self, duration: f64) -> impl Iterator<Item = String> {
+        let cycle = self.motion.as_ref().filter(|motion| motion.cyclic);
+        let cycle = cycle
+            .map(Motion::duration)
+            .filter(|cycle| *cycle < duration);
+        let again = cycle.map(|cycle| format!(", again every {} s", figure(cycle)));
+        let again = again.unwrap_or_default();
+        let carriages = self.carriages().zip(std::iter::repeat(again.clone()));
+        let carriages = carriages.map(|(carriage, again)| format!("{carriage}{again}"));
+        let timed = self.timed().map(move |(words, when)| {
+            let times = when.times_in_words();
+            let times = times.map_or_else(String::new, |times| format!(": {times}"));
+            let again = if when.spans.is_some() { &again } else { "" };
+            format!("{words}{times}{again}")
+        });
+        timed.chain(carriages)
     }
 
     fn by_motion(&self, which: Which) -> impl Iterator<Item = ByMotion> {

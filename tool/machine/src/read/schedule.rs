@@ -170,7 +170,7 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
     }
     if let Some(item) = segments {
         let (spans, words) = of_segments(&item, course)?;
-        part.when.spans = Some(spans);
+        (part.when.spans, part.when.by_segment) = (Some(spans), true);
         part.words.push(words);
         part.item = Some(item);
     }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
-use jred_machine::analysis::simulate::{Simulated, Together};
+use jred_machine::analysis::simulate::{Simulated, Together, beside_name};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
@@ -77,7 +77,7 @@ impl<'s> Shown<'s> {
     fn sentences(&self) -> Vec<String> {
         let axis = self.machines.first.axis();
         let effort = self.effort_unit();
-        let mut lines = Vec::new();
+        let mut lines = self.by_motion();
         if let Some(stuck) = self.found.missing {
             let missing = (stuck.missing.needed - stuck.missing.given).abs();
             lines.push(format!(
@@ -105,6 +105,21 @@ impl<'s> Shown<'s> {
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
         lines
+    }
+
+    /// What acts, is carried and moves by the clock of [motion], of each machine.
+    fn by_motion(&self) -> Vec<String> {
+        let duration = self.simulation.duration;
+        let machines = self.machines.all().enumerate();
+        let lines = machines.flat_map(|(k, machine)| {
+            let prefix = k.checked_sub(1);
+            let prefix = prefix.map_or_else(String::new, |k| format!("{}: ", beside_name(k)));
+            let lines = machine.file.by_the_clock(duration);
+            lines
+                .map(move |line| format!("{prefix}{line}"))
+                .collect::<Vec<_>>()
+        });
+        lines.collect()
     }
 
     /// The size of a way; zero if it is only a rounding error compared with the way of the whole motion.
@@ -148,6 +163,10 @@ impl<'s> Shown<'s> {
         );
         let mut after = Map::new();
         let mut add = |key: &str, value: Value| after.insert(key.to_owned(), value);
+        let by_motion = self.by_motion();
+        if !by_motion.is_empty() {
+            add("by_motion", json!(by_motion));
+        }
         if let Some(impacts) = self.found.impacts {
             let first = json!({
                 "time [s]": impacts.time,

@@ -1,6 +1,7 @@
 //! The time of a simulation as the time of [motion], and the times at which something changes by it.
 
 use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 
 use super::geared::Geared;
@@ -62,7 +63,7 @@ impl Clock {
     pub(super) fn of(file: &MachineFile) -> Self {
         let motion = file.motion.as_ref().filter(|motion| motion.cyclic);
         Self {
-            cycle: motion.map(|motion| motion.duration()),
+            cycle: motion.map(Motion::duration),
         }
     }
 
@@ -178,7 +179,7 @@ mod tests {
         }
         assert_eq!(corners.around(0.0)[0], None);
         let (cycles, time) = clock.split(0.75);
-        assert!(cycles == 2.0 && (time - 0.15).abs() < 1e-15);
+        assert!((cycles - 2.0).abs() < 1e-15 && (time - 0.15).abs() < 1e-15);
         assert_eq!(Clock { cycle: None }.split(0.75), (0.0, 0.75));
     }
 }

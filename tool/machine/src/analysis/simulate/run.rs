@@ -1,24 +1,26 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
 mod look;
+mod plant;
 mod rows;
 mod start;
 mod stops;
+mod stretch;
 
+pub(in crate::analysis) use plant::Plant;
 pub(in crate::analysis) use rows::{Row, Terms, Works, cells, heads};
 
 use jred::Error;
 
 use super::SimulationError;
-use super::clock::{Corners, EDGE, Moment};
+use super::clock::{Corners, EDGE};
 use super::error::stopped;
-use super::geared::Together;
-use super::observe::{Controlling, Observer, Working};
-use super::simulated::{Impacts, Missing, Rest, Simulated, Stuck};
+use super::observe::{Controlling, Observer};
+use super::simulated::{Impacts, Rest, Simulated, Stuck};
 use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
-use crate::number::columns::{Column, Columns};
+use crate::number::columns::Columns;
 use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
@@ -26,62 +28,6 @@ const MOST_STEPS: u32 = 1_000_000;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
 pub(super) const HAIR: f64 = 1e-12;
-
-/// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work
-/// of the motor, and of the brake after it, the work of the process loads, and the losses (J).
-///
-/// The direction of a [`Moment`] is the one of the drive link, which friction opposes.
-pub(in crate::analysis) trait Plant<const N: usize> {
-    /// The state at the start.
-    fn start(&self) -> Result<[f64; N], Error>;
-
-    /// y′ at an instant.
-    fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error>;
-
-    /// φ and ω of the drive link.
-    fn link(&self, t: f64, y: &[f64; N]) -> Result<[f64; 2], Error>;
-
-    /// The state with another φ and ω of the drive link.
-    fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error>;
-
-    /// Where in y two values are those of guests: the energy that payloads have brought, and the work of the axes that move carriages (J).
-    fn guests(&self) -> Option<usize> {
-        None
-    }
-
-    /// α of the drive link in motion.
-    fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error>;
-
-    /// Whether the drive link, at rest but for a hair of speed in this direction, starts to move that way.
-    fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
-        Ok(self.alpha(moment, y)? * moment.direction > 0.0)
-    }
-
-    /// Refuses a state that the equations do not describe.
-    fn check(&self, moment: &Moment, y: &[f64; N]) -> Result<(), SimulationError>;
-
-    /// Times at which y′ has a corner or a jump (s): no step passes over one.
-    fn corners(&self) -> Corners;
-
-    /// The machines that move.
-    fn machines(&self) -> Together<'_>;
-
-    /// What the motor does, if there is one to look at.
-    fn working(&self, _moment: &Moment, _y: &[f64; N]) -> Result<Option<Working>, Error> {
-        Ok(None)
-    }
-
-    /// What is missing for the motor to drive the machine on from rest at a time, where it has no controller.
-    fn missing(&self, _t: f64, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
-        Ok(None)
-    }
-
-    /// The columns of the figures of a [`Row`].
-    fn heads(&self) -> Vec<Column>;
-
-    /// What is written about a state.
-    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error>;
-}
 
 /// Runs a simulation.
 ///
@@ -171,18 +117,7 @@ pub(super) fn run<const N: usize>(
         t = end;
         let energy = row.kinetic + row.beyond + row.potential;
         let start = *start_energy.get_or_insert(energy);
-        // Once it is switched off the motor does nothing: what is done at its shaft then is the brake's.
-        let [at_shaft, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
-        let motor = run.driven.filter(|_| has_brake).unwrap_or(at_shaft);
-        let guest = |k: usize, has: bool| plant.guests().filter(|_| has).map(|at| y[at + k]);
-        let works = Works {
-            motor,
-            brake: has_brake.then_some(at_shaft - motor),
-            payloads: guest(0, has_payloads),
-            carriages: guest(1, has_carriages),
-            process,
-            losses,
-        };
+        let works = run.works(&y, terms);
         columns.push(cells(t, row, works, start).0);
     }
     Ok(Simulated {
@@ -225,6 +160,28 @@ struct Run<'a, P> {
 }
 
 impl<P> Run<'_, P> {
+    /// What has been done up to a state.
+    fn works<const N: usize>(&self, y: &[f64; N], terms: Terms) -> Works
+    where
+        P: Plant<N>,
+    {
+        let [at_shaft, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
+        // Once it is switched off the motor does nothing: what is done at its shaft then is the brake's.
+        let motor = self.driven.filter(|_| terms.brake).unwrap_or(at_shaft);
+        let guest = |k: usize, has: bool| {
+            let at = self.plant.guests().filter(|_| has)?;
+            y.get(at + k).copied()
+        };
+        Works {
+            motor,
+            brake: terms.brake.then_some(at_shaft - motor),
+            payloads: guest(0, terms.payloads),
+            carriages: guest(1, terms.carriages),
+            process,
+            losses,
+        }
+    }
+
     /// Integrates over an output step, from corner to corner.
     fn output_step<const N: usize>(
         &mut self,
@@ -380,41 +337,6 @@ impl<P> Run<'_, P> {
         }
         let [phi, omega] = self.plant.link(t, y)?;
         Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
-    }
-
-    /// Goes on in another smooth stretch, between these times. What payloads bring where one comes, and take away, is theirs.
-    fn enter<const N: usize>(
-        &mut self,
-        inside: [f64; 2],
-        t: f64,
-        mut y: [f64; N],
-    ) -> Result<[f64; N], Error>
-    where
-        P: Plant<N>,
-    {
-        let before = self.moment(t);
-        self.inside = inside;
-        let after = self.moment(t);
-        if let Some(at) = self.plant.guests().filter(|_| before.t < after.t) {
-            let energy = |moment: &Moment| -> Result<f64, Error> {
-                let row = self.plant.row(moment, &y)?;
-                Ok(row.kinetic + row.beyond + row.potential)
-            };
-            let brought = energy(&after)? - energy(&before)?;
-            y[at] += brought;
-        }
-        Ok(y)
-    }
-
-    /// The instant of a time inside the smooth stretch around.
-    fn moment(&self, t: f64) -> Moment {
-        Moment::new(self.within(t), self.direction)
-    }
-
-    /// A time inside the smooth stretch around.
-    fn within(&self, t: f64) -> f64 {
-        let [from, to] = self.inside;
-        t.max(from).min(to)
     }
 
     fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<At, Error>

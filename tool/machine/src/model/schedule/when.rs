@@ -1,5 +1,7 @@
 //! When something of a machine acts, and instants at which that is asked.
 
+use crate::number::rounding::figure;
+
 /// A direction of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Travel {
@@ -14,11 +16,22 @@ pub enum Travel {
 pub struct When {
     /// Times [from, to) of the motion (s), the last up to its end; `None`: always.
     pub spans: Option<Vec<[f64; 2]>>,
+    /// Whether the file names segments for these times.
+    pub by_segment: bool,
     /// In one direction of travel only.
     pub travel: Option<Travel>,
 }
 
 impl When {
+    /// The times of segments, such as `from 0.3 s to 0.5 s and from 1 s to 1.2 s`; `None` where the file says times itself, or none.
+    pub fn times_in_words(&self) -> Option<String> {
+        let spans = self.spans.as_ref().filter(|_| self.by_segment)?;
+        let spans = spans.iter();
+        let words =
+            spans.map(|[from, to]| format!("from {} s to {} s", figure(*from), figure(*to)));
+        Some(words.collect::<Vec<_>>().join(" and "))
+    }
+
     /// Whether that is now, in a motion that lasts until `end`: at a time of a motion, if there is one, and with the speed ω, if it is known.
     pub fn holds(&self, now: &Now, end: f64) -> bool {
         let in_time = self.spans.as_ref().is_none_or(|spans| {

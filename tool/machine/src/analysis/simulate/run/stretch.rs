@@ -1,0 +1,43 @@
+//! The smooth stretch of time in which the machine is: what jumps at its ends is taken from inside.
+
+use jred::Error;
+
+use super::{Plant, Run};
+use crate::analysis::simulate::clock::Moment;
+
+impl<P> Run<'_, P> {
+    /// Goes on in another smooth stretch, between these times. What payloads bring where one comes, and take away, is theirs.
+    pub(super) fn enter<const N: usize>(
+        &mut self,
+        inside: [f64; 2],
+        t: f64,
+        mut y: [f64; N],
+    ) -> Result<[f64; N], Error>
+    where
+        P: Plant<N>,
+    {
+        let before = self.moment(t);
+        self.inside = inside;
+        let after = self.moment(t);
+        if let Some(at) = self.plant.guests().filter(|_| before.t < after.t) {
+            let energy = |moment: &Moment| -> Result<f64, Error> {
+                let row = self.plant.row(moment, &y)?;
+                Ok(row.kinetic + row.beyond + row.potential)
+            };
+            let brought = energy(&after)? - energy(&before)?;
+            y[at] += brought;
+        }
+        Ok(y)
+    }
+
+    /// The instant of a time inside the smooth stretch around.
+    pub(super) fn moment(&self, t: f64) -> Moment {
+        Moment::new(self.within(t), self.direction)
+    }
+
+    /// A time inside the smooth stretch around.
+    pub(super) fn within(&self, t: f64) -> f64 {
+        let [from, to] = self.inside;
+        t.max(from).min(to)
+    }
+}
