@@ -4,7 +4,7 @@ mod carriage;
 mod payload;
 
 use jred_machine::analysis;
-use jred_machine::analysis::simulate::Missing;
+use jred_machine::analysis::simulate::{Missing, Together};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::schedule::Now;
 
@@ -217,6 +217,44 @@ fn a_load_with_a_value_at_rest_holds_between_both() {
     let Missing { given, needed, .. } = found.missing.unwrap().missing;
     near("given", given, 2.0, 1e-12);
     near("needed", needed, 3.0, 1e-12);
+}
+
+/// Two turntables on one shaft, each with a load by the clock of its own file.
+#[test]
+fn machines_on_one_shaft_each_go_by_their_own_clock() {
+    let motion = |cycle: &str| {
+        format!("[motion]\ntype = \"cycle\"\n[[motion.segment]]\ndwell = \"{cycle}\"\n")
+    };
+    let text = |from: &str, cycle: &str| {
+        let keys = format!("moment = \"-0.6 N m\"\nduring = [\"{from}\", \"{cycle}\"]");
+        under(
+            &load(&keys),
+            &motion(cycle),
+            [1.0, 0.0],
+            "duration = \"0.75 s\"",
+        )
+    };
+    let [first, second] =
+        [text("0.2 s", "0.3 s"), text("0.1 s", "0.5 s")].map(|text| parse(&text).unwrap());
+    let simulation = first.simulation.as_ref().unwrap();
+    let machines = Together::alone(&first)
+        .with([(&second, 0.0)], simulation)
+        .unwrap();
+    let found = analysis::simulate::simulate_together(&machines, simulation).unwrap();
+    let at = |loads: f64| (1.0 - 0.6 * loads) / (2.0 * J);
+    let pieces = [
+        (0.0, at(0.0)),
+        (0.1, at(1.0)),
+        (0.2, at(2.0)),
+        (0.3, at(1.0)),
+        (0.5, at(1.0)),
+        (0.6, at(1.0)),
+    ];
+    for ([phi, omega, _], row) in found.states.iter().zip(found.columns.rows()) {
+        let expected = parabolas(&pieces, [0.0; 2], row[0].unwrap());
+        within("phi", *phi, expected[0], PARABOLA);
+        within("omega", *omega, expected[1], PARABOLA);
+    }
 }
 
 /// d'Alembert's drive torque of the motion of the file at a time.

@@ -68,6 +68,7 @@ pub(super) fn run<const N: usize>(
         rest: None,
         stuck: None,
         controlling: Controlling::default(),
+        has_payloads,
         observed: simulation.control.is_some() || !observer.columns().is_empty(),
         observer,
     };
@@ -154,6 +155,7 @@ struct Run<'a, P> {
     rest: Option<Rest>,
     stuck: Option<Stuck>,
     controlling: Controlling,
+    has_payloads: bool,
     /// Whether anybody looks at the motor.
     observed: bool,
     observer: &'a mut dyn Observer,
@@ -193,7 +195,7 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        loop {
+        for _ in 0..MOST_STEPS {
             let [before, after] = corners.around(t);
             let hair = EDGE * (1.0 + t);
             let inside = [
@@ -220,6 +222,10 @@ impl<P> Run<'_, P> {
             y = self.advance(t, next, y)?;
             t = next;
         }
+        Err(SimulationError::Integrator {
+            t,
+            reason: "too much changes within one output step by the clock of [motion]",
+        })
     }
 
     /// The drive link is at rest.

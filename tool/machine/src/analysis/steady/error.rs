@@ -21,9 +21,7 @@ pub enum SteadyError {
     },
     /// The machine goes by the motion of the file, which a steady cycle does not follow.
     #[error("{what}: that goes by [motion], which a steady cycle does not follow")]
-    #[diagnostic(help(
-        "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
-    ))]
+    #[diagnostic(help("{cure}, for this command; `jred simulate` and `jred size` contain it"))]
     Scheduled {
         /// The load, payload or carriage.
         what: String,

@@ -19,7 +19,8 @@ impl<P> Run<'_, P> {
         let before = self.moment(t);
         self.inside = inside;
         let after = self.moment(t);
-        if let Some(at) = self.plant.guests().filter(|_| before.t < after.t) {
+        let comes = self.has_payloads && before.t < after.t;
+        if let Some(at) = self.plant.guests().filter(|_| comes) {
             let energy = |moment: &Moment| -> Result<f64, Error> {
                 let row = self.plant.row(moment, &y)?;
                 Ok(row.kinetic + row.beyond + row.potential)
