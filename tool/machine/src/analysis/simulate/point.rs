@@ -63,8 +63,8 @@ impl<'a> Point<'a> {
     /// The torque at the drive link that keeps its speed; only the sign of the direction counts.
     pub(super) fn resisting(&self, direction: f64, omega: f64) -> f64 {
         let point = &self.reduction;
-        let friction = point.viscous * omega + point.coulomb * sign(direction);
-        let load = point.load_torque() - friction - self.resists;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * sign(direction);
+        let load = load - self.resists;
         0.5 * point.inertia_slope * omega * omega - load
     }
 
