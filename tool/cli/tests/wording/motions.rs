@@ -8,9 +8,17 @@ fn simulate() {
         let text = Desk::machine(name).replacen("\"5 ms\"", "\"400 ms\"", 1);
         text.replacen("\"10 ms\"", "\"1 s\"", 1)
     };
+    let lift = Desk::machine("pick-and-place.toml").replacen("\"5 ms\"", "\"300 ms\"", 1);
+    let punched = "[[load]]\nname = \"punch\"\non = \"slider\"\nforce = [\"-1 N\", \"0 N\"]\ndirection = \"forward\"\n\
+        [motion]\ntype = \"constant-speed\"\nspeed = \"60 rpm\"\n";
     let desk = Desk::new()
         .with("press.toml", short("press.toml"))
         .with("variator-press.toml", short("variator-press.toml"))
+        .with("lift.toml", lift)
+        .with(
+            "variator-punch.toml",
+            format!("{}\n{punched}", short("variator-press.toml")),
+        )
         .with("gripper.toml", Desk::machine("linear-gripper.toml"))
         .with(
             "axis.toml",
@@ -54,6 +62,9 @@ fn simulate() {
             &["simulate", "press.toml", "--phase", "90 deg"],
             &["simulate", "press.toml", "gripper.toml"],
             &["simulate", "press.toml", "--drive", "sgm7j-a5a"],
+            &["simulate", "lift.toml"],
+            &["simulate", "variator-punch.toml"],
+            &["steady", "lift.toml"],
         ]),
     );
 }

@@ -134,6 +134,36 @@ fn a_carriage_that_goes_out_lets_the_arm_go() {
     assert!(imbalance(&found) < BALANCE);
 }
 
+/// An end stop takes ½·J·ω² of the arm, with the carriage on it, and nothing of the carriage's own speed, which lies across the arm here: its axis bears that.
+#[test]
+fn an_end_stop_does_not_stop_the_carriage() {
+    let text = arm(
+        "0",
+        "",
+        "start_speed = \"-3 rad/s\"\nduration = \"0.3 s\"\ntorque = \"0 N m\"\nend_stops = { at = [\"-20 deg\", \"90 deg\"], restitution = 0.5 }",
+    );
+    let text = edited(&text, "stroke =", "direction = \"90 deg\"\nstroke =");
+    let file = parse(&text).unwrap();
+    let simulation = file.simulation.as_ref().unwrap();
+    let found = jred_machine::analysis::simulate::simulate(&file, simulation).unwrap();
+    let impacts = found.impacts.unwrap();
+    assert_eq!(impacts.count, 1);
+    let [s, v] = place(impacts.time);
+    assert!(v > 0.5, "{v}");
+    let inertia = 2.0 + 3.0 * (0.04 + s * s);
+    let lost = 0.5 * inertia * impacts.speed.powi(2) * (1.0 - 0.25);
+    let found = simulate(&text);
+    near("lost", *found.get("losses [J]").last().unwrap(), lost, 1e-9);
+    // (J + m·r²)·ω + m·0.2·ṡ stays before and after the impact.
+    let momentum = |[s, v]: [f64; 2], omega: f64| (2.0 + 3.0 * (0.04 + s * s)) * omega + 0.6 * v;
+    let before = momentum([0.0, 0.0], -3.0);
+    near("speed", momentum([s, v], -impacts.speed), before, 1e-9);
+    let after = momentum([s, v], 0.5 * impacts.speed);
+    let omega = *found.get("omega [rad/s]").last().unwrap();
+    near("after", momentum(place(0.3), omega), after, 1e-9);
+    assert!(imbalance(&found) < BALANCE);
+}
+
 /// Under gravity and friction, with a motor, forward and under a controller that follows the motion.
 #[test]
 fn it_follows_its_motion() {
