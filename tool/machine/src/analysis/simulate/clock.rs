@@ -1,4 +1,4 @@
-//! The time of a simulation as the time of [motion], and the times at which something changes by it.
+//! The time of a simulation as the time of `[motion]`, and the times at which something changes by it.
 
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
@@ -52,7 +52,7 @@ impl Moment {
     }
 }
 
-/// The clock of a machine: its [motion] begins with the simulation. A cyclic one is repeated; behind the end of another one it stays at the end.
+/// The clock of a machine: its `[motion]` begins with the simulation. A cyclic one is repeated; behind the end of another one it stays at the end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     /// Of a cycle (s).

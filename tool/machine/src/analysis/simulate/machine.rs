@@ -330,7 +330,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         drives(moment)
     }
 
-    /// When something changes: by what goes by [motion], where the motor is switched off and where the brake closes.
+    /// When something changes: by what goes by `[motion]`, where the motor is switched off and where the brake closes.
     pub(super) fn changes(&self) -> Corners {
         let mut corners = Corners::at(self.halts());
         for machine in self.machines.all() {
