@@ -107,7 +107,7 @@ impl<'s> Shown<'s> {
         lines
     }
 
-    /// What acts, is carried and moves by the clock of [motion], of each machine.
+    /// What acts, is carried and moves by the clock of `[motion]`, of each machine.
     fn by_motion(&self) -> Vec<String> {
         let duration = self.simulation.duration;
         let machines = self.machines.all().enumerate();
