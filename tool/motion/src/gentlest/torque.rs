@@ -80,13 +80,14 @@ impl Torque {
         if range == 0.0 {
             return Self::of(place, acceleration, demand_of);
         }
-        let [low, high] = [-range, range].map(|by| {
+        let at = |by: f64| {
             let place = Place {
                 load: place.load + by,
                 ..*place
             };
             Self::of(&place, acceleration, &demand_of)
-        });
+        };
+        let [low, high] = [-range, range].map(at);
         let rise = high.by_load - low.by_load;
         if rise <= STRAIGHT * high.by_load {
             return Self {
@@ -94,19 +95,94 @@ impl Torque {
                 ..low
             };
         }
-        // Where the two lines meet, as a share of the range.
-        let meet = (high.value - low.value) / range - high.by_load - low.by_load;
-        let share = (0.5 - 0.5 * meet / rise).clamp(0.0, 1.0);
-        let mix = |a: f64, b: f64| share * a + (1.0 - share) * b;
-        let [left, right] = [share, 1.0 - share].map(|part| part * range);
+        let [value, by_acceleration] = mean([-range, range], [low, high], &at);
         Self {
-            // The mean of two straight lines, each over its own part.
-            value: share * (low.value + low.by_load * left)
-                + (1.0 - share) * (high.value - high.by_load * right),
-            by_load: mix(low.by_load, high.by_load),
-            by_acceleration: mix(low.by_acceleration, high.by_acceleration),
+            value,
+            by_load: 0.5 * (high.value - low.value) / range,
+            by_acceleration,
             bend: 0.5 * rise / range,
             lean: (high.by_acceleration - low.by_acceleration) / rise,
+        }
+    }
+}
+
+/// The means of the torque and of its slope by the acceleration over loads from one to another, where it is `ends`: straight lines, in each of
+/// which power flows one way. A machine with two lossy stages has two bends, which may lie in the same range.
+fn mean([from, to]: [f64; 2], ends: [Torque; 2], at: &impl Fn(f64) -> Torque) -> [f64; 2] {
+    let [low, high] = ends;
+    let width = to - from;
+    let rise = high.by_load - low.by_load;
+    if rise <= STRAIGHT * high.by_load {
+        return [0.5 * (low.value + high.value), low.by_acceleration];
+    }
+    // Where the two lines meet.
+    let left = ((low.value - high.value + high.by_load * width) / rise).clamp(0.0, width);
+    let right = width - left;
+    let corner = low.value + low.by_load * left;
+    let between = at(from + left);
+    let [first, last] = if between.value > corner + STRAIGHT * rise * width {
+        [
+            mean([from, from + left], [low, between], at),
+            mean([from + left, to], [between, high], at),
+        ]
+    } else {
+        [
+            [0.5 * (low.value + corner), low.by_acceleration],
+            [0.5 * (corner + high.value), high.by_acceleration],
+        ]
+    };
+    [0, 1].map(|k| (left * first[k] + right * last[k]) / width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Torque;
+    use crate::way::{Demand, Place};
+
+    /// Slopes by the load with what is added: two bends, at loads of 0 and 1, as of a motor behind two lossy stages.
+    const LINES: [[f64; 2]; 3] = [[0.6, 0.0], [1.0, 0.0], [1.5, -0.5]];
+
+    fn demand(place: &Place) -> Demand {
+        let torque = |[slope, more]: [f64; 2]| slope * place.load + more;
+        let by_torque = |a: &[f64; 2], b: &[f64; 2]| torque(*a).total_cmp(&torque(*b));
+        let [slope, more] = LINES.into_iter().max_by(by_torque).unwrap();
+        Demand {
+            torque: torque([slope, more]),
+            per_acceleration: slope * place.inertia,
+        }
+    }
+
+    fn rounded(load: f64, range: f64) -> Torque {
+        let place = Place {
+            phi: 0.0,
+            inertia: 2.0,
+            inertia_slope: 0.0,
+            load,
+            viscous: 0.0,
+            coulomb: 0.0,
+        };
+        Torque::rounded_of(&place, 0.0, range, demand)
+    }
+
+    /// Over a range with none, one and both of the bends it is the mean of the torque, and its slope is that of the mean.
+    #[test]
+    fn a_range_may_contain_two_bends() {
+        for range in [0.3, 0.7, 2.0] {
+            for k in -400..=600 {
+                let load = 0.005 * f64::from(k) + 1e-4;
+                let parts = 4000;
+                let mean = (0..parts).map(|k| {
+                    let by = range * ((2.0 * f64::from(k) + 1.0) / f64::from(parts) - 1.0);
+                    rounded(load + by, 0.0).value
+                });
+                let mean = mean.sum::<f64>() / f64::from(parts);
+                let own = rounded(load, range);
+                assert!((own.value - mean).abs() < 1e-6, "{own:?}, not {mean}");
+                let [before, after] = [-1e-5, 1e-5].map(|by| rounded(load + by, range).value);
+                let slope = (after - before) / 2e-5;
+                assert!((own.by_load - slope).abs() < 1e-5, "{own:?}, not {slope}");
+                assert!((own.by_acceleration - 2.0 * slope).abs() < 1e-4, "{own:?}");
+            }
         }
     }
 }
