@@ -152,10 +152,11 @@ pub fn priced(
         field: &field,
         ends: &ends,
         bound: bound.time,
+        unit: bound.time,
         rise: rise(&field, &bound.trace)? / bound.time,
         price,
     };
-    asked.solve(start)
+    asked.in_own_unit()?.solve(start)
 }
 
 /// The time (s) in which the accelerations of a motion's ends rise from zero under the limits of rates.

@@ -24,7 +24,7 @@ use super::field::{Binding, Field, Limits};
 use super::obstacle::input;
 use super::track::Ends;
 use super::{Fastest, NoMotion};
-use interior::{Point, Stuck, minimise};
+use interior::{Point, Programme as _, Stuck, minimise};
 pub use limits::Price;
 use limits::{Margins, Problem};
 use mesh::{Border, Form, Mesh};
@@ -36,8 +36,12 @@ const PIECES: [usize; 2] = [24, 1500];
 /// Least and largest share of u of the ends along which the path is that of a constant jerk.
 const RAMP: [f64; 2] = [1e-6, 0.25];
 
-/// Shares of an even pace from which the motion is sought, by the fastest one without limits of rates.
+/// Shares of an even pace from which the motion is sought: of that of the fastest one without limits of rates, and of that at which they are met.
 const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
+
+/// Shares of the fastest motion's pace between which the one is sought at which limits of rates are met, and how closely: in logarithms.
+const SLOWEST: f64 = 1e-12;
+const CLOSELY: f64 = 0.01;
 
 /// μ of the first mesh, of those that follow, and of the last: what is left of the time is about ten times as much.
 const ROUGH: [f64; 2] = [0.1, 1e-5];
@@ -63,7 +67,9 @@ pub(super) struct Asked<'a> {
     pub(super) ends: &'a Ends,
     /// Time (s) of the fastest motion without limits of rates and without heat.
     pub(super) bound: f64,
-    /// Share of that time that its accelerations at the ends take to rise under the limits of rates; 0: there are none.
+    /// Unit of the time (s) in which the motion is sought.
+    pub(super) unit: f64,
+    /// Share of `bound` that its accelerations at the ends take to rise under the limits of rates; 0: there are none.
     pub(super) rise: f64,
     /// What is least.
     pub(super) price: Price,
@@ -199,7 +205,7 @@ impl Asked<'_> {
         let [start, distance] = self.course();
         let pace = |end: usize| {
             let [_, slope, ..] = shape.series(end as f64, end as f64);
-            (self.ends.speeds[end] * self.bound / (distance.abs() * slope)).powi(2)
+            (self.ends.speeds[end] * self.unit / (distance.abs() * slope)).powi(2)
         };
         let rest = self.form_of_ends().rest;
         let form = Form {
@@ -232,8 +238,8 @@ impl Asked<'_> {
         Problem {
             field: self.field,
             mesh,
-            unit: self.bound,
-            pace: self.ends.length / self.bound,
+            unit: self.unit,
+            pace: self.ends.length / self.unit,
             price: self.price,
             range: self.range(),
             lines: [true, false].map(|braking| self.field.torque_lines(braking)),
@@ -264,19 +270,57 @@ impl Asked<'_> {
         borders
     }
 
+    /// In a unit of the time in which an even pace of 1 just meets the limits of rates: the motion may take many times as long as without them.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub(super) fn in_own_unit(mut self) -> Result<Self, NoMotion> {
+        if !self.limits().has_rates() {
+            return Ok(self);
+        }
+        let shape = Shape::new(self.form_of_ends());
+        let mesh = self.mesh(&shape, &self.first_borders(&shape))?;
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let problem = self.problem(&mesh, &margins);
+        let keeps_rates = |pace: f64| problem.keeps_rates(&mesh.even(pace * pace));
+        let [mut low, mut high] = [SLOWEST.ln(), 0.0];
+        if keeps_rates(1.0) || !keeps_rates(SLOWEST) {
+            return Ok(self);
+        }
+        while high - low > CLOSELY {
+            let middle = f64::midpoint(low, high);
+            if keeps_rates(middle.exp()) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        self.unit = self.bound / low.exp();
+        Ok(self)
+    }
+
     fn first(&self, shape: &Shape, borders: &[Border]) -> Result<Found, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let margins = vec![Margins::default(); mesh.elements.len()];
         let problem = self.problem(&mesh, &margins);
         let mut stuck = None;
-        for pace in STARTS {
+        let mut best: Option<(f64, Point)> = None;
+        // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
+        let fast = self.unit / self.bound;
+        for pace in STARTS.into_iter().flat_map(|pace| [pace * fast, pace]) {
             match minimise(&problem, &mesh.even(pace * pace), ROUGH) {
                 Ok(point) => {
-                    let time = self.time(&mesh, &point.x);
-                    return Ok(Found { mesh, point, time });
+                    let cost = problem.whole_cost(&point.x);
+                    if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                        best = Some((cost, point));
+                    }
                 }
                 Err(why) => stuck = stuck.or(Some(why)),
             }
+        }
+        if let Some((_, point)) = best {
+            let time = self.time(&mesh, &point.x);
+            return Ok(Found { mesh, point, time });
         }
         let stuck = stuck.filter(|stuck| stuck.missed > FEASIBLE);
         let phi = stuck.map_or(self.ends.from, |stuck| {
@@ -296,10 +340,13 @@ impl Asked<'_> {
         barrier: [f64; 2],
     ) -> Result<Result<Found, Stuck>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
-        let start = mesh.refined(&before.mesh, &before.point.x);
         let none = vec![Margins::default(); mesh.elements.len()];
         let margins = if margins.is_empty() { &none } else { margins };
         let problem = self.problem(&mesh, margins);
+        let mut start = mesh.refined(&before.mesh, &before.point.x);
+        if problem.at(&start).is_none() {
+            start = mesh.levelled(&before.mesh, &before.point.x);
+        }
         let point = minimise(&problem, &start, barrier)
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
         Ok(point.map(|point| {
@@ -314,7 +361,7 @@ impl Asked<'_> {
             let values = mesh.values(x, station.element);
             station.weight / dot(&station.basis[0], &values).sqrt()
         });
-        self.bound * each.sum::<f64>()
+        self.unit * each.sum::<f64>()
     }
 
     /// A load that jumps makes the torque jump, or the acceleration.

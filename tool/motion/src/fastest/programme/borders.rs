@@ -13,6 +13,9 @@ const MET: f64 = 1e-3;
 /// Share by which a state may exceed its limit between stations without swinging.
 const SWINGS: f64 = 1e-4;
 
+/// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree swings there.
+const STEEP: f64 = 0.1;
+
 /// Pieces are not cut to less than this share of u: w″ is a difference of second order, whose last digits are those of w by the square of
 /// the length. What a larger limit of the rates leaves of them is less.
 const SHORTEST: f64 = 6e-4;
@@ -108,14 +111,27 @@ impl Asked<'_> {
         changes
     }
 
-    /// Middles of the pieces in which the limit that is met changes.
+    /// Whether w changes in a piece by more than its polynomial bears.
+    fn is_steep(found: &Found, piece: usize) -> bool {
+        let shares = (0..=20).map(|k| f64::from(k) / 20.0);
+        let each = shares.map(|z| found.mesh.pace(&found.point.x, piece, z)[0]);
+        let [least, most] = each.fold([f64::INFINITY, 0.0_f64], |[least, most], w| {
+            [least.min(w), most.max(w)]
+        });
+        least <= STEEP * most
+    }
+
+    /// Middles of the pieces in which the limit that is met changes, or w by much.
     pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
         let pieces = found.mesh.elements.iter().zip(self.changes(found));
         let shortest = self.shortest();
-        let finer = pieces.filter_map(|(element, [changes, _])| {
-            let [from, to] = element.span;
-            (changes && to - from > 2.0 * shortest).then(|| inner(from.midpoint(to)))
-        });
+        let finer = pieces
+            .enumerate()
+            .filter_map(|(piece, (element, [changes, _]))| {
+                let [from, to] = element.span;
+                let is_coarse = changes || Self::is_steep(found, piece);
+                (is_coarse && to - from > 2.0 * shortest).then(|| inner(from.midpoint(to)))
+            });
         finer.collect()
     }
 

@@ -302,6 +302,24 @@ impl Problem<'_> {
     }
 }
 
+impl Problem<'_> {
+    /// Whether a motion keeps the limits of jerk and torque rate.
+    pub(super) fn keeps_rates(&self, x: &[f64]) -> bool {
+        let is_kept = |row: &Term| {
+            row.value <= 0.0 || !matches!(row.limit, Some(Binding::Jerk | Binding::TorqueRate))
+        };
+        self.at(x).is_some_and(|[_, rows]| rows.iter().all(is_kept))
+    }
+
+    /// What a motion costs.
+    pub(super) fn whole_cost(&self, x: &[f64]) -> f64 {
+        let costs = self.at(x).map(|[costs, _]| costs);
+        costs.map_or(f64::INFINITY, |costs| {
+            costs.iter().map(|cost| cost.value).sum()
+        })
+    }
+}
+
 impl Programme for Problem<'_> {
     fn mesh(&self) -> &Mesh {
         self.mesh

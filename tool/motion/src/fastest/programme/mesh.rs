@@ -199,6 +199,29 @@ impl Mesh {
         fine
     }
 
+    /// The same where the other motion's polynomials swing below zero: between its stations w is a straight line.
+    pub(super) fn levelled(&self, other: &Self, x: &[f64]) -> Vec<f64> {
+        let stations = other.stations.iter();
+        let at: Vec<[f64; 2]> = stations
+            .map(|station| {
+                let values = other.values(x, station.element);
+                [station.u, dot(&station.basis[0], &values)]
+            })
+            .collect();
+        let mut fine = vec![0.0; self.unknowns];
+        for element in &self.elements {
+            for (k, u) in [(0, element.span[0]), (4, element.span[1])] {
+                if let Value::Free(index) = element.values[k] {
+                    let next = at.partition_point(|[from, _]| *from <= u);
+                    let [[u0, w0], [u1, w1]] = [at[next.max(1) - 1], at[next.min(at.len() - 1)]];
+                    let share = if u1 > u0 { (u - u0) / (u1 - u0) } else { 0.0 };
+                    fine[index] = w0 + share * (w1 - w0);
+                }
+            }
+        }
+        fine
+    }
+
     /// The unknowns of an even pace.
     pub(super) fn even(&self, w: f64) -> Vec<f64> {
         let mut x = vec![0.0; self.unknowns];

@@ -99,7 +99,7 @@ impl Asked<'_> {
                 .pace(&found.point.x, element, from + z * (to - from));
             weight / w.sqrt()
         });
-        self.bound * (end - start) * (to - from) * each.sum::<f64>()
+        self.unit * (end - start) * (to - from) * each.sum::<f64>()
     }
 
     /// The limit that is exceeded most, and by which shares limits of state, jerk and torque rate are exceeded in each piece.
