@@ -133,7 +133,7 @@ impl Asked<'_> {
         };
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
-        for _ in 0..WIDENED {
+        for round in 0..WIDENED {
             let Ok(next) = self.next(&shape, &warm.borders, &warm.found, &warm.margins, LAST)?
             else {
                 break;
@@ -146,7 +146,7 @@ impl Asked<'_> {
                 break;
             }
             if !self.divide(&mut warm, &each) {
-                widen(&mut warm.margins, &each);
+                widen(&mut warm.margins, &each, 2 * round > WIDENED);
             }
         }
         if worst.excess > super::MOST_EXCESS {

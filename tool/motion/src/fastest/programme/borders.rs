@@ -13,6 +13,9 @@ const MET: f64 = 1e-3;
 /// Share by which a state may exceed its limit between stations without swinging.
 const SWINGS: f64 = 1e-4;
 
+/// The same of the rate of the torque, of a piece that is long.
+const CHANGES: f64 = 1e-2;
+
 /// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree swings there.
 const STEEP: f64 = 0.1;
 
@@ -84,26 +87,23 @@ impl Asked<'_> {
         let mut margins = Vec::with_capacity(warm.margins.len());
         for (k, border) in warm.borders.iter().enumerate() {
             let mut border = *border;
-            let (Some(next), Some([state, ..])) = (warm.borders.get(k + 1), exceeded.get(k)) else {
+            let (Some(next), Some([state, _, rate])) = (warm.borders.get(k + 1), exceeded.get(k))
+            else {
                 borders.push(border);
                 continue;
             };
             let own = warm.margins[k];
             margins.push(own);
             let is_long = next.u - border.u > 2.0 * shortest;
-            if *state > SWINGS && self.limits().has_rates() && (is_long || !border.is_plain) {
-                border.is_plain = true;
-                borders.push(border);
-                if is_long {
-                    margins.push(own);
-                    let middle = inner(border.u.midpoint(next.u));
-                    borders.push(Border {
-                        is_plain: true,
-                        ..middle
-                    });
-                }
-            } else {
-                borders.push(border);
+            let swings = *state > SWINGS && self.limits().has_rates();
+            border.is_plain |= swings;
+            borders.push(border);
+            if is_long && (swings || *rate > CHANGES) {
+                margins.push(own);
+                borders.push(Border {
+                    is_plain: border.is_plain,
+                    ..inner(border.u.midpoint(next.u))
+                });
             }
         }
         let changes = borders != warm.borders;

@@ -27,19 +27,17 @@ impl Worst {
     };
 }
 
-/// Widens the margins of pieces in which limits are exceeded.
-pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]]) {
+/// Widens the margins of pieces in which limits are exceeded, by as much, or late also by as much as they are: a limit that is met at a bend
+/// only between two stations may leave what it is at them far away.
+pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: bool) {
     for (margins, own) in margins.iter_mut().zip(exceeded) {
-        let [state, jerk, rate] = own.map(|excess| {
-            if excess > 0.5 * WITHIN {
-                1.1 * excess + 1e-9
-            } else {
-                0.0
+        let each = [&mut margins.state, &mut margins.jerk, &mut margins.rate];
+        for (margin, excess) in each.into_iter().zip(own) {
+            if *excess > 0.5 * WITHIN {
+                let more = if is_late { *margin } else { 0.0 };
+                *margin += 1.1 * excess + 1e-9 + more;
             }
-        });
-        margins.state += state;
-        margins.jerk += jerk;
-        margins.rate += rate;
+        }
     }
 }
 

@@ -81,8 +81,13 @@ impl Asked<'_> {
             let next = next.filter(|next| next.len() <= PIECES[1]);
             let solved = match next {
                 Some(next) => {
-                    let solved = self.next(shape, &next, &found, &[], FINER)?;
-                    solved.ok().map(|solved| (next, solved))
+                    let solved = match self.next(shape, &next, &found, &[], FINER)? {
+                        Ok(solved) => Some(solved),
+                        // Between the places at which coarse pieces are looked at their motion may be none.
+                        Err(_) if round == 0 => self.first(shape, &next).ok(),
+                        Err(_) => None,
+                    };
+                    solved.map(|solved| (next, solved))
                 }
                 None => None,
             };
