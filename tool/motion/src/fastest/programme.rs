@@ -153,6 +153,9 @@ impl Asked<'_> {
             return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
         let time = trace.duration();
+        if !time.is_finite() {
+            return Err(self.not_found(worst.limit, worst.phi, 0.0));
+        }
         let fastest = Fastest {
             time,
             error: warm.change.min(1.0) * time,
