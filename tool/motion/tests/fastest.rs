@@ -10,6 +10,7 @@ mod refusals;
 mod rms;
 mod scales;
 mod tool_speed;
+mod torque_rate;
 mod varying;
 mod winding;
 

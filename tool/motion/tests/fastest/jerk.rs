@@ -1,4 +1,4 @@
-//! Limited jerk and torque rate.
+//! Limited jerk.
 
 use std::f64::consts::TAU;
 
@@ -7,19 +7,18 @@ use jred_motion::fastest::{
 };
 
 use jred_motion::trace::Node;
-use jred_motion::way::Way;
 
 use super::{close, motor, table, task};
 use crate::support::press_file;
 
 /// What is left of the time where pieces meet the switching points.
-const NEAR: f64 = 1e-6;
+pub(super) const NEAR: f64 = 1e-6;
 
 /// Limits hold between the nodes.
 const WITHIN: f64 = 1e-6;
 
 /// The duration from rest to rest of seven segments: v = j·t₁·(t₁ + t₂), d = v·(2·t₁ + t₂ + t₃).
-fn seven(distance: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
+pub(super) fn seven(distance: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
     let t1 = (speed / jerk).sqrt().min(acceleration / jerk);
     let rise = t1 + speed / (jerk * t1);
     if speed * rise <= distance {
@@ -45,7 +44,7 @@ fn limited(speed: f64, acceleration: f64, jerk: f64) -> Limits {
     }
 }
 
-fn smooth(
+pub(super) fn smooth(
     file: &jred_machine::model::machine::MachineFile,
     motor: &jred_motion::way::Actuator,
     asked: &Task,
@@ -117,25 +116,6 @@ fn seven_segments() {
     let brake = [Binding::Jerk, Binding::Deceleration, Binding::Jerk];
     assert_eq!(limits, [&ramp[..], &[Binding::Speed], &brake].concat());
     close(found.phases[1].t[0], 0.2, 1e-2);
-}
-
-/// Of a constant inertia the torque is the acceleration: the same profile from the torque and its rate, without the limits of the drive link.
-#[test]
-fn a_torque_rate_is_a_jerk() {
-    let file = table(2.0, "");
-    let limits = Limits {
-        torque_rate: Some(40.0),
-        level_ends: true,
-        ..Limits::default()
-    };
-    for length in [3.0, 0.8] {
-        let asked = Task {
-            limits,
-            ..task(0.0, length)
-        };
-        let found = smooth(&file, &motor([8.0; 2], 2.0), &asked);
-        close(found.time, seven(length, 2.0, 4.0, 20.0), NEAR);
-    }
 }
 
 /// Between two speeds without acceleration at the ends: a rise or a fall by Δv takes Δv/a + a/j.
@@ -324,80 +304,6 @@ fn what_is_in_the_way_is_named() {
     assert!(
         refused.to_string().contains("jerk limit is exceeded by"),
         "{refused}"
-    );
-}
-
-/// The torque of the press changes as fast as allowed, from above, and never as fast as without a limit.
-#[test]
-fn a_press_with_a_torque_rate() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
-    let limits = Limits {
-        torque_rate: Some(1e3),
-        level_ends: true,
-        ..Limits::default()
-    };
-    let motor = motor([60.0, 40.0], 90.0);
-    let found = smooth(
-        &file,
-        &motor,
-        &Task {
-            limits,
-            ..task(3.2, 9.0)
-        },
-    );
-    assert!(found.time > 1.01 * found.bound.unwrap());
-    let way = Way::new(&file, motor, 1.0);
-    let torque = |node: &Node, alpha: f64| {
-        let place = way.place(node.phi).unwrap();
-        way.demand(&place, node.omega, alpha).torque
-    };
-    for pair in found.trace.nodes().windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
-        let change = torque(b, b.alpha[0]) - torque(a, a.alpha[1]);
-        assert!(
-            change.abs() <= 1e3 * b.step * (1.0 + 1e-5) + 1e-6,
-            "{change} in {}",
-            b.step
-        );
-    }
-}
-
-/// Where two parabolas of a cam meet the torque jumps; a limited jerk bears it.
-#[test]
-fn a_load_that_jumps_has_no_torque_rate() {
-    let text =
-        std::fs::read_to_string(press_file().with_file_name("cam-translating.toml")).unwrap();
-    let file = super::machine(&text.replace("modified-sine", "parabola"));
-    let limits = Limits {
-        torque_rate: Some(1e3),
-        level_ends: true,
-        ..Limits::default()
-    };
-    let motor = motor([40.0; 2], 90.0);
-    let refused = solve(
-        &file,
-        &motor,
-        &Task {
-            limits,
-            ..task(0.0, 3.0)
-        },
-    );
-    assert!(
-        matches!(refused, Err(NoMotion::LoadJumps { .. })),
-        "{refused:?}"
-    );
-    let limits = Limits {
-        jerk: Some(1e4),
-        level_ends: true,
-        ..Limits::default()
-    };
-    smooth(
-        &file,
-        &motor,
-        &Task {
-            limits,
-            ..task(0.0, 3.0)
-        },
     );
 }
 
