@@ -114,6 +114,15 @@ impl Stage {
         Ok(Self { efficiency, ..self })
     }
 
+    /// The same stage with so much inertia more on its driver's side (kg·m²), as of a flywheel there.
+    ///
+    /// # Errors
+    /// An inertia negative or not finite.
+    pub fn with_flywheel(self, inertia: f64) -> Result<Self, RangeError> {
+        let driver = self.driver + not_negative("inertia of the flywheel", inertia)?;
+        Ok(Self { driver, ..self })
+    }
+
     /// Signed ratio i = ω_driver/ω_driven.
     pub const fn ratio(&self) -> f64 {
         self.ratio

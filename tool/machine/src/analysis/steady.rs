@@ -13,7 +13,7 @@ mod turn;
 pub use cycle::{Cycle, Missing};
 pub use error::SteadyError;
 pub use figures::Figures;
-pub use flywheel::{Classical, Flywheel};
+pub use flywheel::{Classical, Flywheel, Place, Wheel};
 pub use start::Start;
 
 use jred::{Domain, Reducible as _};

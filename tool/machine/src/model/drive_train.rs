@@ -101,6 +101,18 @@ impl DriveTrain {
         })
     }
 
+    /// The same with a flywheel (kg·m²) on the shaft that drives stage `number`, counted from 0.
+    ///
+    /// # Errors
+    /// An inertia negative or not finite.
+    pub fn with_flywheel(&self, number: usize, inertia: f64) -> Result<Self, Error> {
+        let mut stages = self.stages().to_vec();
+        if let Some(stage) = stages.get_mut(number) {
+            *stage = stage.with_flywheel(inertia)?;
+        }
+        Self::new(Train::new(&stages)?, self.branches.clone())
+    }
+
     /// The stages of the chain, in order from the motor.
     pub fn stages(&self) -> &[Stage] {
         self.chain.stages()
@@ -147,6 +159,19 @@ impl DriveTrain {
         if self.branches.is_empty() {
             return self.chain.input(output);
         }
+        self.walk(output, |_| ())
+    }
+
+    /// The torque that each stage delivers to the shaft behind it (N·m), in order from the motor.
+    pub fn delivered(&self, output: &TrainOutput) -> Vec<f64> {
+        let mut delivered = Vec::with_capacity(self.steps.len());
+        self.walk(output, |torque| delivered.push(torque));
+        delivered.reverse();
+        delivered
+    }
+
+    /// From the output shaft to the input; `seen` is told what each stage delivers.
+    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(f64)) -> TrainInput {
         let mut input = TrainInput::default();
         let mut shaft = *output;
         // Per acceleration of the present shaft, which turns `ratio` times as fast as the output.
@@ -164,6 +189,8 @@ impl DriveTrain {
             else {
                 break;
             };
+            let [_, driven] = stage.inertias();
+            seen(shaft.torque + driven * shaft.alpha);
             let before = step.input(&shaft);
             input.loss += before.loss;
             let i = stage.ratio();

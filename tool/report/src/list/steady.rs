@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
 use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{Cycle, Flywheel, Start, Steady};
+use jred_machine::analysis::steady::{Cycle, Flywheel, Place, Start, Steady, Wheel};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::RPM;
@@ -224,11 +224,7 @@ fn wheel(text: &mut String, flywheel: &Flywheel, own: Option<&Cycle>) {
     let exact = if flywheel.inertia == 0.0 {
         "none is needed: the machine runs as evenly without".to_owned()
     } else {
-        format!(
-            "{} kg m^2 on the drive link, or {} kg m^2 at the motor shaft",
-            short(flywheel.inertia),
-            short(flywheel.at_motor)
-        )
+        format!("{} kg m^2 on the drive link", short(flywheel.inertia))
     };
     line(text, "exact", &exact);
     let classical = &flywheel.classical;
@@ -272,6 +268,41 @@ fn wheel(text: &mut String, flywheel: &Flywheel, own: Option<&Cycle>) {
             line(text, what, &says);
         }
     }
+    if flywheel.places.len() > 1 {
+        text.push_str("\nwhere it can sit, for the same δ\n");
+        for place in &flywheel.places {
+            let says = match &place.wheel {
+                Ok(wheel) => seat(wheel),
+                Err(why) => why.to_string(),
+            };
+            line(text, &shaft(place, flywheel), &says);
+        }
+    }
+}
+
+/// The name of the shaft.
+fn shaft(place: &Place, flywheel: &Flywheel) -> String {
+    match place.shaft {
+        last if last + 1 == flywheel.places.len() => "drive link".to_owned(),
+        0 => "motor shaft".to_owned(),
+        k => format!("behind stage {k}"),
+    }
+}
+
+fn seat(wheel: &Wheel) -> String {
+    let delivered = wheel.delivered.iter().enumerate();
+    let delivered: Vec<String> = delivered
+        .map(|(k, torque)| format!("stage {} delivers up to {} N m", k + 1, short(*torque)))
+        .collect();
+    let [rms, peak] = wheel.torque.map(short);
+    format!(
+        "{} kg m^2 at {}, {} J; {}; motor {rms} N m RMS, {peak} N m peak; losses {} J a turn",
+        short(wheel.inertia),
+        rpm(wheel.speed),
+        short(wheel.stored),
+        delivered.join(", "),
+        short(wheel.losses)
+    )
 }
 
 fn cycle_json(cycle: &Cycle) -> Value {
@@ -312,12 +343,30 @@ fn cycle_json(cycle: &Cycle) -> Value {
     })
 }
 
+fn place_json(place: &Place) -> Value {
+    let mut json = json!({ "shaft": place.shaft });
+    match &place.wheel {
+        Ok(wheel) => {
+            let [rms, peak] = wheel.torque;
+            json["inertia"] = json!(wheel.inertia);
+            json["mean_speed"] = json!(wheel.speed);
+            json["kinetic_energy"] = json!(wheel.stored);
+            json["largest_torque_delivered_by_stage"] = json!(wheel.delivered);
+            json["motor_torque"] = json!({ "rms": rms, "peak": peak });
+            json["losses"] = json!(wheel.losses);
+        }
+        Err(why) => json["no_flywheel"] = json!(why.to_string()),
+    }
+    json
+}
+
 fn flywheel_json(flywheel: &Flywheel) -> Value {
     let classical = &flywheel.classical;
     json!({
         "delta": flywheel.delta,
         "inertia": flywheel.inertia,
-        "inertia_at_motor": flywheel.at_motor,
+        "inertia_at_motor": flywheel.at_motor(),
+        "places": flywheel.places.iter().map(place_json).collect::<Vec<_>>(),
         "classical": {
             "work": classical.work,
             "speed": classical.speed,

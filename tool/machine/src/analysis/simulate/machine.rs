@@ -7,7 +7,7 @@ use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};
 use super::geared::{Geared, Together};
-use super::point::{Points, sign};
+use super::point::{Point, Points, sign};
 use crate::model::axis::Axis;
 use crate::model::motor::{Motor, loads_of};
 use crate::model::simulation::{Shaft, Simulation};
@@ -157,6 +157,25 @@ impl<'a, M: Motor> Plant<'a, M> {
             (machine, [inertia * alpha + resisting, inertia])
         });
         Ok(self.through(direction, [omega, alpha], loads).torque)
+    }
+
+    /// What each stage of the first machine's drive train delivers in a motion (N·m).
+    pub(in crate::analysis) fn delivered(
+        &self,
+        moment: &Moment,
+        [phi, omega, alpha]: [f64; 3],
+    ) -> Result<Vec<f64>, Error> {
+        let first = Geared::first(self.machines.first);
+        let link = [self.inside(phi), omega];
+        let point = Point::new(&first, moment, link)?;
+        let resisting = point.resisting(moment.direction, omega);
+        Ok(first.file.drive_train.delivered(&TrainOutput {
+            torque: point.reduction.inertia * alpha + resisting,
+            torque_per_alpha: 0.0,
+            omega,
+            alpha,
+            direction: moment.direction,
+        }))
     }
 
     /// The torque at the motor shaft that accelerates machines of these inertias, each at its drive link, without loads.

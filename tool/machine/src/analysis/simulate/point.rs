@@ -37,7 +37,11 @@ pub(super) fn sign(direction: f64) -> f64 {
 
 impl<'a> Point<'a> {
     /// That of a machine where the first drive link has this position and speed.
-    fn new(machine: &Geared<'a>, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Self, Error> {
+    pub(super) fn new(
+        machine: &Geared<'a>,
+        moment: &Moment,
+        [phi, omega]: [f64; 2],
+    ) -> Result<Self, Error> {
         let [phi, omega, _] = machine.state([phi, omega, 0.0]);
         let file = machine.file;
         let now = moment.now(machine, omega);

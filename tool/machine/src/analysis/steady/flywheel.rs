@@ -3,12 +3,14 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use jred::mechanism::Stage;
+
 use super::SteadyError;
 use super::cycle::{self, Cycle, Found};
 use super::figures::Figures;
 use super::turn::Turning;
 use crate::model::machine::{MachineFile, OverRange};
-use crate::model::simulation::Simulation;
+use crate::model::simulation::{Shaft, Simulation};
 use crate::number::numerics;
 use crate::number::rounding::short;
 
@@ -22,12 +24,41 @@ pub struct Flywheel {
     pub delta: f64,
     /// Inertia to add on the drive link (kg·m²); 0: the machine runs as evenly without.
     pub inertia: f64,
-    /// The same at the motor's shaft, divided by the squared ratio of the drive train.
-    pub at_motor: f64,
     /// The cycle with it.
     pub cycle: Cycle,
     /// The classical estimate.
     pub classical: Classical,
+    /// The shafts on which it can sit, from the motor to the drive link: this one alone if the motor acts there, or none is needed.
+    pub places: Vec<Place>,
+}
+
+/// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
+#[derive(Debug)]
+pub struct Place {
+    /// The stage that the shaft drives, counted from 0; as many as there are stages: the drive link.
+    pub shaft: usize,
+    /// The flywheel.
+    pub wheel: Result<Wheel, SteadyError>,
+}
+
+/// A flywheel on one of the shafts.
+///
+/// What it stores on its way to the machine passes the stages behind it with their losses, so that the inertia is not that on the
+/// drive link divided by the squared ratio, unless the train has no losses.
+#[derive(Clone, Debug)]
+pub struct Wheel {
+    /// Inertia for δ (kg·m²).
+    pub inertia: f64,
+    /// Mean speed of the shaft (rad/s), by magnitude.
+    pub speed: f64,
+    /// Largest torque that each stage delivers to the shaft behind it over the turn (N·m), by magnitude.
+    pub delivered: Vec<f64>,
+    /// RMS and largest torque of the motor (N·m).
+    pub torque: [f64; 2],
+    /// Losses in a turn (J).
+    pub losses: f64,
+    /// Kinetic energy of the flywheel at its mean speed (J).
+    pub stored: f64,
 }
 
 /// The flywheel by Wittenbauer's method: constant motor torque, energies at the constant mean speed.
@@ -53,87 +84,175 @@ impl Flywheel {
         delta: f64,
         positions: usize,
     ) -> Result<Self, SteadyError> {
-        let guess = Cell::new(own.map(|cycle| cycle.figures.begin));
-        let evenness = |inertia: f64| -> Result<f64, SteadyError> {
-            let file = with_flywheel(turning.machines.first, inertia)?;
-            let machines = turning.machines.with_first(&file);
-            let turning = Turning::new(
-                &machines,
-                simulation,
-                turning.plant.motor,
-                turning.direction,
-            )?;
-            let Found::Cycle(begin) = cycle::near(&turning, guess.get())? else {
-                // It stops: no evenness at all.
-                return Ok(-1.0 / delta);
-            };
-            guess.set(Some(begin));
-            Ok(1.0 / Figures::of(&turning, begin, 1)?.delta - 1.0 / delta)
-        };
-        let inertia = match own {
-            Some(cycle) if cycle.figures.delta <= delta => 0.0,
-            _ => {
-                let classical = match own {
-                    Some(cycle) => {
-                        Classical::of(turning, delta, cycle.figures.mean_speed.abs())?.inertia
-                    }
-                    None => 0.0,
-                };
-                let lacking = own.map_or(-1.0 / delta, |cycle| {
-                    1.0 / cycle.figures.delta - 1.0 / delta
-                });
-                Self::seek(turning, classical, [delta, lacking], &evenness)?
-            }
-        };
-        let file = with_flywheel(turning.machines.first, inertia)?;
-        let machines = turning.machines.with_first(&file);
-        let with = Turning::new(
-            &machines,
+        let first = turning.machines.first;
+        let stages = first.drive_train.stages();
+        let task = Task {
+            turning,
             simulation,
-            turning.plant.motor,
-            turning.direction,
-        )?;
-        let cycle = match cycle::near(&with, guess.get())? {
-            Found::Cycle(begin) => Cycle::at(&with, begin, positions)?,
-            Found::Loses(from) => return Err(cycle::standstill(&with, from)?),
+            own,
+            delta,
+            guess: Cell::new(own.map(|cycle| cycle.figures.begin)),
         };
-        let ratio = turning.machines.first.drive_train.ratio();
+        let even = own.is_some_and(|cycle| cycle.figures.delta <= delta);
+        let inertia = match own {
+            _ if even => 0.0,
+            Some(cycle) => {
+                let speed = cycle.figures.mean_speed.abs();
+                task.inertia(stages.len(), Classical::of(turning, delta, speed)?.inertia)?
+            }
+            None => task.inertia(stages.len(), 0.0)?,
+        };
+        let (cycle, last) = task.with(stages.len(), inertia, |with, begin| {
+            let cycle = Cycle::at(with, begin, positions)?;
+            let last = Wheel::of(with, stages.len(), inertia, &cycle.figures)?;
+            Ok((cycle, last))
+        })?;
+        let mut places = Vec::new();
+        if simulation.at == Shaft::Motor && inertia > 0.0 {
+            for shaft in 0..stages.len() {
+                let behind = stages.iter().skip(shaft);
+                let ratio: f64 = behind.map(Stage::ratio).product();
+                let there = task.inertia(shaft, inertia / (ratio * ratio));
+                let wheel = there.and_then(|there| {
+                    task.with(shaft, there, |with, begin| {
+                        Wheel::of(with, shaft, there, &Figures::of(with, begin, 1)?)
+                    })
+                });
+                places.push(Place { shaft, wheel });
+            }
+        }
+        places.push(Place {
+            shaft: stages.len(),
+            wheel: Ok(last),
+        });
         Ok(Self {
             delta,
             inertia,
-            at_motor: inertia / (ratio * ratio),
             classical: Classical::of(turning, delta, cycle.figures.mean_speed.abs())?,
             cycle,
+            places,
         })
     }
 
-    /// The inertia with which the evenness, lacking without a flywheel, is that asked for. 1/δ grows nearly with the inertia.
-    fn seek(
+    /// That at the motor's shaft (kg·m²), where the motor drives the machine through stages.
+    pub fn at_motor(&self) -> Option<f64> {
+        let first = self.places.first()?.wheel.as_ref().ok()?;
+        (self.places.len() > 1).then_some(first.inertia)
+    }
+}
+
+impl Wheel {
+    fn of(
         turning: &Turning,
-        classical: f64,
-        [delta, lacking]: [f64; 2],
-        evenness: &impl Fn(f64) -> Result<f64, SteadyError>,
-    ) -> Result<f64, SteadyError> {
-        let [own, _] = turning.plant.inertia(turning.at(0.0))?;
+        shaft: usize,
+        inertia: f64,
+        figures: &Figures,
+    ) -> Result<Self, SteadyError> {
+        let stages = turning.machines.first.drive_train.stages();
+        let behind = stages.iter().skip(shaft);
+        let ratio: f64 = behind.map(Stage::ratio).product();
+        let speed = (figures.mean_speed * ratio).abs();
+        let mut delivered = vec![0.0f64; stages.len()];
+        for (x, y) in figures.nodes.iter().filter(|_| !stages.is_empty()) {
+            let omega = (2.0 * y[0]).sqrt();
+            let alpha = turning.instant(*x, omega)?.alpha;
+            let state = [turning.at(*x), turning.direction * omega, alpha];
+            let now = turning.plant.delivered(&turning.moment(), state)?;
+            for (most, now) in delivered.iter_mut().zip(now) {
+                *most = most.max(now.abs());
+            }
+        }
+        let [_, rms, peak] = figures.torque;
+        Ok(Self {
+            inertia,
+            speed,
+            delivered,
+            torque: [rms, peak],
+            losses: figures.works[2],
+            stored: 0.5 * inertia * speed * speed,
+        })
+    }
+}
+
+/// A flywheel that is sought on one shaft or another.
+struct Task<'a> {
+    turning: &'a Turning<'a>,
+    simulation: &'a Simulation,
+    /// The cycle without it.
+    own: Option<&'a Cycle>,
+    delta: f64,
+    /// The speed with which the cycle before began.
+    guess: Cell<Option<f64>>,
+}
+
+impl Task<'_> {
+    /// What is asked of the cycle with a flywheel of this inertia on a shaft; an error if the machine stops.
+    fn with<T>(
+        &self,
+        shaft: usize,
+        inertia: f64,
+        ask: impl FnOnce(&Turning, f64) -> Result<T, SteadyError>,
+    ) -> Result<T, SteadyError> {
+        self.among(shaft, inertia, |with, found| match found {
+            Found::Cycle(begin) => ask(with, begin),
+            Found::Loses(from) => Err(cycle::standstill(with, from)?),
+        })
+    }
+
+    fn among<T>(
+        &self,
+        shaft: usize,
+        inertia: f64,
+        ask: impl FnOnce(&Turning, Found) -> Result<T, SteadyError>,
+    ) -> Result<T, SteadyError> {
+        let Turning {
+            machines,
+            plant,
+            direction,
+            ..
+        } = self.turning;
+        let file = with_flywheel(machines.first, shaft, inertia)?;
+        let machines = machines.with_first(&file);
+        let with = Turning::new(&machines, self.simulation, plant.motor, *direction)?;
+        let found = cycle::near(&with, self.guess.get())?;
+        if let Found::Cycle(begin) = found {
+            self.guess.set(Some(begin));
+        }
+        ask(&with, found)
+    }
+
+    /// By how much 1/δ of the machine with this flywheel exceeds that asked for.
+    fn evenness(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
+        self.among(shaft, inertia, |with, found| {
+            Ok(match found {
+                Found::Cycle(begin) => 1.0 / Figures::of(with, begin, 1)?.delta - 1.0 / self.delta,
+                // It stops: no evenness at all.
+                Found::Loses(_) => -1.0 / self.delta,
+            })
+        })
+    }
+
+    /// The inertia with which the evenness, lacking without a flywheel, is that asked for, near a guess. 1/δ grows nearly with the inertia.
+    fn inertia(&self, shaft: usize, guess: f64) -> Result<f64, SteadyError> {
+        let [own, _] = self.turning.plant.inertia(self.turning.at(0.0))?;
+        let without = self.own.map_or(0.0, |cycle| 1.0 / cycle.figures.delta);
+        let lacking = without - 1.0 / self.delta;
         let (mut low, mut at_low) = (0.0, lacking);
-        let mut high = if classical > 0.0 {
-            1.1 * classical
-        } else {
-            own
-        };
+        let mut high = if guess > 0.0 { 1.1 * guess } else { own };
         loop {
-            let at_high = evenness(high)?;
+            let at_high = self.evenness(shaft, high)?;
             if at_high >= 0.0 {
+                let evenness = |inertia: f64| self.evenness(shaft, inertia);
                 return numerics::zero(evenness, [low, high], [at_low, at_high], 1e-13);
             }
             if high >= LARGEST {
-                let why = if at_high <= -1.0 / delta {
+                let why = if at_high <= -1.0 / self.delta {
                     "the machine stops".to_owned()
                 } else {
-                    format!("it is {}", short(1.0 / (at_high + 1.0 / delta)))
+                    format!("it is {}", short(1.0 / (at_high + 1.0 / self.delta)))
                 };
                 return Err(SteadyError::NoFlywheel {
-                    delta: short(delta),
+                    delta: short(self.delta),
                     inertia: short(high),
                     why,
                 });
@@ -144,9 +263,18 @@ impl Flywheel {
     }
 }
 
-fn with_flywheel(file: &MachineFile, inertia: f64) -> Result<MachineFile, SteadyError> {
+/// The machine with a flywheel on the shaft that drives a stage, or behind the last one on the drive link.
+fn with_flywheel(
+    file: &MachineFile,
+    shaft: usize,
+    inertia: f64,
+) -> Result<MachineFile, SteadyError> {
     let mut file = file.clone();
-    file.machine = file.machine.with_flywheel(inertia)?;
+    if shaft < file.drive_train.stages().len() {
+        file.drive_train = file.drive_train.with_flywheel(shaft, inertia)?;
+    } else {
+        file.machine = file.machine.with_flywheel(inertia)?;
+    }
     file.over_range = OverRange::default();
     Ok(file)
 }
