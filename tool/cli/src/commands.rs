@@ -19,7 +19,7 @@ pub mod vary;
 
 use std::path::Path;
 
-use miette::Result;
+use miette::{Result, miette};
 
 use crate::busy;
 use crate::commands::core_error::core_report;
@@ -27,7 +27,10 @@ use crate::options;
 use crate::output;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::inspect::Findings;
+use jred_machine::model::axis::Axis;
+use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::plain;
 use jred_machine::read;
 use jred_report::list;
 use jred_report::list::inspection;
@@ -163,4 +166,24 @@ fn warn_of_supply(drive: &Drive, file: &MachineFile) {
     if let Some(unfit) = limits.unfit(&file.rules) {
         output::say(&format!("warning: {unfit}"));
     }
+}
+
+/// A quantity of the command line.
+fn quantity(
+    name: &str,
+    text: Option<&str>,
+    read: read::Reader,
+    coordinate: Coordinate,
+) -> Result<Option<f64>> {
+    let value = text.map(|text| {
+        read(text, coordinate)
+            .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
+    });
+    value.transpose()
+}
+
+/// A speed or an acceleration of the drive link, given as one of the axis.
+fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
+    let given = quantity(name, text, read, axis.coordinate)?;
+    Ok(given.map(|rate| axis.drive_rate(rate)))
 }

@@ -14,6 +14,7 @@ mod refusals;
 mod scheduled;
 mod stops;
 mod together;
+mod winding;
 
 use std::f64::consts::{PI, TAU};
 

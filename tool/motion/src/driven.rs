@@ -250,18 +250,23 @@ impl Observer for Watch<'_> {
             MotorKind::Rotary => ("rpm", "motor speed"),
             MotorKind::Linear => ("m/s", "motor speed"),
         };
-        let mut columns = vec![Column::other(whole, unit)];
+        let mut columns = vec![Column::new(Quantity::MotorSpeed, whole, unit)];
         if self.drive.gearbox.is_some() {
-            columns.push(Column::new(Quantity::Other, "gearbox torque", "N m"));
+            columns.push(Column::new(
+                Quantity::GearboxTorque,
+                "gearbox torque",
+                "N m",
+            ));
         }
+        let warm = |name: &str, unit: &str| Column::new(Quantity::Temperature, name, unit);
         match &self.warming {
-            Some(warming) if warming.relative => columns.push(Column::other("rated rise", "%")),
+            Some(warming) if warming.relative => columns.push(warm("rated rise", "%")),
             Some(warming) => {
                 let whole = !warming.network.has_housing();
                 let name = if whole { "motor" } else { "winding" };
-                columns.push(Column::other(name, "degC"));
+                columns.push(warm(name, "degC"));
                 if warming.housing {
-                    columns.push(Column::other("housing", "degC"));
+                    columns.push(warm("housing", "degC"));
                 }
             }
             None => {}

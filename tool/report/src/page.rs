@@ -31,7 +31,7 @@ mod thinned;
 use chart::Chart;
 use drive::{Subject, TOP};
 use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
-use section::{MotionPage, Section};
+use section::MotionPage;
 
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, retime_page, steady_page};
@@ -382,8 +382,6 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 /// The page with the plots of a simulation.
 pub fn simulation_page(shown: &list::simulation::Shown) -> String {
     let file = shown.machines.first;
-    let run = (shown.found).columns_of_drive(file.machine.mechanism().coordinate());
-    let sections = figures::simulation(file, shown.simulation, &run).into_iter();
-    let sections = sections.map(|(heading, svg)| Section::of(heading, svg));
-    MotionPage::page(file, "simulation", shown.about(), "", sections.collect())
+    let sections = figures::simulation(&shown.found.columns);
+    MotionPage::page(file, "simulation", shown.about(), "", sections)
 }

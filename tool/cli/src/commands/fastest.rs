@@ -8,12 +8,11 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, drive_named, envelope, print};
+use crate::commands::{Done, drive_named, envelope, print, quantity, rate};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
 use jred::Reducible as _;
-use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
@@ -242,25 +241,6 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         limits: Limits::default(),
         endless: false,
     }))
-}
-
-fn quantity(
-    name: &str,
-    text: Option<&str>,
-    read: read::Reader,
-    coordinate: Coordinate,
-) -> Result<Option<f64>> {
-    let value = text.map(|text| {
-        read(text, coordinate)
-            .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
-    });
-    value.transpose()
-}
-
-/// A speed or an acceleration of the drive link, given as one of the axis.
-fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
-    let given = quantity(name, text, read, axis.coordinate)?;
-    Ok(given.map(|rate| axis.drive_rate(rate)))
 }
 
 /// Whether the motor turns or slides.

@@ -45,6 +45,7 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
         file.motion_or(instead)?;
     }
     let sets = Sets {
+        torques: false,
         curves: !(options.points || options.reactions || options.energy),
         links: options.links,
         points: options.points,

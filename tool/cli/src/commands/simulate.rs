@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive_named, envelope, print_parts};
+use crate::commands::{Done, drive_named, envelope, print_parts, rate};
 use crate::options::simulate::Simulate;
 use crate::output;
-use jred_machine::analysis::reduce::add_columns;
+use jred_machine::analysis::reduce::{Sets, add_columns};
 use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
@@ -31,13 +31,23 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let file = read::read(path)?;
     let others = read_all(others)?;
     output::check([("--plot", &options.plot)])?;
-    let simulation = file.simulation.as_ref().ok_or_else(|| {
+    let own = file.simulation.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
             "{} has no [simulation]",
             plain::path(path)
         )
     })?;
+    let to_speed = rate(
+        "to-speed",
+        options.to_speed.as_deref(),
+        read::drive_speed,
+        &file.axis(),
+    )?;
+    let simulation = &Simulation {
+        to_speed: to_speed.map(f64::abs),
+        ..own.clone()
+    };
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
     let (mut found, drive) = match &options.drive {
@@ -47,7 +57,13 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
             (found, Some(drive))
         }
     };
-    add_forces(&mut found, &machines, [options.points, options.reactions])?;
+    let asked = Sets {
+        torques: options.torques,
+        points: options.points,
+        reactions: options.reactions,
+        ..Sets::default()
+    };
+    widen(&mut found, &machines, asked)?;
     let shown = list::simulation::Shown {
         machines: &machines,
         simulation,
@@ -90,11 +106,8 @@ pub(super) fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>>
         .collect())
 }
 
-/// Adds the columns of points and joint forces of each machine.
-fn add_forces(found: &mut Simulated, machines: &Together, asked: [bool; 2]) -> Result<()> {
-    if !asked.contains(&true) {
-        return Ok(());
-    }
+/// Adds the columns asked for of each machine.
+fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> {
     for (k, machine) in machines.all().enumerate() {
         let prefix = k
             .checked_sub(1)

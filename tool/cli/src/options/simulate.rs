@@ -22,6 +22,12 @@ pub struct Simulate {
     /// full torque.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,
+    /// Say when the drive link, or the axis, first reaches this speed, e.g. "120 rpm", either way.
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    pub to_speed: Option<String>,
+    /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry friction.
+    #[arg(long)]
+    pub torques: bool,
     /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.
     #[arg(long)]
     pub points: bool,
@@ -34,7 +40,7 @@ pub struct Simulate {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// Write plots of speed, torque and energy as one self-contained HTML page.
+    /// Write plots of the motion, of the motor and of the energies, and of the columns added, as one self-contained HTML page.
     #[arg(long, value_name = "HTML", value_parser = super::output_file())]
     pub plot: Option<PathBuf>,
 }

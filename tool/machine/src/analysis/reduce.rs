@@ -43,6 +43,8 @@ pub struct Sets {
     pub curves: bool,
     /// Each link's share of J_red, with the curves.
     pub links: bool,
+    /// The parts of the drive torque, which the curves have as well.
+    pub torques: bool,
     /// Points and links: positions, transfer functions, velocities and accelerations.
     pub points: bool,
     /// Forces by d'Alembert's principle.
@@ -224,6 +226,7 @@ fn sets(
     let Sets {
         curves,
         links,
+        torques,
         points,
         reactions,
         energy,
@@ -233,6 +236,9 @@ fn sets(
         sets.push(Box::new(curves::Curves { links, moves }));
     } else if moves {
         sets.push(Box::new(curves::Motion));
+    }
+    if torques {
+        sets.push(Box::new(curves::Torques));
     }
     if points {
         sets.push(Box::new(points::Points { in_time }));
@@ -261,7 +267,7 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
     Ok(values)
 }
 
-/// Adds the columns of points, links and joint forces to rows of a motion, each with its instant and φ, ω and α of the drive link, under names that
+/// Adds the columns of these sets to rows of a motion, each with its instant and φ, ω and α of the drive link, under names that
 /// begin with `prefix`.
 ///
 /// # Errors
@@ -270,14 +276,9 @@ pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
     states: &[(Now, [f64; 3])],
-    ([points, reactions], prefix): ([bool; 2], &str),
+    (asked, prefix): (Sets, &str),
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let asked = Sets {
-        points,
-        reactions,
-        ..Sets::default()
-    };
     let sets = sets(&source, asked, [false, true])?;
     let heads = sets.iter().flat_map(|set| set.heads(&source));
     let heads = heads.map(|head| Column {

@@ -4,6 +4,7 @@
 //! balance closes only if motion and reduction agree.
 
 mod clock;
+mod commanded;
 mod control;
 mod error;
 mod free;
@@ -15,13 +16,15 @@ pub(super) mod run;
 mod simulated;
 mod variator;
 pub(super) mod watch;
+mod winding;
 
 pub use clock::Moment;
+use commanded::{COMMANDED, COMMANDED_WITH_GUESTS, Commanded, Commander};
 pub use error::SimulationError;
 pub use geared::{Geared, Together};
 pub use machine::beside_name;
 pub use observe::{Nobody, Observer, Working};
-pub use simulated::{Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit};
+pub use simulated::{Effort, Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit};
 
 use crate::model::by_motion::ByMotion;
 use crate::model::machine::MachineFile;
@@ -65,22 +68,36 @@ pub fn simulate_under(
     motor: &impl Motor,
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
-    use control::{CONTROLLED, CONTROLLED_WITH_GUESTS};
     use free::{PLAIN, WITH_GUESTS};
     let has_guests = machines.guests().contains(&true);
-    if let Some((control, motion)) = simulation.control.zip(machines.first.motion.as_ref()) {
-        let plant = control::Controlled::new(machines.clone(), simulation, control, motion, motor)?;
-        return if has_guests {
-            run::run::<CONTROLLED_WITH_GUESTS>(&plant, simulation, observer)
-        } else {
-            run::run::<CONTROLLED>(&plant, simulation, observer)
-        };
-    }
     let plant = machine::Plant::new(machines.clone(), simulation, motor);
+    if let Some((control, motion)) = simulation.control.zip(machines.first.motion.as_ref()) {
+        let commander = control::Cascade::new(machines, control, motion)?;
+        return commanded(plant, commander, observer);
+    }
+    if let Some(winding) = simulation.winding {
+        return commanded(plant, winding, observer);
+    }
     if has_guests {
         run::run::<WITH_GUESTS>(&plant, simulation, observer)
     } else {
         run::run::<PLAIN>(&plant, simulation, observer)
+    }
+}
+
+/// The same of a motor that has a state of its own.
+fn commanded<M: Motor, C: Commander<M>>(
+    plant: machine::Plant<M>,
+    commander: C,
+    observer: &mut dyn Observer,
+) -> Result<Simulated, SimulationError> {
+    let simulation = plant.simulation;
+    let has_guests = plant.machines.guests().contains(&true);
+    let plant = Commanded { plant, commander };
+    if has_guests {
+        run::run::<COMMANDED_WITH_GUESTS>(&plant, simulation, observer)
+    } else {
+        run::run::<COMMANDED>(&plant, simulation, observer)
     }
 }
 

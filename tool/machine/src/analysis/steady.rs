@@ -46,6 +46,8 @@ pub struct Steady {
     pub cycle: Result<Cycle, SteadyError>,
     /// The flywheel, if one was asked for.
     pub flywheel: Option<Flywheel>,
+    /// Whether the motor has a winding whose current takes time to settle, which is not counted here.
+    pub settled: bool,
 }
 
 impl Steady {
@@ -108,6 +110,7 @@ pub fn steady_together(
         return Ok(Steady {
             cycle: Ok(cycle?),
             flywheel: None,
+            settled: simulation.winding.is_some(),
         });
     };
     match cycle {
@@ -118,6 +121,7 @@ pub fn steady_together(
             Ok(Steady {
                 cycle,
                 flywheel: Some(flywheel),
+                settled: simulation.winding.is_some(),
             })
         }
     }

@@ -93,7 +93,11 @@ impl Coordinate {
                 self.pick("omega", "v"),
                 self.speed_unit(),
             ),
-            Column::other(acceleration, self.pick("rad/s^2", "m/s^2")),
+            Column::new(
+                Quantity::DriveAcceleration,
+                acceleration,
+                self.pick("rad/s^2", "m/s^2"),
+            ),
         ]
     }
 

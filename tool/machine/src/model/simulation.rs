@@ -30,10 +30,14 @@ pub struct Simulation {
     /// Torque of the motor over the speed, both at `at`. Under a controller, its limit: the same in both directions. Not given: the
     /// motor is that of a drive.
     pub torque: Option<Characteristic>,
+    /// The winding of that motor, if its current takes time to follow. Without a controller.
+    pub winding: Option<Winding>,
     /// The controller that commands the torque, if there is one.
     pub control: Option<Control>,
     /// A stop in the middle of the motion.
     pub halt: Option<Halt>,
+    /// A speed of the drive link (rad/s, or m/s), by magnitude, of which it is to be said when it is reached.
+    pub to_speed: Option<f64>,
     /// What stops the drive link at the ends of its way.
     pub end_stops: Option<EndStops>,
     /// Where the torque acts.
@@ -53,8 +57,10 @@ impl Simulation {
             duration: 1.0,
             output_step: 0.01,
             torque: Some(torque),
+            winding: None,
             control: None,
             halt: None,
+            to_speed: None,
             end_stops: None,
             at: Shaft::Motor,
             rotor_inertia: 0.0,
@@ -86,6 +92,19 @@ impl Simulation {
         let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
         coordinate == Coordinate::Length && direct
     }
+}
+
+/// The winding of a DC motor at a constant voltage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Winding {
+    /// Voltage at the terminals (V); its sign is the way in which the motor drives.
+    pub voltage: f64,
+    /// Resistance (Ω).
+    pub resistance: f64,
+    /// Inductance (H).
+    pub inductance: f64,
+    /// Torque per current (N·m/A), and voltage per speed (V·s/rad).
+    pub constant: f64,
 }
 
 /// A cascade of controllers as servo amplifiers have it, at the shaft where the torque acts: position, then speed.

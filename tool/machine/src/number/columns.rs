@@ -9,14 +9,28 @@ pub enum Quantity {
     Position,
     /// Speed of the drive link.
     DriveSpeed,
+    /// Acceleration of the drive link.
+    DriveAcceleration,
+    /// Reference less position.
+    FollowingError,
     /// Reduced inertia, or reduced mass.
     ReducedInertia,
     /// Its derivative with respect to the position.
     InertiaSlope,
     /// Torque or force that the drive link requires.
     DriveEffort,
+    /// A part of that torque or force: of the acceleration, of loads and so on.
+    EffortTerm,
     /// Torque or force of the motor.
     MotorEffort,
+    /// Torque at the output of the motor's gearbox.
+    GearboxTorque,
+    /// Speed of the motor.
+    MotorSpeed,
+    /// Current of the motor.
+    Current,
+    /// Temperature of the motor, or its rise.
+    Temperature,
     /// Coordinate x or y of a point.
     Coordinate,
     /// Transfer function x′ of a point.

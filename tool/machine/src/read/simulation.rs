@@ -1,20 +1,20 @@
 //! `[simulation]`: a free motion under a motor torque.
 
 mod control;
+mod motor;
 mod place;
 
 pub(super) use control::Around;
 
-use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
 use crate::model::simulation::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
-use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGULAR_SPEED, INERTIA, LENGTH, MASS, SHARE, TIME, TORQUE};
+use crate::units::kind::{INERTIA, LENGTH, MASS, TIME};
+use motor::effort;
 use place::Places;
 
 /// Of the integrator, unless given: golden motions come out to 3e-10 of their largest (`tests/simulate.rs`).
@@ -22,9 +22,6 @@ const TOLERANCE: f64 = 1e-12;
 
 /// The most output points of a simulation.
 const MAX_STEPS: f64 = 100_000.0;
-
-/// The most points of a torque-speed curve.
-const MAX_POINTS: usize = 1000;
 
 /// The simulation for `jred simulate`, if the file has one.
 pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>> {
@@ -104,7 +101,16 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         Some(item) => item.number([1e-13, 1e-3], "1e-12")?,
         None => TOLERANCE,
     };
+    let (torque, winding) = match torque {
+        Some(given) => (Some(given.characteristic), given.winding),
+        None => (None, None),
+    };
     let control = control::control(&section, around, (at, duration.si), torque.as_ref())?;
+    if let (Some(_), Some((_, inductance))) = (&control, &winding) {
+        return Err(inductance
+            .problem("belongs to a motor at a constant voltage", "under a controller the current follows at once")
+            .help("leave out `inductance`: the amplifier's current controller is faster than the controllers of this simulation"));
+    }
     let halt = control::halt(&section, around, duration.si)?;
     let end_stops = control::end_stops(&section, around, start_angle)?;
     section.finish()?;
@@ -114,8 +120,10 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         duration: duration.si,
         output_step: output_step.si,
         torque,
+        winding: winding.map(|(winding, _)| winding),
         control,
         halt,
+        to_speed: None,
         end_stops,
         at,
         rotor_inertia,
@@ -169,129 +177,4 @@ fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
         "start at a position within the stroke",
     )?;
     Ok([start, speed.unwrap_or(0.0)])
-}
-
-/// The torque or force over the speed; not given: that of a drive.
-fn effort(
-    section: &Section,
-    [key, curve_key]: [&'static str; 2],
-    drive: DriveLink,
-    [speed, most]: [&str; 2],
-) -> Result<Option<Characteristic>> {
-    let no_speed = format!("0 {}", drive.speed().unit);
-    let no_effort = format!("0 {}", drive.effort().unit);
-    let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
-    // A motor by its formula turns.
-    let formulas: &[&'static str] = if drive.slides() {
-        &[]
-    } else {
-        &["dc_motor", "induction_motor"]
-    };
-    let keys = [key, curve_key].into_iter().chain(formulas.iter().copied());
-    let given: Vec<(&str, Item)> = keys
-        .filter_map(|key| Some((key, section.get(key)?)))
-        .collect();
-    match given.as_slice() {
-        [] => Ok(None),
-        [(found, item)] => match *found {
-            "dc_motor" => dc_motor(item).map(Some),
-            "induction_motor" => induction_motor(item).map(Some),
-            found if found == key => Ok(Some(Characteristic::constant(
-                item.quantity(drive.effort())?.si,
-            ))),
-            _ => Ok(Some(Characteristic::Points(points(item, drive, &example)?))),
-        },
-        [(first, one), (second, other), ..] => {
-            let label = |found: &str| {
-                if found == key {
-                    format!("a constant {key}")
-                } else {
-                    format!("a {key} that depends on the speed")
-                }
-            };
-            Err(
-                Problem::new(format!("[simulation] has both `{first}` and `{second}`"))
-                    .at(one.key_span(), label(first))
-                    .at(other.key_span(), label(second))
-                    .help("keep one of them"),
-            )
-        }
-    }
-}
-
-/// The line of a DC motor.
-fn dc_motor(item: &Item) -> Result<Characteristic> {
-    let section = item.section("[simulation.dc_motor]".into())?;
-    let speed = section.quantity("no_load_speed", &ANGULAR_SPEED)?;
-    let torque = section.quantity("stall_torque", &TORQUE)?;
-    section.finish()?;
-    same_way(&speed, &torque)?;
-    Ok(Characteristic::Dc {
-        no_load_speed: speed.si,
-        stall_torque: torque.si,
-    })
-}
-
-/// An induction motor by Kloss' formula.
-fn induction_motor(item: &Item) -> Result<Characteristic> {
-    let section = item.section("[simulation.induction_motor]".into())?;
-    let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
-    let torque = section.quantity("breakdown_torque", &TORQUE)?;
-    let slip =
-        (section.require("breakdown_slip", "breakdown_slip = \"20 %\"")?).quantity(&SHARE)?;
-    section.finish()?;
-    same_way(&speed, &torque)?;
-    if !(slip.si > 0.0 && slip.si <= 1.0) {
-        let what = format!("is {}, but must be above 0 % and up to 100 %", slip.shown());
-        return Err(slip
-            .problem(&what, "no slip of breakdown")
-            .help("10 % to 40 % is usual, such as breakdown_slip = \"20 %\""));
-    }
-    Ok(Characteristic::Induction {
-        breakdown_torque: torque.si,
-        breakdown_slip: slip.si,
-        synchronous_speed: speed.si,
-    })
-}
-
-/// Refuses a motor whose torque does not drive it towards its own speed.
-fn same_way(speed: &Value, torque: &Value) -> Result<()> {
-    if speed.si * torque.si > 0.0 {
-        return Ok(());
-    }
-    let what = format!(
-        "is {} with a speed of {}: they must have the same sign and not be zero",
-        torque.shown(),
-        speed.shown()
-    );
-    Err(torque
-        .problem(&what, "torque")
-        .at(speed.span(), "speed")
-        .help("give both positive; both negative for a motor that runs backwards"))
-}
-
-fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
-    let list = curve.list("point", example)?;
-    if list.is_empty() || list.len() > MAX_POINTS {
-        let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
-        return Err(curve.problem(&what, "here").help(format!(
-            "a point is [speed, torque or force], as in {example}"
-        )));
-    }
-    let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
-    for item in list {
-        let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;
-        if let Some((before, _)) = points.last().filter(|(before, _)| speed.si <= *before) {
-            let what = format!(
-                "is {}, but must be greater than the speed of the previous point, {}",
-                speed.shown(),
-                speed.show(*before)
-            );
-            return Err(speed
-                .problem(&what, "not increasing")
-                .help("sort the points by increasing speed"));
-        }
-        points.push((speed.si, effort.si));
-    }
-    Ok(points)
 }

@@ -21,7 +21,21 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let alone = Together::alone(&file);
     let machine = alone.all().next().unwrap();
     let states = found.states_of(&machine);
-    let all = add_columns(&file, &found.columns, &states, ([true, true], "")).unwrap();
+    let all = add_columns(
+        &file,
+        &found.columns,
+        &states,
+        (
+            Sets {
+                torques: true,
+                points: true,
+                reactions: true,
+                ..Sets::default()
+            },
+            "",
+        ),
+    )
+    .unwrap();
     let at: Vec<At> = (found.states.iter())
         .map(|[phi, omega, alpha]| At {
             phi: *phi,

@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::table::output::{Format, json_parts, parts};
 use jred_machine::analysis::simulate::{Simulated, Together, beside_name};
 use jred_machine::model::axis::Axis;
+use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
 use jred_machine::number::rounding::{short, shown};
@@ -89,6 +90,8 @@ impl<'s> Shown<'s> {
                 short(missing)
             ));
         }
+        lines.extend(self.reached(&axis));
+        lines.extend(self.effort());
         lines.extend(self.torque_limit(&axis));
         if let Some(following) = self.found.following {
             lines.push(format!(
@@ -128,6 +131,54 @@ impl<'s> Shown<'s> {
         let first = positions.clone().next().unwrap_or(0.0);
         let most = positions.fold(0.0f64, |most, phi| most.max((phi - first).abs()));
         shown(axis.shown_way(way).abs(), axis.shown_way(most))
+    }
+
+    /// When the speed that was asked for is reached.
+    fn reached(&self, axis: &Axis) -> Option<String> {
+        let speed = self.simulation.to_speed?;
+        let unit = axis.coordinate.speed_unit();
+        let speed = if axis.coordinate == Coordinate::Angle {
+            format!("{} rpm", short(speed / RPM))
+        } else {
+            format!("{} {unit}", short(axis.rate(speed)))
+        };
+        Some(match self.found.reached {
+            Some(reached) => format!(
+                "{speed} are reached {} s and {} {} after the start",
+                short(reached.time),
+                self.way(axis, reached.way),
+                axis.coordinate.unit()
+            ),
+            None => format!(
+                "{speed} are not reached in {} s",
+                short(self.simulation.duration)
+            ),
+        })
+    }
+
+    /// What the motor gives at most.
+    fn effort(&self) -> Option<String> {
+        let effort = self.found.effort?;
+        let unit = self.effort_unit();
+        let speed = if self.slides() {
+            format!("{} m/s", short(effort.speed[0]))
+        } else {
+            format!("{} rpm", short(effort.speed[0] / RPM))
+        };
+        let until = if self.simulation.halt.is_some() {
+            " until it is switched off"
+        } else {
+            ""
+        };
+        Some(format!(
+            "the motor gives up to {} {unit} at {} s, RMS {} {unit}{until}, and up to {} W at {} s; its largest speed is {speed} at {} s",
+            short(effort.torque[0]),
+            short(effort.torque[1]),
+            short(effort.rms),
+            short(effort.power[0]),
+            short(effort.power[1]),
+            short(effort.speed[1]),
+        ))
     }
 
     fn effort_unit(&self) -> &'static str {
@@ -176,11 +227,36 @@ impl<'s> Shown<'s> {
             add("impacts", json!({ "count": impacts.count, "first": first }));
         }
         if self.simulation.halt.is_some() {
-            let rest = self
-                .found
-                .rest
-                .map(|rest| json!({ "time [s]": rest.time, way: axis.shown_way(rest.way) }));
+            let rest = (self.found.rest).map(
+                |rest| json!({ "time [s]": rest.time, way.as_str(): axis.shown_way(rest.way) }),
+            );
             add("rest", json!(rest));
+        }
+        if let Some(held) = self.found.held {
+            let held = json!({ "time [s]": held.time, way.as_str(): axis.shown_way(held.way) });
+            add("held", held);
+        }
+        if self.simulation.to_speed.is_some() {
+            let reached = self.found.reached.map(
+                |reached| json!({ "time [s]": reached.time, way.as_str(): axis.shown_way(reached.way) }),
+            );
+            add("reached", json!(reached));
+        }
+        if let Some(effort) = self.found.effort {
+            let unit = self.effort_unit();
+            let most = |[value, time]: [f64; 2], scale: f64, unit: &str| json!({ format!("largest [{unit}]"): value * scale, "time [s]": time });
+            let (scale, speed) = if self.slides() {
+                (1.0, "m/s")
+            } else {
+                (1.0 / RPM, "rpm")
+            };
+            let motor = json!({
+                "effort": most(effort.torque, 1.0, unit),
+                format!("RMS [{unit}]"): effort.rms,
+                "power": most(effort.power, 1.0, "W"),
+                "speed": most(effort.speed, scale, speed),
+            });
+            add("motor", motor);
         }
         if let Some(stuck) = self.found.missing {
             let effort = self.effort_unit();
@@ -265,7 +341,15 @@ impl<'s> Shown<'s> {
 
     /// The sentence about the stop.
     fn rest(&self, axis: &Axis) -> Option<String> {
-        let halt = self.simulation.halt?;
+        let Some(halt) = self.simulation.halt else {
+            let held = self.found.held.filter(|_| self.found.missing.is_none())?;
+            return Some(format!(
+                "the machine comes to rest {} s and {} {} after the start, and friction holds it",
+                short(held.time),
+                self.way(axis, held.way),
+                axis.coordinate.unit()
+            ));
+        };
         let off = format!("the motor is switched off at {} s", short(halt.time));
         Some(match self.found.rest {
             Some(rest) => format!(

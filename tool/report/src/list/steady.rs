@@ -38,6 +38,7 @@ pub fn write<'s>(
             before.insert("cycle".into(), own.map_or(Value::Null, cycle_json));
             let why = own.err().map(ToString::to_string);
             before.insert("no_cycle".into(), json!(why));
+            before.insert("inductance_left_out".into(), steady.settled.into());
             let flywheel = steady.flywheel.as_ref().map(flywheel_json);
             before.insert("flywheel".into(), json!(flywheel));
             Box::new(json_parts(course, before, Map::new()))
@@ -48,6 +49,9 @@ pub fn write<'s>(
 /// As the terminal shows it, without the course.
 pub(crate) fn text(machines: &Together, steady: &Steady) -> String {
     let mut text = format!("{}: steady cycle\n\n", machines.title());
+    if steady.settled {
+        text += "the inductance of the winding is not counted: the torque is that of the settled current at each speed\n\n";
+    }
     match &steady.cycle {
         Ok(cycle) => {
             if steady.flywheel.is_some() {

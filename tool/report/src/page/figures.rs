@@ -4,11 +4,11 @@ use jred::machine::Mechanism as _;
 use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, ChartKind};
-use crate::plot::{Axes, Axis, Series, Style, lines};
+use super::section::{Figure, Section, over};
+use crate::plot::{Axes, Axis, Series, Style};
 use jred_machine::model::coordinate::{Coordinate, whole_range};
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::simulation::Simulation;
-use jred_machine::number::columns::{Columns, Quantity};
+use jred_machine::number::columns::{Column, Columns, Quantity};
 
 /// Intervals of the figures over the range.
 const POSITIONS: usize = 360;
@@ -115,48 +115,143 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
     Ok(Chart::new(ChartKind::Course, &axes, &series))
 }
 
-/// The plots of a simulation, with their headings.
-pub(super) fn simulation(
-    file: &MachineFile,
-    simulation: &Simulation,
-    run: &Columns,
-) -> Vec<(&'static str, String)> {
-    let plot = |y: &str, quantity: Quantity| {
-        let chosen = run.of(quantity);
-        let titles: Vec<(usize, String)> = chosen.map(|(k, head)| (k, head.title())).collect();
-        let series: Vec<Series> = titles
-            .iter()
-            .map(|(k, title)| {
-                let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
-                let points = run.rows().iter();
-                let points = points.filter_map(|row| Some((value(row, 0)?, value(row, *k)?)));
-                line(title, points.collect())
-            })
-            .collect();
-        let axes = Axes {
-            title: "",
-            x: Axis::new("time [s]"),
-            y,
-        };
-        lines(&axes, &series)
+/// The sections of a simulation: what its columns hold, over the time.
+pub(super) fn simulation(run: &Columns) -> Vec<Section> {
+    let over_time = (Quantity::Time, Axis::new("time [s]"));
+    let own = |quantity: Quantity| {
+        let label = run.of(quantity).next().map(|(_, head)| label(head));
+        over(run, over_time, (&label.unwrap_or_default(), quantity))
     };
-    let (position, place, speed) = match file.machine.mechanism().coordinate() {
-        Coordinate::Angle => ("Angle of the drive link", "φ [deg]", "ω [rad/s]"),
-        Coordinate::Length => ("Position of the drive link", "s [mm]", "v [m/s]"),
-    };
-    let (effort, motor) = if simulation.drives_a_slide(file) {
-        ("Motor force", "force [N]")
-    } else {
-        ("Motor torque", "torque [N·m]")
-    };
-    vec![
-        ("Speed of the drive link", plot(speed, Quantity::DriveSpeed)),
-        (position, plot(place, Quantity::Position)),
-        (effort, plot(motor, Quantity::MotorEffort)),
-        ("Energies", plot("energy [J]", Quantity::Energy)),
+    let figure = |(quantity, caption): (Quantity, &str)| Some(Figure::new(own(quantity)?, caption));
+    let figures = |of: &[(Quantity, &str)]| of.iter().copied().filter_map(figure).collect();
+    let energies = [
+        (Quantity::Energy, "energy [J]", "Energies and works."),
         (
-            "Energy balance: zero except for the integration error",
-            plot("energy [J]", Quantity::EnergyBalance),
+            Quantity::EnergyBalance,
+            "energy [J]",
+            "Energy balance: zero except for the integration error.",
         ),
-    ]
+    ];
+    let energies = energies.into_iter().filter_map(|(quantity, y, caption)| {
+        Some(Figure::new(over(run, over_time, (y, quantity))?, caption))
+    });
+    let motion = [
+        (Quantity::Position, "Position."),
+        (Quantity::DriveSpeed, "Speed."),
+        (Quantity::DriveAcceleration, "Acceleration."),
+        (Quantity::FollowingError, "Reference less position."),
+    ];
+    let motor = [
+        (
+            Quantity::MotorEffort,
+            "What the motor gives, and the brake after it.",
+        ),
+        (Quantity::MotorSpeed, "Speed of the motor."),
+        (
+            Quantity::GearboxTorque,
+            "Torque at the output of the gearbox.",
+        ),
+        (Quantity::Temperature, "Temperature of the motor."),
+    ];
+    let sections = [
+        Section::new("Motion", figures(&motion)),
+        Section::new("Motor", figures(&motor)),
+        Section::new("Energies", energies.collect()),
+        Section::new("Parts of the drive torque", efforts(run, over_time)),
+        Section::new("Motion of points and links", motions(run, over_time)),
+        Section::new("Forces", forces(run, over_time)),
+    ];
+    let sections = sections.into_iter();
+    sections
+        .filter(|section| !section.figures.is_empty())
+        .collect()
+}
+
+/// The label of the axis of a column that stands alone.
+fn label(head: &Column) -> String {
+    head.title().replace("^2", "²").replace("N m", "N·m")
+}
+
+/// What runs along the axis, and the axis.
+pub(super) type Along<'a> = (Quantity, Axis<'a>);
+
+/// Those of these quantities that there are, each with its label and caption.
+pub(super) fn among(columns: &Columns, along: Along, of: &[(&str, Quantity, &str)]) -> Vec<Figure> {
+    let figures = of.iter().filter_map(|(y, quantity, caption)| {
+        Some(Figure::new(over(columns, along, (y, *quantity))?, *caption))
+    });
+    figures.collect()
+}
+
+fn efforts(columns: &Columns, along: Along) -> Vec<Figure> {
+    let Some((_, head)) = columns.of(Quantity::EffortTerm).next() else {
+        return Vec::new();
+    };
+    let y = format!("drive {}", unit(head));
+    let caption = "What the drive link must be given: for the acceleration, for the change of the inertia (velocity), for weight and springs \
+                   (potential), process loads, viscous and dry friction. The drive train is included, its losses are not.";
+    among(columns, along, &[(&y, Quantity::EffortTerm, caption)])
+}
+
+/// Torque or force, with its unit.
+fn unit(head: &Column) -> &'static str {
+    if head.unit == "N" {
+        "force [N]"
+    } else {
+        "torque [N·m]"
+    }
+}
+
+/// Positions, speeds and accelerations of points and links.
+pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
+    let of = [
+        (
+            "speed [m/s]",
+            Quantity::Speed,
+            "Speed of every point (magnitude).",
+        ),
+        (
+            "acceleration [m/s²]",
+            Quantity::Acceleration,
+            "Acceleration of every point (magnitude).",
+        ),
+        (
+            "angular speed [rad/s]",
+            Quantity::AngularSpeed,
+            "Angular speed of every link.",
+        ),
+        (
+            "angular acceleration [rad/s²]",
+            Quantity::AngularAcceleration,
+            "Angular acceleration of every link.",
+        ),
+    ];
+    among(columns, along, &of)
+}
+
+/// Drive, joints, shaking force.
+pub(super) fn forces(columns: &Columns, along: Along) -> Vec<Figure> {
+    if columns.of(Quantity::Force).next().is_none() {
+        return Vec::new();
+    }
+    let drive = columns.of(Quantity::DriveEffort).next();
+    let drive = drive.map_or("torque [N·m]", |(_, head)| unit(head));
+    let of = [
+        (
+            &*format!("drive {drive}"),
+            Quantity::DriveEffort,
+            "Required drive torque or force at the drive link by d'Alembert's principle, drive train included.",
+        ),
+        (
+            "force [N]",
+            Quantity::Force,
+            "Magnitude of the force in every joint, and of the shaking force of all links on the frame.",
+        ),
+        (
+            "moment [N·m]",
+            Quantity::Moment,
+            "Moments in guides and transmissions, and the shaking moment about the origin.",
+        ),
+    ];
+    among(columns, along, &of)
 }

@@ -4,11 +4,11 @@ use askama::Template;
 use jred::Error;
 
 use super::extract::{Table, largest_forces, tables};
-use super::figures::{self, line};
+use super::figures;
 use super::section::{Figure, Section};
 use crate::drawing;
 use crate::list::inspection;
-use crate::plot::{Axes, Axis, Series, lines};
+use crate::plot::Axis;
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
@@ -62,35 +62,11 @@ impl Source<'_> {
     }
 
     /// The axis, and the quantity that runs along it.
-    const fn axis(&self) -> (Axis<'static>, Quantity) {
+    const fn axis(&self) -> (Quantity, Axis<'static>) {
         match self.over {
-            Over::Time => (Axis::new("time [s]"), Quantity::Time),
-            Over::Angle => (Axis::of(self.coordinate), Quantity::Position),
+            Over::Time => (Quantity::Time, Axis::new("time [s]")),
+            Over::Angle => (Quantity::Position, Axis::of(self.coordinate)),
         }
-    }
-
-    /// The columns of a quantity that are not zero everywhere, over the axis.
-    fn plot(&self, columns: &Columns, y: &str, quantity: Quantity) -> Option<String> {
-        let (axis, along) = self.axis();
-        let (x, _) = columns.of(along).next()?;
-        let series: Vec<Series> = columns
-            .of(quantity)
-            .filter(|(k, _)| {
-                let rows = columns.rows().iter();
-                rows.filter_map(|row| row[*k]).any(|value| value != 0.0)
-            })
-            .map(|(k, head)| {
-                let rows = columns.rows().iter();
-                let points = rows.filter_map(|row| Some((row[x]?, row[k]?)));
-                line(&head.part, points.collect())
-            })
-            .collect();
-        let axes = Axes {
-            title: "",
-            x: axis,
-            y,
-        };
-        (!series.is_empty()).then(|| lines(&axes, &series))
     }
 }
 
@@ -176,47 +152,11 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         },
         POINTS,
     )?;
-    let mut motions = Vec::new();
-    let per = source.coordinate.per();
-    let mut add = |plot: Option<String>, caption: &str| {
-        motions.extend(plot.map(|svg| figure(svg, caption)));
-    };
-    if source.moves() {
-        add(
-            source.plot(&points, "speed [m/s]", Quantity::Speed),
-            "Speed of every point (magnitude).",
-        );
-        add(
-            source.plot(&points, "acceleration [m/s²]", Quantity::Acceleration),
-            "Acceleration of every point (magnitude).",
-        );
-        add(
-            source.plot(&points, "angular speed [rad/s]", Quantity::AngularSpeed),
-            "Angular speed of every link.",
-        );
-        add(
-            source.plot(
-                &points,
-                "angular acceleration [rad/s²]",
-                Quantity::AngularAcceleration,
-            ),
-            "Angular acceleration of every link.",
-        );
+    let motions = if source.moves() {
+        figures::motions(&points, source.axis())
     } else {
-        add(
-            source.plot(&points, &format!("x′ [m/{per}]"), Quantity::XSlope),
-            "Velocity transfer functions of every point, x; multiplied by the speed of the drive link they give the velocity.",
-        );
-        add(
-            source.plot(&points, &format!("y′ [m/{per}]"), Quantity::YSlope),
-            "Velocity transfer functions of every point, y.",
-        );
-        let unit = format!("ψ′ [rad/{per}]");
-        add(
-            source.plot(&points, &unit, Quantity::AngleSlope),
-            "Velocity transfer functions of every link's angle.",
-        );
-    }
+        transfers(source, &points)
+    };
     if !motions.is_empty() {
         sections.push(Section::new("Motion of points and links", motions));
     }
@@ -235,31 +175,33 @@ fn forces(source: &Source) -> Result<Section, Error> {
         },
         POINTS,
     )?;
-    let drive = match source.coordinate {
-        Coordinate::Angle => "drive torque [N·m]",
-        Coordinate::Length => "drive force [N]",
-    };
-    let plots = [
+    Ok(Section::new(
+        "Forces",
+        figures::forces(&reactions, source.axis()),
+    ))
+}
+
+/// Transfer functions of points and links.
+fn transfers(source: &Source, points: &Columns) -> Vec<Figure> {
+    let per = source.coordinate.per();
+    let of = [
         (
-            source.plot(&reactions, drive, Quantity::DriveEffort),
-            "Required drive torque or force at the drive link by d'Alembert's principle, drive train included.",
+            &*format!("x′ [m/{per}]"),
+            Quantity::XSlope,
+            "Velocity transfer functions of every point, x; multiplied by the speed of the drive link they give the velocity.",
         ),
         (
-            source.plot(&reactions, "force [N]", Quantity::Force),
-            "Magnitude of the force in every joint, and of the shaking force of all links on the frame.",
+            &*format!("y′ [m/{per}]"),
+            Quantity::YSlope,
+            "Velocity transfer functions of every point, y.",
         ),
         (
-            source.plot(&reactions, "moment [N·m]", Quantity::Moment),
-            "Moments in guides and transmissions, and the shaking moment about the origin.",
+            &*format!("ψ′ [rad/{per}]"),
+            Quantity::AngleSlope,
+            "Velocity transfer functions of every link's angle.",
         ),
     ];
-    let figures = plots.into_iter().filter_map(|(svg, caption)| {
-        Some(Figure {
-            svg: svg?,
-            caption: caption.to_owned(),
-        })
-    });
-    Ok(Section::new("Forces", figures.collect()))
+    figures::among(points, source.axis(), &of)
 }
 
 fn notes(source: &Source) -> Vec<String> {

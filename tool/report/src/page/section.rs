@@ -123,3 +123,35 @@ pub(super) fn plot(
     };
     lines(&axes, &series)
 }
+
+/// The columns of a quantity over another that are not zero everywhere, each under the name of its part; `None`: there are none.
+pub(super) fn over(
+    columns: &Columns,
+    (along, axis): (Quantity, Axis),
+    (y, quantity): (&str, Quantity),
+) -> Option<String> {
+    let (x, _) = columns.of(along).next()?;
+    let rows = columns.rows().iter();
+    let series: Vec<Series> = columns
+        .of(quantity)
+        .filter(|(k, _)| {
+            let mut values = rows.clone().filter_map(|row| row[*k]);
+            values.any(|value| value != 0.0)
+        })
+        .map(|(k, head)| {
+            let points = rows.clone().filter_map(|row| Some((row[x]?, row[k]?)));
+            let name = if head.part.is_empty() {
+                &head.name
+            } else {
+                &head.part
+            };
+            line(name, points.collect())
+        })
+        .collect();
+    let axes = Axes {
+        title: "",
+        x: axis,
+        y,
+    };
+    (!series.is_empty()).then(|| lines(&axes, &series))
+}

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use miette::{Result, miette};
 
-use super::{motor_coordinate, quantity, rate};
+use super::motor_coordinate;
 use crate::commands::core_error::core_report;
+use crate::commands::{quantity, rate};
 use crate::options::fastest::Fastest as Options;
 use crate::options::retime::Ends;
 use jred::Domain;

@@ -19,6 +19,35 @@ pub(super) struct Curves {
 /// Speed and acceleration alone.
 pub(super) struct Motion;
 
+/// The parts of the drive torque of the motion and their sum, drive train and flywheel included, without the losses of the drive train.
+pub(super) struct Torques;
+
+impl Set for Torques {
+    fn heads(&self, source: &Source) -> Vec<Column> {
+        terms(source.coordinate).collect()
+    }
+
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let machine = source.machines.at(&place.now, place.phi)?;
+        let point = machine.reduction(place.phi)?;
+        let terms = place.state.map(|s| point.torque(s.omega, s.alpha));
+        let values = (0..TorqueTerms::NAMES.len()).map(|k| Some(terms?.values()[k]));
+        let total = terms.map(|terms| terms.total());
+        Ok(values.chain([total]).collect())
+    }
+}
+
+/// The columns of the parts of the drive torque and of their sum.
+fn terms(coordinate: Coordinate) -> impl Iterator<Item = Column> {
+    let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
+    let term = move |term: &str| Column {
+        part: term.to_owned(),
+        ..Column::new(Quantity::EffortTerm, format!("{effort}_drive {term}"), unit)
+    };
+    let all = TorqueTerms::NAMES.into_iter().map(term);
+    all.chain([coordinate.drive_effort()])
+}
+
 impl Set for Motion {
     fn heads(&self, source: &Source) -> Vec<Column> {
         source.coordinate.rates().to_vec()
@@ -72,9 +101,7 @@ impl Set for Curves {
         if self.moves {
             let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
             heads.extend(coordinate.rates());
-            let term = |term| Column::other(format!("{effort}_drive {term}"), unit);
-            heads.extend(TorqueTerms::NAMES.map(term));
-            heads.push(coordinate.drive_effort());
+            heads.extend(terms(coordinate));
             heads.push(Column::other(format!("{effort}_input"), unit));
         }
         heads

@@ -1,6 +1,6 @@
 //! What a motor does on its way through a simulation, and who looks at it.
 
-use crate::analysis::simulate::simulated::{Following, TorqueLimit};
+use crate::analysis::simulate::simulated::{Effort, Following, TorqueLimit};
 use crate::number::columns::Column;
 use crate::number::numerics;
 
@@ -55,6 +55,50 @@ impl Observer for Nobody {
     fn pass(&mut self, _: (f64, Working), _: (f64, Working)) {}
     fn figures(&self, _: &Working) -> Vec<f64> {
         Vec::new()
+    }
+}
+
+/// What a motor gives, step by step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Giving {
+    torque: [f64; 2],
+    power: [f64; 2],
+    speed: [f64; 2],
+    /// ∫T² dt.
+    squares: f64,
+    time: f64,
+}
+
+impl Giving {
+    /// A step of the integrator from its beginning on, looked at in equal parts.
+    pub(super) fn pass(&mut self, [from, to]: [f64; 2], seen: &[Working; PARTS as usize + 1]) {
+        let length = to - from;
+        for (k, working) in seen.iter().enumerate() {
+            let t = from + length * k as f64 / f64::from(PARTS);
+            let most = |most: &mut [f64; 2], value: f64| {
+                if value > most[0] {
+                    *most = [value, t];
+                }
+            };
+            most(&mut self.torque, working.torque.abs());
+            most(&mut self.power, working.torque * working.speed);
+            most(&mut self.speed, working.speed.abs());
+        }
+        // Boole's rule.
+        let squares = seen.map(|working| working.torque * working.torque);
+        let [a, b, c, d, e] = squares;
+        self.squares += length / 90.0 * (7.0 * (a + e) + 32.0 * (b + d) + 12.0 * c);
+        self.time += length;
+    }
+
+    /// All of it; nothing took no time.
+    pub(super) fn effort(&self) -> Option<Effort> {
+        (self.time > 0.0).then(|| Effort {
+            torque: self.torque,
+            rms: (self.squares / self.time).sqrt(),
+            power: self.power,
+            speed: self.speed,
+        })
     }
 }
 

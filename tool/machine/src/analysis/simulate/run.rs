@@ -15,7 +15,7 @@ use jred::Error;
 use super::SimulationError;
 use super::clock::{Corners, EDGE};
 use super::error::stopped;
-use super::observe::{Controlling, Observer};
+use super::observe::{Controlling, Giving, Observer};
 use super::simulated::{Impacts, Rest, Simulated, Stuck};
 use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
@@ -69,13 +69,20 @@ pub(super) fn run<const N: usize>(
         stuck: None,
         controlling: Controlling::default(),
         has_payloads,
-        observed: simulation.control.is_some() || !observer.columns().is_empty(),
+        giving: Giving::default(),
+        to_speed: simulation.to_speed,
+        reached: None,
+        held: None,
         observer,
     };
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
+    let [begin, speed] = plant.link(0.0, &y)?;
+    if run.to_speed.is_some_and(|to| speed.abs() >= to) {
+        run.reached = Some([0.0, begin]);
+    }
     run.watch.check(run.at(0.0, &y)?)?;
-    if plant.link(0.0, &y)?[1] == 0.0 {
+    if speed == 0.0 {
         run.misses(0.0, &y)?;
     }
     let figures = plant.heads().into_iter().chain(run.observer.columns());
@@ -121,8 +128,15 @@ pub(super) fn run<const N: usize>(
         let works = run.works(&y, terms);
         columns.push(cells(t, row, works, start).0);
     }
+    let since_start = |[time, phi]: [f64; 2]| Rest {
+        time,
+        way: phi - begin,
+    };
     Ok(Simulated {
         columns,
+        held: (run.held).filter(|_| run.halt.is_none()).map(since_start),
+        effort: run.giving.effort(),
+        reached: run.reached.map(since_start),
         rest: run.rest,
         impacts: run.impacts,
         missing: run.stuck,
@@ -156,8 +170,13 @@ struct Run<'a, P> {
     stuck: Option<Stuck>,
     controlling: Controlling,
     has_payloads: bool,
-    /// Whether anybody looks at the motor.
-    observed: bool,
+    /// What the motor has given.
+    giving: Giving,
+    to_speed: Option<f64>,
+    /// When and where that speed was reached.
+    reached: Option<[f64; 2]>,
+    /// When and where friction held the drive link first.
+    held: Option<[f64; 2]>,
     observer: &'a mut dyn Observer,
 }
 
@@ -299,6 +318,9 @@ impl<P> Run<'_, P> {
             self.rests([t, phi]);
             self.misses(t, &y)?;
             self.direction = self.start_direction(t, &y)?;
+            if self.direction == 0.0 {
+                self.held = self.held.or(Some([t, phi]));
+            }
         }
         Err(SimulationError::Integrator {
             t,

@@ -3,7 +3,6 @@
 use super::SimulationError;
 use super::clock::Moment;
 use super::geared::Geared;
-use crate::model::coordinate::Coordinate;
 use crate::model::schedule::Now;
 use crate::number::columns::Columns;
 
@@ -14,6 +13,12 @@ pub struct Simulated {
     pub columns: Columns,
     /// Where the drive link came to rest first after the motor was switched off.
     pub rest: Option<Rest>,
+    /// Where the drive link came to rest first and friction holds it, if the motor was not switched off; since the start.
+    pub held: Option<Rest>,
+    /// What the motor gave until it was switched off, or to the end; not behind a variator.
+    pub effort: Option<Effort>,
+    /// Where the speed of [`Simulation::to_speed`](crate::model::simulation::Simulation::to_speed) was reached.
+    pub reached: Option<Rest>,
     /// The impacts on end stops.
     pub impacts: Option<Impacts>,
     /// Where the motor has not driven the machine on.
@@ -30,10 +35,23 @@ pub struct Simulated {
     pub ended: Option<SimulationError>,
 }
 
-/// Where and when the drive link came to rest.
+/// What a motor gives on its way: the largest magnitudes at the integrator's steps and three instants between each two of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Its largest torque (N·m), and when (s).
+    pub torque: [f64; 2],
+    /// Its RMS torque over the time.
+    pub rms: f64,
+    /// Its largest power as a motor (W), and when.
+    pub power: [f64; 2],
+    /// Its largest speed (rad/s), and when.
+    pub speed: [f64; 2],
+}
+
+/// A time and a way, since the motor was switched off or since the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
-    /// Time since the motor was switched off (s).
+    /// Time since then (s).
     pub time: f64,
     /// Way since then (rad, or m).
     pub way: f64,
@@ -105,25 +123,6 @@ impl Simulated {
             (moment.now(machine, state[1]), state)
         })
         .collect()
-    }
-
-    /// The columns with position, speed and acceleration of the drive link, whatever people speak of: for figures over its angle.
-    pub fn columns_of_drive(&self, drive: Coordinate) -> Columns {
-        let [speed, acceleration] = drive.rates();
-        let own = [drive.column(), speed, acceleration];
-        let heads = self.columns.heads();
-        let is_own = |k: usize| k.checked_sub(1).filter(|k| *k < own.len());
-        let heads = (heads.iter().enumerate()).map(|(k, head)| match is_own(k) {
-            Some(k) => own[k].clone(),
-            None => head.clone(),
-        });
-        let mut columns = Columns::new(heads);
-        for (row, [phi, omega, alpha]) in self.columns.rows().iter().zip(&self.states) {
-            let state = [drive.shown(*phi), *omega, *alpha];
-            let cells = row.iter().enumerate();
-            columns.push(cells.map(|(k, cell)| is_own(k).map_or(*cell, |k| Some(state[k]))));
-        }
-        columns
     }
 
     /// The columns of a motion that came to its end.

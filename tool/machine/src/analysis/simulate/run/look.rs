@@ -5,6 +5,7 @@ use crate::analysis::simulate::SimulationError;
 use crate::analysis::simulate::clock::Moment;
 use crate::analysis::simulate::observe::{PARTS, Working};
 use crate::analysis::simulate::watch::between;
+use crate::number::numerics;
 use crate::number::numerics::dormand_prince::Point;
 
 impl<P> Run<'_, P> {
@@ -19,13 +20,9 @@ impl<P> Run<'_, P> {
     {
         let plant = self.plant;
         let (direction, length) = (self.direction, to.0 - from.0);
-        if !self.observed {
-            return Ok(());
-        }
         let Some(first) = plant.working(&self.moment(from.0), &from.1)? else {
             return Ok(());
         };
-        let mut before = first;
         let ends = [self.at(from.0, &from.1)?, self.at(to.0, &to.1)?];
         let (inside, way) = (self.inside, between(ends));
         let at = |share: f64| -> Result<Working, SimulationError> {
@@ -36,17 +33,42 @@ impl<P> Run<'_, P> {
             Ok(working.unwrap_or(first))
         };
         let part = |k: u32| f64::from(k) / f64::from(PARTS);
+        let mut seen = [first; PARTS as usize + 1];
+        for k in 1..=PARTS {
+            seen[k as usize] = at(part(k))?;
+        }
+        if self.halt.is_none() {
+            self.giving.pass([from.0, to.0], &seen);
+        }
+        if let Some(speed) = self.speed_to_reach() {
+            let reaches = |omega: f64| omega.abs() >= speed;
+            let [_, omega, _] = ends[1].state;
+            if reaches(omega) {
+                let slow = |share: f64| Ok::<_, SimulationError>(!reaches(way(share)[1]));
+                let share = if slow(0.0)? {
+                    numerics::edge(slow, 0.0, 1.0)?
+                } else {
+                    0.0
+                };
+                let t = from.0 + share * length;
+                self.reached = Some([t, way(share)[0]]);
+            }
+        }
         for k in 1..=PARTS {
             let shares = [part(k - 1), part(k)];
-            let after = at(shares[1])?;
+            let [before, after] = [seen[k as usize - 1], seen[k as usize]];
             let times = shares.map(|share| from.0 + share * length);
             let pair = [before, after];
             self.controlling.pass(times, pair, |share| {
                 at(shares[0] + share * (shares[1] - shares[0]))
             })?;
             self.observer.pass((times[0], before), (times[1], after));
-            before = after;
         }
         Ok(())
+    }
+
+    /// The speed of which it is to be said when it is reached, as long as it is not.
+    fn speed_to_reach(&self) -> Option<f64> {
+        self.to_speed.filter(|_| self.reached.is_none())
     }
 }

@@ -1,0 +1,185 @@
+//! A machine whose motor has a state of its own beside φ and ω: the integral of a controller, or the current of a winding.
+
+use jred::Error;
+
+use super::SimulationError;
+use super::clock::{Corners, Moment};
+use super::free::{PLAIN, WITH_GUESTS, guests_of};
+use super::geared::Together;
+use super::machine::{Instant, Plant};
+use super::observe::Working;
+use super::run::{self, Row};
+use super::simulated::Missing;
+use crate::model::motor::Motor;
+use crate::number::columns::Column;
+
+/// Values of a state without payloads and carriages: φ, ω, the state of the motor, and what follows ω without one.
+pub(super) const COMMANDED: usize = PLAIN + 1;
+
+/// With them.
+pub(super) const COMMANDED_WITH_GUESTS: usize = WITH_GUESTS + 1;
+
+/// What a motor does at a state.
+pub(super) struct Command {
+    /// Its torque.
+    pub(super) torque: f64,
+    /// What it would be without limits.
+    pub(super) asked: f64,
+    /// Change of its own state with the time.
+    pub(super) rate: f64,
+}
+
+/// What says which torque a motor gives at φ, ω and a state of its own, which is 0 at the start.
+pub(super) trait Commander<M> {
+    /// The torque, while the motor is on.
+    fn command(&self, plant: &Plant<M>, t: f64, state: [f64; 3]) -> Result<Command, Error>;
+
+    /// The column that it adds.
+    fn column(&self) -> Column;
+
+    /// What stands there; `on`: the motor is not switched off.
+    fn figure(&self, plant: &Plant<M>, t: f64, state: [f64; 3], on: bool) -> f64;
+
+    /// Reference less position, if there is a reference.
+    fn error(&self, _plant: &Plant<M>, _t: f64, _phi: f64) -> Option<f64> {
+        None
+    }
+
+    /// With the times at which the torque has a corner.
+    fn corners(&self, _plant: &Plant<M>, others: Corners) -> Corners {
+        others
+    }
+
+    /// Whether the torque at rest is in the end that of the motor's characteristic.
+    fn settles(&self) -> bool;
+}
+
+/// The machine, its motor, and what commands it.
+pub(super) struct Commanded<'a, M, C> {
+    pub(super) plant: Plant<'a, M>,
+    pub(super) commander: C,
+}
+
+impl<M: Motor, C: Commander<M>> Commanded<'_, M, C> {
+    /// Torque at the motor shaft, of the motor or, once it is switched off, of the brake; what is asked for; the change of the motor's state.
+    fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<[f64; 3], Error> {
+        if self.is_off(moment.t) {
+            let brake = self.plant.halted(moment, || 0.0);
+            return Ok([brake, brake, 0.0]);
+        }
+        let command = self.commander.command(&self.plant, moment.t, y)?;
+        Ok([command.torque, command.asked, command.rate])
+    }
+
+    /// Whether the motor has been switched off.
+    fn is_off(&self, t: f64) -> bool {
+        (self.plant.simulation.halt).is_some_and(|halt| t >= halt.time)
+    }
+
+    fn now(&self, moment: &Moment, y: [f64; 3]) -> Result<(Instant, f64), Error> {
+        let [torque, _, rate] = self.torque(moment, y)?;
+        Ok((self.plant.under(moment, [y[0], y[1]], torque)?, rate))
+    }
+}
+
+/// φ, ω and the state of the motor.
+fn commanded<const N: usize>(y: &[f64; N]) -> [f64; 3] {
+    [y[0], y[1], y[2]]
+}
+
+impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, M, C> {
+    fn start(&self) -> Result<[f64; N], Error> {
+        run::Plant::<N>::start(&self.plant)
+    }
+
+    fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
+        let mut slope = [0.0; N];
+        let guests = guests_of::<N>(3);
+        if moment.direction == 0.0 {
+            // The motor's state goes on until it breaks away.
+            [.., slope[2]] = self.torque(moment, commanded(y))?;
+            if let Some(at) = guests {
+                slope[at + 1] = self.plant.held_power(moment, y[0])?;
+            }
+            return Ok(slope);
+        }
+        let (now, rate) = self.now(moment, commanded(y))?;
+        (slope[0], slope[1], slope[2]) = (y[1], now.alpha, rate);
+        if let Some(at) = guests {
+            slope[at + 1] = now.carriage_power;
+        }
+        slope[N - 3] = now.motor_power;
+        slope[N - 2] = now.process_power;
+        slope[N - 1] = now.loss;
+        Ok(slope)
+    }
+
+    fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {
+        Ok([y[0], y[1]])
+    }
+
+    fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error> {
+        run::Plant::<N>::with_link(&self.plant, t, y, link)
+    }
+
+    fn guests(&self) -> Option<usize> {
+        guests_of::<N>(3)
+    }
+
+    fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error> {
+        Ok(self.now(moment, commanded(y))?.0.alpha)
+    }
+
+    fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
+        self.plant.starts(moment, |moment| self.alpha(moment, y))
+    }
+
+    fn check(&self, _: &Moment, _: &[f64; N]) -> Result<(), SimulationError> {
+        Ok(())
+    }
+
+    fn corners(&self) -> Corners {
+        self.commander.corners(&self.plant, self.plant.changes())
+    }
+
+    fn machines(&self) -> Together<'_> {
+        self.plant.machines.clone()
+    }
+
+    fn heads(&self) -> Vec<Column> {
+        let own = self.plant.columns().into_iter();
+        own.chain([self.commander.column()]).collect()
+    }
+
+    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<Working>, Error> {
+        let [torque, asked, _] = self.torque(moment, commanded(y))?;
+        let working = (self.plant).working_at(moment, [y[0], y[1]], [torque, asked])?;
+        let on = !self.is_off(moment.t);
+        Ok(Some(Working {
+            error: (self.commander.error(&self.plant, moment.t, y[0])).filter(|_| on),
+            ..working
+        }))
+    }
+
+    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<Missing>, Error> {
+        if self.commander.settles() {
+            run::Plant::<N>::missing(&self.plant, t, y)
+        } else {
+            Ok(None)
+        }
+    }
+
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error> {
+        let alpha = if moment.direction == 0.0 {
+            0.0
+        } else {
+            self.alpha(moment, y)?
+        };
+        let [torque, ..] = self.torque(moment, commanded(y))?;
+        let mut row = self.plant.written(moment, [y[0], y[1], alpha], torque)?;
+        let on = !self.is_off(moment.t);
+        let figure = (self.commander).figure(&self.plant, moment.t, commanded(y), on);
+        row.figures.push(figure);
+        Ok(row)
+    }
+}

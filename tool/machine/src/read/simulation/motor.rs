@@ -1,0 +1,283 @@
+//! The motor of `[simulation]`: its torque or force over the speed.
+
+use super::DriveLink;
+use crate::model::characteristic::Characteristic;
+use crate::model::simulation::Winding;
+use crate::number::rounding::{percent, short};
+use crate::text::item::{Item, Value};
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{
+    ANGULAR_SPEED, INDUCTANCE, POWER, RESISTANCE, SHARE, TORQUE, TORQUE_CONSTANT, VOLTAGE,
+};
+
+/// The most points of a torque-speed curve.
+const MAX_POINTS: usize = 1000;
+
+/// What a file says of its motor.
+pub(super) struct Given {
+    /// Torque over speed, when the current has settled.
+    pub(super) characteristic: Characteristic,
+    /// The winding, where the current takes time to settle, with the place where the file says so.
+    pub(super) winding: Option<(Winding, Value)>,
+}
+
+impl Given {
+    const fn of(characteristic: Characteristic) -> Self {
+        Self {
+            characteristic,
+            winding: None,
+        }
+    }
+}
+
+/// The torque or force over the speed; not given: that of a drive.
+pub(super) fn effort(
+    section: &Section,
+    [key, curve_key]: [&'static str; 2],
+    drive: DriveLink,
+    [speed, most]: [&str; 2],
+) -> Result<Option<Given>> {
+    let no_speed = format!("0 {}", drive.speed().unit);
+    let no_effort = format!("0 {}", drive.effort().unit);
+    let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
+    // A motor by its formula turns.
+    let formulas: &[&'static str] = if drive.slides() {
+        &[]
+    } else {
+        &["dc_motor", "induction_motor"]
+    };
+    let keys = [key, curve_key].into_iter().chain(formulas.iter().copied());
+    let given: Vec<(&str, Item)> = keys
+        .filter_map(|key| Some((key, section.get(key)?)))
+        .collect();
+    match given.as_slice() {
+        [] => Ok(None),
+        [(found, item)] => match *found {
+            "dc_motor" => dc_motor(item).map(Some),
+            "induction_motor" => Ok(Some(Given::of(induction_motor(item)?))),
+            found if found == key => Ok(Some(Given::of(Characteristic::constant(
+                item.quantity(drive.effort())?.si,
+            )))),
+            _ => Ok(Some(Given::of(Characteristic::Points(points(
+                item, drive, &example,
+            )?)))),
+        },
+        [(first, one), (second, other), ..] => {
+            let label = |found: &str| {
+                if found == key {
+                    format!("a constant {key}")
+                } else {
+                    format!("a {key} that depends on the speed")
+                }
+            };
+            Err(
+                Problem::new(format!("[simulation] has both `{first}` and `{second}`"))
+                    .at(one.key_span(), label(first))
+                    .at(other.key_span(), label(second))
+                    .help("keep one of them"),
+            )
+        }
+    }
+}
+
+/// A DC motor: its line, or its winding.
+fn dc_motor(item: &Item) -> Result<Given> {
+    let section = item.section("[simulation.dc_motor]".into())?;
+    if section.peek("voltage").is_some() {
+        return wound(&section);
+    }
+    let speed = section.quantity("no_load_speed", &ANGULAR_SPEED)?;
+    let torque = section.quantity("stall_torque", &TORQUE)?;
+    section.finish()?;
+    same_way(&speed, &torque)?;
+    Ok(Given::of(Characteristic::Dc {
+        no_load_speed: speed.si,
+        stall_torque: torque.si,
+    }))
+}
+
+/// A DC motor by its winding: T_stall = k·U/R, ω₀ = U/k.
+fn wound(section: &Section) -> Result<Given> {
+    let voltage = section.quantity("voltage", &VOLTAGE)?;
+    let resistance = section.quantity("resistance", &RESISTANCE)?.positive()?;
+    let constant = (section.quantity("torque_constant", &TORQUE_CONSTANT)?).positive()?;
+    let inductance = section.optional("inductance", &INDUCTANCE)?;
+    section.finish()?;
+    if voltage.si == 0.0 {
+        return Err(voltage
+            .problem("is zero, and drives nothing", "this voltage")
+            .help("give the voltage at the terminals; a negative one turns the motor backwards"));
+    }
+    let winding = match inductance {
+        None => None,
+        Some(value) => {
+            value.check_positive()?;
+            let winding = Winding {
+                voltage: voltage.si,
+                resistance,
+                inductance: value.si,
+                constant,
+            };
+            Some((winding, value))
+        }
+    };
+    Ok(Given {
+        characteristic: Characteristic::Dc {
+            no_load_speed: voltage.si / constant,
+            stall_torque: constant * voltage.si / resistance,
+        },
+        winding,
+    })
+}
+
+/// An induction motor by Kloss' formula.
+fn induction_motor(item: &Item) -> Result<Characteristic> {
+    let section = item.section("[simulation.induction_motor]".into())?;
+    let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
+    let torque = section.quantity("breakdown_torque", &TORQUE)?;
+    let plate = name_plate(&section, &speed, &torque)?;
+    let slip = match (section.get("breakdown_slip"), plate) {
+        (None, Some(slip)) => {
+            section.finish()?;
+            same_way(&speed, &torque)?;
+            return Ok(Characteristic::Induction {
+                breakdown_torque: torque.si,
+                breakdown_slip: slip,
+                synchronous_speed: speed.si,
+            });
+        }
+        (Some(slip), Some(_)) => {
+            return Err(Problem::new(
+                "the breakdown slip is given, and follows from the name plate".to_owned(),
+            )
+            .at(slip.key_span(), "the slip")
+            .help("keep `breakdown_slip`, or `rated_speed` with `rated_torque` or `rated_power`"));
+        }
+        (Some(slip), None) => slip.quantity(&SHARE)?,
+        (None, None) => {
+            let example = "breakdown_slip = \"20 %\", or rated_speed = \"950 rpm\" and rated_power = \"2.2 kW\" of the name plate";
+            return Err(section.missing("breakdown_slip", example));
+        }
+    };
+    section.finish()?;
+    same_way(&speed, &torque)?;
+    if !(slip.si > 0.0 && slip.si <= 1.0) {
+        let what = format!("is {}, but must be above 0 % and up to 100 %", slip.shown());
+        return Err(slip
+            .problem(&what, "no slip of breakdown")
+            .help("10 % to 40 % is usual, such as breakdown_slip = \"20 %\""));
+    }
+    Ok(Characteristic::Induction {
+        breakdown_torque: torque.si,
+        breakdown_slip: slip.si,
+        synchronous_speed: speed.si,
+    })
+}
+
+/// The breakdown slip by the name plate: with the rated torque T_n at the slip s_n, and k = T_b/T_n, Kloss' formula has
+/// s_b = s_n·(k + √(k² − 1)).
+fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Result<Option<f64>> {
+    let (torque, power) = (
+        section.optional("rated_torque", &TORQUE)?,
+        section.optional("rated_power", &POWER)?,
+    );
+    let Some(speed) = section.optional("rated_speed", &ANGULAR_SPEED)? else {
+        return match torque.or(power) {
+            None => Ok(None),
+            Some(_) => Err(section.missing("rated_speed", "rated_speed = \"950 rpm\"")),
+        };
+    };
+    let (given, rated) = match (torque, power) {
+        (Some(torque), None) => {
+            let si = torque.si;
+            (torque, si)
+        }
+        (None, Some(power)) => {
+            let si = power.si / speed.si;
+            (power, si)
+        }
+        (None, None) => {
+            let example = "rated_power = \"2.2 kW\", or rated_torque";
+            return Err(section.missing("rated_power", example));
+        }
+        (Some(torque), Some(power)) => {
+            return Err(torque
+                .problem("and the rated power are both given", "this torque")
+                .at(power.span(), "this power")
+                .help("keep one of them"));
+        }
+    };
+    let slip = 1.0 - speed.si / synchronous.si;
+    if !(slip > 0.0 && slip < 1.0) {
+        let what = format!(
+            "is {} with a synchronous speed of {}: it must lie between zero and that",
+            speed.shown(),
+            synchronous.shown()
+        );
+        return Err(speed
+            .problem(&what, "of the name plate")
+            .at(synchronous.span(), "synchronous speed")
+            .help("the synchronous speed is 60·f/p rpm with p pairs of poles, such as 1000 rpm at 50 Hz and p = 3"));
+    }
+    let excess = breakdown.si / rated;
+    let breakdown_slip = slip * (excess + (excess * excess - 1.0).sqrt());
+    if !(excess > 1.0 && breakdown_slip <= 1.0) {
+        let what = format!(
+            "gives a breakdown torque of {} times the rated one, and a breakdown slip of {}",
+            short(excess),
+            if excess > 1.0 {
+                percent(breakdown_slip)
+            } else {
+                "none".to_owned()
+            }
+        );
+        return Err(given
+            .problem(&what, "of the name plate")
+            .at(breakdown.span(), "breakdown torque")
+            .help("the breakdown torque is 1.6 to 3.5 times the rated torque, and the breakdown slip below 100 %"));
+    }
+    Ok(Some(breakdown_slip))
+}
+
+/// Refuses a motor whose torque does not drive it towards its own speed.
+fn same_way(speed: &Value, torque: &Value) -> Result<()> {
+    if speed.si * torque.si > 0.0 {
+        return Ok(());
+    }
+    let what = format!(
+        "is {} with a speed of {}: they must have the same sign and not be zero",
+        torque.shown(),
+        speed.shown()
+    );
+    Err(torque
+        .problem(&what, "torque")
+        .at(speed.span(), "speed")
+        .help("give both positive; both negative for a motor that runs backwards"))
+}
+
+fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
+    let list = curve.list("point", example)?;
+    if list.is_empty() || list.len() > MAX_POINTS {
+        let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
+        return Err(curve.problem(&what, "here").help(format!(
+            "a point is [speed, torque or force], as in {example}"
+        )));
+    }
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
+    for item in list {
+        let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;
+        if let Some((before, _)) = points.last().filter(|(before, _)| speed.si <= *before) {
+            let what = format!(
+                "is {}, but must be greater than the speed of the previous point, {}",
+                speed.shown(),
+                speed.show(*before)
+            );
+            return Err(speed
+                .problem(&what, "not increasing")
+                .help("sort the points by increasing speed"));
+        }
+        points.push((speed.si, effort.si));
+    }
+    Ok(points)
+}
