@@ -9,18 +9,21 @@
 
 mod between;
 pub mod corners;
+mod costs;
 pub mod cycle;
 mod endless;
 pub mod field;
 pub mod joint_force;
 pub mod leg;
 mod lines;
+mod motor_load;
 mod obstacle;
 mod phases;
 pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
+mod slivers;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
@@ -258,6 +261,7 @@ fn refine(
             }
             settled = change;
         }
+        let (pieces, times) = slivers::without(&track, pieces, &times);
         let trace = trace(&way, &ends, &track, &pieces, &times);
         let (worst, places) = if within.is_finite() {
             between::excess(&field, &ends, (&track, &pieces), &trace, within)?

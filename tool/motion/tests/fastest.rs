@@ -5,6 +5,7 @@ mod endless;
 mod jerk;
 mod joint_force;
 mod lengths;
+mod nodes;
 mod programme;
 mod refusals;
 mod rms;
