@@ -98,7 +98,8 @@ pub struct Fastest {
     pub trace: Trace,
     /// Which limit it follows from where to where.
     pub phases: Vec<Phase>,
-    /// Share by which a limit is exceeded at most between the nodes, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
+    /// Share by which a limit is exceeded in the nodes and at five places between two of them, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
+    /// Limits of jerk and torque rate: at three places between them.
     pub excess: f64,
     /// Cells of the way.
     pub cells: usize,

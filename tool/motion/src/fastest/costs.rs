@@ -22,7 +22,12 @@ pub struct Cost {
 }
 
 /// What each limit that a move reaches costs; where the RMS torque has a `price`, that alone.
-pub(super) fn costs(file: &MachineFile, actuator: &Actuator, made: &Made, priced: bool) -> Vec<Cost> {
+pub(super) fn costs(
+    file: &MachineFile,
+    actuator: &Actuator,
+    made: &Made,
+    priced: bool,
+) -> Vec<Cost> {
     let mut met: Vec<Binding> = Vec::new();
     for phase in &made.fastest.phases {
         // Driving and braking are one motor.

@@ -2,8 +2,8 @@
 
 use jred_machine::model::machine::MachineFile;
 
-pub use super::costs::{Cost, MORE};
 use super::costs::costs;
+pub use super::costs::{Cost, MORE};
 use super::field::Limits;
 pub use super::motor_load::MotorLoad;
 use super::motor_load::load;
@@ -109,8 +109,7 @@ fn at_price(
             }
         }
     }
-    let load =
-        load(file, actuator, &trace, &limits.reserve).map_err(|error| (0, error.into()))?;
+    let load = load(file, actuator, &trace, &limits.reserve).map_err(|error| (0, error.into()))?;
     Ok(Cycle {
         moves,
         trace,
