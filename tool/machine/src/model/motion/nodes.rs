@@ -17,8 +17,8 @@ pub struct Node {
     pub alpha: [f64; 2],
 }
 
-/// What two speeds may differ by in the last digits, as a share of them; and two times.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// What two speeds may differ by in the last digits, as a share of them, and two times: speeds of a sweep through short cells by some forty roundings.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Share of the largest acceleration by which it may differ before and after a node: rounding.
 const CONTINUOUS: f64 = 1e-6;
