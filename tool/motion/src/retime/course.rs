@@ -30,10 +30,10 @@ pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Tra
 }
 
 /// Share of the way by which the positions of a phase may differ from the way at its speeds: between two nodes these are cubics, and those of a phase have one degree more.
-const SAME: f64 = 1e-12;
+const SAME: f64 = 1e-13;
 
 /// Most parts of a phase.
-const MOST_PARTS: f64 = 32.0;
+const MOST_PARTS: f64 = 64.0;
 
 fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
     let mut nodes: Vec<Node> = Vec::with_capacity(phases.len() + 1);
