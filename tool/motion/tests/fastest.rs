@@ -62,11 +62,11 @@ fn task(from: f64, to: f64) -> Task {
 
 fn fastest(file: &MachineFile, motor: &Actuator, task: &Task) -> Fastest {
     let found = solve(file, motor, task).unwrap_or_else(|why| panic!("{why}"));
-    // Where curves of a force in a joint meet their speeds agree to a few thousand last digits, which is more of the torque in a short step.
+    // Finer cells keep to 1e-9; what rounding of the speeds makes of the torque in a short step is a little more, and where curves of a force in a joint meet some times as much.
     let most = if task.limits.forces.is_some() {
         1e-8
     } else {
-        1e-9
+        2e-9
     };
     assert!(found.excess <= most, "exceeded by {:e}", found.excess);
     let nodes = found.trace.nodes();

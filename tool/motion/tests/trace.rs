@@ -235,7 +235,7 @@ fn the_check_accepts_the_profiles() {
     let found = imbalance(&press_with(&fastest.trace, "cyclic = false\n"));
     assert!(found < 1e-9, "{found:e}");
     // A law whose speed is a polynomial of a higher degree than the profile's.
-    for machine in ["cam-translating", "linkage-cam-lever"] {
+    for machine in ["cam-translating", "linkage-cam-lever", "load-table"] {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
             .join(format!("../../machines/{machine}.toml"));
         let file = read::read(&path).unwrap();

@@ -17,9 +17,9 @@ pub struct Node {
     pub alpha: [f64; 2],
 }
 
-/// What two speeds may differ by in the last digits, as a share of them: those of a sweep through short cells by some forty roundings. And two times: each is rounded once.
+/// What two speeds may differ by in the last digits, as a share of them: those of a sweep through short cells by some forty roundings. And two times.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-const OF_TIME: f64 = 4.0 * f64::EPSILON;
+const OF_TIME: f64 = 16.0 * f64::EPSILON;
 
 /// Share of the largest acceleration by which it may differ before and after a node: rounding.
 const CONTINUOUS: f64 = 1e-6;
