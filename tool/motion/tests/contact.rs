@@ -17,7 +17,7 @@ fn hoist() -> MachineFile {
     read::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/hoist.toml")).unwrap()
 }
 
-fn fastest(file: &MachineFile, limits: Limits) -> Cycle {
+fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
     let motor = Motor {
         peak_curve: vec![[0.0, 200.0], [80.0, 200.0]],
         ..Motor::default()
@@ -28,7 +28,7 @@ fn fastest(file: &MachineFile, limits: Limits) -> Cycle {
         envelope: Envelope::of(&motor),
     };
     let parts = moves::parts(file.required_motion().unwrap()).unwrap();
-    cycle(file, &actuator, limits, None, &parts).unwrap()
+    cycle(file, &actuator, *limits, None, &parts).unwrap()
 }
 
 /// The cabin of a hoist hangs on two falls: above g/75 mm the drum lets its rope go slack while it brakes on the way up and while it goes down faster. With the limits that are named it stays
@@ -36,7 +36,7 @@ fn fastest(file: &MachineFile, limits: Limits) -> Cycle {
 #[test]
 fn a_rope_that_goes_slack_is_named_with_limits() {
     let file = hoist();
-    let made = fastest(&file, Limits::default());
+    let made = fastest(&file, &Limits::default());
     let found = broken(&file, &made.trace).unwrap().unwrap();
     assert!(found.lost.joint.rope);
     let limits = found.limits.unwrap();
@@ -47,7 +47,7 @@ fn a_rope_that_goes_slack_is_named_with_limits() {
     let [acceleration, deceleration] = limits;
     let eased = fastest(
         &file,
-        Limits {
+        &Limits {
             acceleration,
             deceleration,
             ..Limits::default()

@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn as_many_digits_as_tell_apart() {
-        let told = |a, b| told_apart([a, b]).map(|text| text.to_string());
+        let told = |a, b| told_apart([a, b]);
         assert_eq!(told(6.4, 6.368), ["6.4", "6.368"]);
         assert_eq!(told(6.368_000_017, 6.368), ["6.36800002", "6.368"]);
         assert_eq!(told(0.800_04, 0.8), ["0.80004", "0.8"]);

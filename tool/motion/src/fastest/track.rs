@@ -151,7 +151,7 @@ impl Track {
         let at = |x: f64, border: f64| {
             let place = field.way.place(ends.from + direction * x)?;
             let mut tool = field.tool_speed(place.phi)?;
-            if x != border {
+            if (x - border).abs() > 0.0 {
                 // What goes on beyond the border has no step there.
                 let there = field.tool_speed(ends.from + direction * border)?;
                 if (there - tool).abs() <= GOES_ON * tool {

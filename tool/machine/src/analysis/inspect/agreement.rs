@@ -22,8 +22,8 @@ const STEPS: usize = 360;
 /// Parts of the motion that its work is integrated over, each halved where it must be.
 const PANELS: u32 = 96;
 
-/// The same of a motion of states, from row to row: a bend of a load between two rows must not lie beside all places of the rule.
-const ROW_PANELS: u32 = 8192;
+/// Parts of a motion of states, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
+const ROW_PANELS: usize = 8192;
 
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
@@ -166,15 +166,15 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     // Between two rows of a motion of states, where it is smooth.
     let over = |part: &Part, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
         let cuts = motion.cut_at_rows(part.span);
-        let (all, least) = if cuts.len() > 2 {
-            (ROW_PANELS, 1.0)
+        let least = if cuts.len() > 2 {
+            (ROW_PANELS / cuts.len()).clamp(1, 4)
         } else {
-            (PANELS, 2.0)
+            2
         };
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
             let share = (pair[1] - pair[0]) / duration;
-            let panels = (f64::from(all) * share).ceil().max(least) as u32;
+            let panels = (f64::from(PANELS) * share).ceil().max(least as f64) as u32;
             sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
         }
         Ok::<f64, Error>(sum)
