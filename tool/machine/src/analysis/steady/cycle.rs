@@ -19,6 +19,9 @@ const STEP: f64 = 1.25;
 /// The most turns in which a machine is followed to its standstill.
 const MOST_TURNS: u32 = 2000;
 
+/// A small change of speed or energy, as a share.
+const BIT: f64 = 1e-3;
+
 /// A hair of speed (rad/s), on the side of the motion.
 const HAIR: f64 = 1e-12;
 
@@ -54,9 +57,8 @@ impl Cycle {
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
-        let bit = 1e-3;
         Ok(Self {
-            left_over: (energy(1.0 + bit)? - energy(1.0 - bit)?) / (2.0 * bit),
+            left_over: (energy(1.0 + BIT)? - energy(1.0 - BIT)?) / (2.0 * BIT),
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
@@ -139,9 +141,13 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
     Ok(Found::Loses(comes_round))
 }
 
-/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one.
+/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one, or neither.
 fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
     if gains[1] == 0.0 {
+        // The cycle itself, if a turn that begins faster loses energy.
+        if turning.gain(ends[1] * (1.0 + BIT))? < 0.0 {
+            return Ok(ends[1]);
+        }
         return Err(SteadyError::Indifferent {
             speed: speed(turning.direction * ends[1]),
         });
