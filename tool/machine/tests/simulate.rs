@@ -8,6 +8,7 @@ mod columns;
 mod control;
 mod losses;
 mod missing;
+mod narrow;
 mod parting;
 mod pendulum;
 mod refusals;

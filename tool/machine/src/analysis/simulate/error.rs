@@ -56,7 +56,8 @@ pub enum SimulationError {
     /// The integrator gave up.
     #[error("the integrator stopped at t = {t} s: {reason}")]
     #[diagnostic(help(
-        "increase `tolerance` in [simulation], or look for a torque that grows without limit"
+        "look for what is stiff or grows without limit: viscous friction that is large for the inertia, a steep characteristic of the motor, \
+         a controller's gain, a winding's L/R; soften it, or shorten `duration`. A larger `tolerance` in [simulation] may help"
     ))]
     Integrator {
         /// Time reached (s).

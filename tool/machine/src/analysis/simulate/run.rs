@@ -1,5 +1,6 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
+mod edges;
 mod look;
 mod plant;
 mod rows;
@@ -7,8 +8,11 @@ mod start;
 mod stops;
 mod stretch;
 
+use edges::Edges;
 pub(in crate::analysis) use plant::Plant;
 pub(in crate::analysis) use rows::{Row, Terms, Works, cells, heads};
+
+use std::cell::Cell;
 
 use jred::Error;
 
@@ -25,6 +29,12 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
+
+/// The most steps in all: half a minute.
+const MOST_IN_ALL: u64 = 3_000_000;
+
+/// How often the drive link may turn round within one output step.
+const MOST_TURNS: u32 = 10_000;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
 pub(super) const HAIR: f64 = 1e-12;
@@ -63,6 +73,9 @@ pub(super) fn run<const N: usize>(
         impacts: None,
         direction: 0.0,
         inside: [f64::NEG_INFINITY, f64::INFINITY],
+        edges: Edges::of(&machines),
+        edge: f64::INFINITY,
+        steps: Cell::new(0),
         halt: None,
         driven: None,
         rest: None,
@@ -162,6 +175,11 @@ struct Run<'a, P> {
     direction: f64,
     /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
     inside: [f64; 2],
+    edges: Edges<'a>,
+    /// The next one ahead.
+    edge: f64,
+    /// How many steps the integrator has taken.
+    steps: Cell<u64>,
     /// When and where the motor was switched off.
     halt: Option<[f64; 2]>,
     /// Work of the motor until then (J).
@@ -267,26 +285,42 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        // Enough for a machine that reverses many times within one output step.
-        for _ in 0..10_000 {
+        let mut turned = 0;
+        while turned < MOST_TURNS {
             if t >= end {
                 return Ok(y);
             }
-            let steps = self.integrate(t, end, &y)?;
-            let over = match steps.split_last() {
-                Some(((last, state), [_, ..])) => self.is_over(*last, state)?,
-                _ => false,
+            let [phi, _] = self.plant.link(t, &y)?;
+            self.edge = if self.direction == 0.0 {
+                f64::INFINITY
+            } else {
+                self.edges.ahead(phi, self.direction)
             };
-            let before = steps.len() - usize::from(over);
-            for pair in steps[..before].windows(2) {
+            let steps = self.integrate(t, end, &y)?;
+            let [over, passed] = match steps.split_last() {
+                Some(((last, state), [_, ..])) => {
+                    let [phi, _] = self.plant.link(*last, state)?;
+                    [self.is_over(*last, state)?, self.has_passed(phi)]
+                }
+                _ => [false; 2],
+            };
+            let whole = steps.len() - usize::from(over || passed);
+            for pair in steps[..whole].windows(2) {
                 let [from, to] = pair else { continue };
                 self.check(from, to)?;
             }
-            let Some(&last) = steps.last().filter(|_| over) else {
+            let Some(&last) = steps.last().filter(|_| over || passed) else {
                 return Ok(steps.last().map_or(y, |last| last.1));
             };
+            let start = steps.get(whole - 1).copied().unwrap_or((t, y));
+            if !over {
+                let edge = self.on_edge(start, last)?;
+                self.check(&start, &edge)?;
+                (t, y) = edge;
+                continue;
+            }
+            turned += 1;
             // Friction changes within the last step: halve it down to that instant.
-            let start = steps.get(before - 1).copied().unwrap_or((t, y));
             let (mut before, mut after) = (start, last);
             while after.0 - before.0 > 1e-12 * (1.0 + end.abs()) {
                 let middle = before.0.midpoint(after.0);
@@ -328,12 +362,27 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// The integrator's steps from `t` to `end`, up to the one in which friction changes.
+    /// The integrator's steps from `t` to `end`, up to the one in which friction changes or an edge is passed.
     fn integrate<const N: usize>(
         &self,
         t: f64,
         end: f64,
         y: &[f64; N],
+    ) -> Result<Vec<Point<N>>, SimulationError>
+    where
+        P: Plant<N>,
+    {
+        self.integrate_until(t, end, y, |t, y| {
+            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?[0]))
+        })
+    }
+
+    fn integrate_until<const N: usize>(
+        &self,
+        t: f64,
+        end: f64,
+        y: &[f64; N],
+        enough: impl Fn(f64, &[f64; N]) -> Result<bool, Error>,
     ) -> Result<Vec<Point<N>>, SimulationError>
     where
         P: Plant<N>,
@@ -346,11 +395,18 @@ impl<P> Run<'_, P> {
             |x, y| self.plant.slope(&self.moment(t + x), y),
             *y,
             end - t,
-            |x, y| self.is_over(t + x, y),
+            |x, y| enough(t + x, y),
         );
         let mut steps = steps.map_err(|error| stopped(t, error))?;
         for (x, _) in &mut steps {
             *x += t;
+        }
+        self.steps.set(self.steps.get() + steps.len() as u64);
+        if self.steps.get() > MOST_IN_ALL {
+            return Err(SimulationError::Integrator {
+                t,
+                reason: "too many steps would be needed",
+            });
         }
         Ok(steps)
     }
