@@ -37,7 +37,7 @@ const MOST_IN_ALL: u64 = 3_000_000;
 const MOST_TURNS: u32 = 10_000;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
-pub(super) const HAIR: f64 = 1e-12;
+pub(in crate::analysis) const HAIR: f64 = 1e-12;
 
 /// Runs a simulation.
 ///
