@@ -52,17 +52,17 @@ struct Chosen {
 /// Bad input, or no motion within the limits.
 pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
+    variator::refuse(&file, "fastest")?;
+    drive_train::refuse(&file, "fastest")?;
+    file.refuse_timed("fastest")?;
+    let task = task(options, &file)?;
+    let chosen = chosen(options, &file)?;
     output::check([
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
         ("--report", &options.report),
     ])?;
-    variator::refuse(&file, "fastest")?;
-    drive_train::refuse(&file, "fastest")?;
-    file.refuse_timed("fastest")?;
-    let task = task(options, &file)?;
-    let chosen = chosen(options, &file)?;
     let reserve = match options.reserve {
         None => Reserve::default(),
         Some(Asked::Share(share)) => Reserve::of_motor(share),
