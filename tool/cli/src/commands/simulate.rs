@@ -31,6 +31,8 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     };
     let file = read::read(path)?;
     let others = read_all(others)?;
+    let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
+    output::check([("--plot", &options.plot)])?;
     let own = file.simulation.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
@@ -50,8 +52,6 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     };
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
-    let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
-    output::check([("--plot", &options.plot)])?;
     let (mut found, drive) = match &chosen {
         None => (simulate::simulate_together(&machines, simulation)?, None),
         Some(chosen) => {

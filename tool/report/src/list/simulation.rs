@@ -61,6 +61,11 @@ impl<'s> Shown<'s> {
         format!("{} with {motor}{beside}", self.kind())
     }
 
+    /// A title, and below it what happened.
+    pub(crate) fn summary(&self) -> String {
+        [self.title(), self.sentences().join("\n")].join("\n\n")
+    }
+
     fn title(&self) -> String {
         let simulation = self.simulation;
         let kind = self.kind();

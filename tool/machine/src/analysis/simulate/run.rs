@@ -30,8 +30,8 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
 
-/// The most steps in all: half a minute.
-const MOST_IN_ALL: u64 = 3_000_000;
+/// The most steps in all, beside some for each row: some ten seconds.
+const MOST_IN_ALL: u64 = 1_000_000;
 
 /// How often the drive link may turn round within one output step.
 const MOST_TURNS: u32 = 10_000;
