@@ -6,6 +6,7 @@ mod axis;
 mod branches;
 mod columns;
 mod control;
+mod emergency;
 mod losses;
 mod missing;
 mod narrow;

@@ -59,6 +59,19 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
             (found, Some(drive))
         }
     };
+    let run = |simulation: &Simulation| -> Result<Simulated> {
+        match &chosen {
+            None => Ok(simulate::simulate_together(&machines, simulation)?),
+            Some(chosen) => {
+                let (found, _) = with_drive(chosen, &machines, simulation)?;
+                Ok(found)
+            }
+        }
+    };
+    let stops = options
+        .stops
+        .map(|count| simulate::stops(&file, simulation, count, run))
+        .transpose()?;
     let asked = Sets {
         torques: options.torques,
         points: options.points,
@@ -70,6 +83,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         machines: &machines,
         simulation,
         found: &found,
+        stops: stops.as_deref(),
         drive: drive.as_ref().map(|(name, loads)| (name.as_str(), loads)),
     };
     if let Some(path) = &options.plot {

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
-use jred_machine::analysis::simulate::{Simulated, Together, beside_name};
+use jred_machine::analysis::simulate::{Rest, Simulated, Stop, Together, beside_name};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -21,6 +21,8 @@ pub struct Shown<'s> {
     pub simulation: &'s Simulation,
     /// The motion.
     pub found: &'s Simulated,
+    /// Stops at instants over a cycle.
+    pub stops: Option<&'s [Stop]>,
     /// The drive of the catalogue: its name, and what it bears.
     pub drive: Option<(&'s str, &'s Loads)>,
 }
@@ -112,7 +114,43 @@ impl<'s> Shown<'s> {
         }
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
+        lines.extend(self.worst_stop(&axis));
         lines
+    }
+
+    /// The longest of the stops over a cycle.
+    fn worst_stop(&self, axis: &Axis) -> Option<String> {
+        let stops = self.stops?;
+        let count = stops.len();
+        let unit = axis.coordinate.unit();
+        let from = |stop: &Stop| {
+            format!(
+                "switched off at {} s, {}",
+                short(stop.time),
+                axis.place(stop.position)
+            )
+        };
+        if let Some(moving) = stops.iter().find(|stop| stop.rest.is_none()) {
+            return Some(format!(
+                "warning: of {count} instants over the cycle before, {} the machine has not come to rest by the end",
+                from(moving)
+            ));
+        }
+        let longest = |of: fn(&Rest) -> f64| {
+            let rests = stops.iter().filter_map(|stop| Some((stop, stop.rest?)));
+            rests.max_by(|a, b| of(&a.1).total_cmp(&of(&b.1)))
+        };
+        let (far, way) = longest(|rest| rest.way.abs())?;
+        let (slow, time) = longest(|rest| rest.time)?;
+        Some(format!(
+            "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
+            self.way(axis, way.way),
+            short(way.time),
+            from(far),
+            short(time.time),
+            self.way(axis, time.way),
+            from(slow)
+        ))
     }
 
     /// What acts, is carried and moves by the clock of `[motion]`, of each machine.
@@ -236,6 +274,18 @@ impl<'s> Shown<'s> {
                 |rest| json!({ "time [s]": rest.time, way.as_str(): axis.shown_way(rest.way) }),
             );
             add("rest", json!(rest));
+        }
+        if let Some(stops) = self.stops {
+            let stop = |stop: &Stop| {
+                json!({
+                    "time [s]": stop.time,
+                    &position: axis.shown(stop.position),
+                    "to rest [s]": stop.rest.map(|rest| rest.time),
+                    way.as_str(): stop.rest.map(|rest| axis.shown_way(rest.way)),
+                })
+            };
+            let all: Vec<Value> = stops.iter().map(stop).collect();
+            add("stops_over_the_cycle", all.into());
         }
         if let Some(held) = self.found.held {
             let held = json!({ "time [s]": held.time, way.as_str(): axis.shown_way(held.way) });

@@ -147,6 +147,7 @@ pub(super) fn run<const N: usize>(
     };
     Ok(Simulated {
         columns,
+        halted_at: run.halt.map(|[_, phi]| phi),
         held: (run.held).filter(|_| run.halt.is_none()).map(since_start),
         effort: run.giving.effort(),
         reached: run.reached.map(since_start),
