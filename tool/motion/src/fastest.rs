@@ -9,18 +9,21 @@
 
 mod between;
 pub mod corners;
+mod costs;
 pub mod cycle;
 mod endless;
 pub mod field;
 pub mod joint_force;
 pub mod leg;
 mod lines;
+mod motor_load;
 mod obstacle;
 mod phases;
 pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
+mod slivers;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
@@ -95,7 +98,8 @@ pub struct Fastest {
     pub trace: Trace,
     /// Which limit it follows from where to where.
     pub phases: Vec<Phase>,
-    /// Share by which a limit is exceeded at most between the nodes, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
+    /// Share by which a limit is exceeded in the nodes and at five places between two of them, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
+    /// Limits of jerk and torque rate: at three places between them.
     pub excess: f64,
     /// Cells of the way.
     pub cells: usize,
@@ -258,6 +262,7 @@ fn refine(
             }
             settled = change;
         }
+        let (pieces, times) = slivers::without(&track, pieces, &times);
         let trace = trace(&way, &ends, &track, &pieces, &times);
         let (worst, places) = if within.is_finite() {
             between::excess(&field, &ends, (&track, &pieces), &trace, within)?

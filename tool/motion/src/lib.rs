@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+pub mod contact;
 pub mod driven;
 pub mod fastest;
 pub mod gentlest;

@@ -1,35 +1,24 @@
 //! A motion as the plan that firmware follows: as few rows as keep it to a share of its acceleration.
 
+mod course;
+mod polynomial;
 mod rows;
 
-use jred::axis::Plan as Read;
+use jred::Domain;
 use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len};
-use jred::table::{Constants, Shape};
-use jred::{Domain, Model, Scale, Spline, Table, curves};
 
 use crate::trace::Trace;
-use rows::{Asked, RANGE, apart, bounds, halve, span, without_slivers};
+use course::Course;
+use rows::{Asked, Bounds, apart, halve, without_slivers};
 
 /// Share of the greatest acceleration and speed by which a plan may be off, if nothing else is asked.
 pub const SHARE: f64 = 1e-3;
 
-/// A plan that is off by so much more than it may be is one of a motion that contradicts itself between two nodes.
-const FAITHFUL: f64 = 1.5;
-
 /// Times of rows are closer than this share of the whole only where the motion ends: twice what a plan resolves.
 const CLOSE: f64 = 1.0 / 536_870_912.0;
 
-/// A step of the motion shorter than 8 times those is not looked at: the time of a row is rounded by as much.
-const LOOKED: f64 = 8.0;
-
-/// Places in a step of the motion at which a plan is looked at.
-const LOOKS: [f64; 5] = [0.02, 0.25, 0.5, 0.75, 0.98];
-
 /// Rows that are halved, because they leave the stroke between two looks, before that is an error.
 const HALVED: usize = 256;
-
-/// Units of the time that a plan is asked for, in a second.
-const UNITS: f64 = 1_099_511_627_776.0;
 
 /// A plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +27,7 @@ pub struct Plan {
     pub words: Vec<u32>,
     /// Rows, with that of the end.
     pub rows: usize,
-    /// What it is off by at most (rad, or m, and s), as the firmware computes it, at five places of every step of the motion.
+    /// What it is off by at most (rad, or m, and s), as firmware with numbers of double precision computes it, over the whole motion.
     pub errors: Errors,
     /// The greatest speed and acceleration.
     pub most: [f32; 2],
@@ -84,9 +73,9 @@ impl Plan {
     /// # Errors
     /// A motion that is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
-        let bounds = bounds(trace.nodes(), share);
+        let bounds = Bounds::of(trace.nodes(), share);
         let close = CLOSE * trace.duration();
-        let (nodes, slivers) = without_slivers(apart(trace.nodes(), close), bounds, domain);
+        let (nodes, slivers) = without_slivers(apart(trace.nodes(), close), bounds.asked, domain);
         let asked = Asked {
             bounds,
             domain,
@@ -107,7 +96,7 @@ impl Plan {
                 other => break other?,
             }
         };
-        let (worst, most) = measure(&draft, trace, &asked, LOOKED * close)?;
+        let worst = measure(&draft, trace, &asked, close);
         let [position, speed, acceleration] = worst.map(|worst| (worst.error as f32).next_up());
         let errors = Errors {
             position,
@@ -116,10 +105,10 @@ impl Plan {
         };
         Ok(Self {
             rows: knots.len(),
+            most: course::greatest(&draft),
             words: write(&knots, errors)?,
             errors,
-            most,
-            excess: excess(worst, asked.bounds),
+            excess: excess(worst, asked.bounds.asked),
         })
     }
 
@@ -136,7 +125,7 @@ impl Plan {
 fn excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
     let quantities = [Quantity::Position, Quantity::Speed, Quantity::Acceleration];
     let all = quantities.into_iter().zip(worst).zip(bounds);
-    let mut beyond = all.filter(|((_, worst), bound)| worst.error > FAITHFUL * bound);
+    let mut beyond = all.filter(|((_, worst), bound)| worst.error > *bound);
     let ((quantity, Worst { error, t }), allowed) = beyond.next()?;
     Some(Excess {
         quantity,
@@ -146,60 +135,47 @@ fn excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
     })
 }
 
-/// What the image gives beside the motion, as firmware with numbers of double precision reads it; and its greatest speed and acceleration.
-fn measure(
-    words: &[u32],
-    trace: &Trace,
-    asked: &Asked,
-    short: f64,
-) -> Result<([Worst; 3], [f32; 2]), PlanError> {
-    let domain = asked.domain;
-    // A machine with this range, whatever its inertia: a plan takes range and units of it.
-    let table = [1.0 / 6.0; 7];
-    let shape = Shape::<Spline<f64>> {
-        set: curves::INERTIA,
-        cells: 4,
-        domain,
-        scale: Scale::SI,
-        constants: Constants::default(),
-    };
-    let model = Table::new(&table, shape).and_then(Model::<_, { curves::INERTIA }>::new);
-    let model = model.map_err(|error| PlanError::Image(error.into()))?;
-    let plan = Read::new(words, &model)?;
-    let (from, span) = match domain {
-        Domain::Turn => (0.0, span(domain)),
-        Domain::Stroke { from, .. } => (from, span(domain)),
-    };
+/// What the image gives beside the motion, over all of its time: the polynomials of a row and of a step of the motion differ by one, of which a bound is found.
+fn measure(words: &[u32], trace: &Trace, asked: &Asked, close: f64) -> [Worst; 3] {
+    let rows = course::rows(words, asked.domain);
     let mut all = [Worst::default(); 3];
+    let mut later = rows.iter().peekable();
     for pair in trace.nodes().windows(2) {
         let [before, after] = [&pair[0], &pair[1]];
-        let step = after.t - before.t;
-        if step < short {
+        if after.step <= 0.0 {
             continue;
         }
-        for share in LOOKS {
-            let t = ((before.t + share * step) * UNITS) as u64;
-            let share = (t as f64 / UNITS - before.t) / step;
-            let exact = after.after(before, share);
-            let place = plan.at(t).value;
-            let turned = f64::from(place.turns) + f64::from(place.motion.phase.to_bits()) / RANGE;
-            let found = [from + turned * span, place.motion.omega, place.motion.alpha];
-            let exact = [exact.phi, exact.omega, exact.alpha];
-            let looked = if asked.leaves_out(t as f64 / UNITS) {
-                2
-            } else {
-                3
-            };
-            for ((worst, found), exact) in all.iter_mut().zip(found).zip(exact).take(looked) {
-                let error = (found - exact).abs();
-                if error > worst.error {
-                    *worst = Worst {
-                        error,
-                        t: t as f64 / UNITS,
-                    };
+        let step = Course::step(before, after);
+        while let Some(row) = later.peek() {
+            let [from, to] = [before.t.max(row.t[0]), after.t.min(row.t[1])];
+            let width = to - from;
+            if width > 0.0 {
+                let own = (row.course).part(
+                    (from - row.t[0]) / row.window,
+                    width / row.window,
+                    row.position - before.phi,
+                );
+                let exact = step.part((from - before.t) / after.step, width / after.step, 0.0);
+                // A corner lies where a row can begin, to a unit of its time; of two that are closer one is left.
+                let is_corner = width <= close || asked.leaves_out(from.midpoint(to));
+                let known = std::array::from_fn(|k| all[k].error - row.rounding[k]);
+                let looked = if is_corner { 2 } else { 3 };
+                let found = own.beside(&exact, known).into_iter().zip(row.rounding);
+                for (worst, (found, rounding)) in all.iter_mut().zip(found).take(looked) {
+                    if let Some([error, share]) = found {
+                        *worst = Worst {
+                            error: error + rounding,
+                            t: from + share * width,
+                        };
+                    }
                 }
             }
+            // The next row begins in this step, or the next step in this row.
+            if row.t[1] > after.t {
+                break;
+            }
+            later.next();
         }
     }
-    Ok((all, plan.most()))
+    all
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod balance;
+mod contact;
 mod driven;
 mod fastest;
 mod gentlest;

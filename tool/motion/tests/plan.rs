@@ -2,11 +2,21 @@
 
 use std::f64::consts::TAU;
 
-use jred::Domain;
+use jred::axis::Plan as Read;
 use jred::axis::plan::{HEADER_WORDS, PlanError};
+use jred::table::{Constants, Shape};
+use jred::{Domain, Model, Scale, Spline, Table, curves};
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::read;
+use jred_motion::fastest::{Limits, Task, solve};
 use jred_motion::plan::{Plan, Quantity, SHARE};
 use jred_motion::trace::{Node, Trace};
+use jred_motion::way::Actuator;
+use jred_sizing::catalogue::Motor;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+
+use crate::support::press_text;
 
 /// A motion of nodes at equal times.
 fn motion(count: usize, length: f64, state: impl Fn(f64) -> [f64; 3]) -> Trace {
@@ -93,7 +103,8 @@ fn corners_and_rests_take_a_row_each() {
     assert_eq!(plan.rows, 5);
     let errors = plan.errors;
     assert!(
-        errors.position < 1.5e-7 && errors.speed < 3e-7 && errors.acceleration < 1e-6,
+        // Ten units of the coefficients of 4 rad/s², over a window of 2 s: 10·4·2⁻²⁹·2² and less.
+        errors.position < 3e-7 && errors.speed < 4e-7 && errors.acceleration < 1e-6,
         "{errors:?}"
     );
     assert_eq!(plan.bytes().len(), 4 * plan.words.len());
@@ -297,9 +308,7 @@ fn slivers_between_jumps_are_left_out() {
     let with = |at: usize, parts: &[(f64, f64)]| {
         let mut all = whole.to_vec();
         all.splice(at..at, parts.iter().copied());
-        let plan = Plan::new(&steps(&all), Domain::Turn, 0, SHARE).unwrap();
-        assert_eq!(plan.excess, None, "{parts:?} at {at}");
-        plan
+        Plan::new(&steps(&all), Domain::Turn, 0, SHARE).unwrap()
     };
     assert_eq!(with(0, &[]).rows, 4);
     let middle = [(tiny, -3.0)];
@@ -311,6 +320,7 @@ fn slivers_between_jumps_are_left_out() {
         (3, &[(tiny, 3.0)], -4.0),
     ] {
         let plan = with(at, parts);
+        assert_eq!(plan.excess, None, "{parts:?} at {at}");
         assert_eq!(plan.rows, 4, "{parts:?} at {at}");
         // The speed that is missed comes back along the neighbouring row, of 0.5 s or more.
         let missed: f64 = parts.iter().map(|(t, a)| t * (a - beside)).sum();
@@ -326,5 +336,150 @@ fn slivers_between_jumps_are_left_out() {
     assert_eq!(with(1, &[(1.2e-3, -3.0)]).rows, 5);
     let stays = with(1, &[(0.9e-3, -6.0)]);
     assert_eq!(stays.rows, 5);
+    let excess = stays.excess.unwrap();
+    assert_eq!(excess.quantity, Quantity::Acceleration);
+    assert!(excess.error > 8e-3, "{excess:?}");
     assert!(stays.errors.acceleration < 1.5 * 8e-3, "{:?}", stays.errors);
+}
+
+/// Numbers from 0 to 1, the same each time.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = (self.0)
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// What firmware is off by the most, at random times: its integers beside the motion.
+fn found(plan: &Plan, trace: &Trace, times: usize) -> [f64; 3] {
+    let table = [1.0 / 6.0; 7];
+    let shape = Shape::<Spline<f64>> {
+        set: curves::INERTIA,
+        cells: 4,
+        domain: Domain::Turn,
+        scale: Scale::SI,
+        constants: Constants::default(),
+    };
+    let model = Model::<_, { curves::INERTIA }>::new(Table::new(&table, shape).unwrap()).unwrap();
+    let read = Read::new(&plan.words, &model).unwrap();
+    let mut random = Random(11);
+    let mut most = [0.0_f64; 3];
+    for _ in 0..times {
+        let time = (random.next() * read.end() as f64) as u64;
+        let place = read.at(time).value;
+        let turned =
+            f64::from(place.turns) + f64::from(place.motion.phase.to_bits()) / 4_294_967_296.0;
+        let exact = trace.at(time as f64 / 1_099_511_627_776.0);
+        let errors = [
+            turned * TAU - exact.phi,
+            place.motion.omega - exact.omega,
+            place.motion.alpha - exact.alpha,
+        ];
+        for (most, error) in most.iter_mut().zip(errors) {
+            *most = most.max(error.abs());
+        }
+    }
+    most
+}
+
+/// Nowhere is firmware off by more than the header says, and by little less somewhere: cycloids of few and many steps, steps that bend at random, and the fastest stroke of a press. Where
+/// that is more than was asked it is said.
+#[test]
+fn what_is_stated_is_a_bound() {
+    let (way, angle) = (0.5 * TAU, TAU);
+    let cycloid = |count| {
+        motion(count, 1.0, |t| {
+            [
+                way * (t - (angle * t).sin() / angle),
+                way * (1.0 - (angle * t).cos()),
+                way * angle * (angle * t).sin(),
+            ]
+        })
+    };
+    let mut random = Random(3);
+    let mut walk = |count: usize| {
+        let mut nodes = vec![Node {
+            t: 0.0,
+            step: 0.0,
+            phi: 1.0,
+            omega: 0.0,
+            alpha: [0.0; 2],
+        }];
+        for _ in 0..count {
+            let before = nodes[nodes.len() - 1];
+            let step = 0.001 + 0.05 * random.next();
+            let alpha = before.alpha[1] + 2.0 * (random.next() - 0.5);
+            let missed = 1e-4 * (random.next() - 0.5);
+            let [a, b] = [before.alpha[1] * step, alpha * step];
+            nodes.push(Node {
+                t: before.t + step,
+                step,
+                phi: before.phi + step * (before.omega + a / 3.0 + b / 6.0 + 0.5 * missed),
+                omega: before.omega + 0.5 * (a + b) + missed,
+                alpha: [alpha; 2],
+            });
+        }
+        Trace::new(Coordinate::Angle, nodes)
+    };
+    let none = std::collections::BTreeMap::<String, String>::new();
+    let press = read::parse("press.toml", &press_text(), none).unwrap();
+    let stroke = |torque: f64| {
+        let motor = Motor {
+            peak_curve: vec![[0.0, torque], [30.0 * TAU / 2.0, torque]],
+            ..Motor::default()
+        };
+        let actuator = Actuator {
+            coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
+            ratio: 1.0,
+            envelope: Envelope::of(&motor),
+        };
+        let task = Task {
+            from: 0.5 * TAU,
+            to: 1.5 * TAU,
+            speeds: [0.0; 2],
+            limits: Limits::default(),
+            endless: false,
+        };
+        solve(&press, &actuator, &task).unwrap().trace
+    };
+    let traces = [
+        cycloid(7),
+        cycloid(50),
+        cycloid(1000),
+        walk(40),
+        walk(400),
+        stroke(25.0),
+        stroke(120.0),
+    ];
+    for (k, trace) in traces.iter().enumerate() {
+        for share in [1e-1, 1e-2, SHARE, 1e-4, 1e-5, 1e-6] {
+            let plan = Plan::new(trace, Domain::Turn, 0, share).unwrap();
+            let errors = [
+                plan.errors.position,
+                plan.errors.speed,
+                plan.errors.acceleration,
+            ];
+            let errors = errors.map(f64::from);
+            let found = found(&plan, trace, 20_000);
+            let accelerations = trace.nodes().iter().flat_map(|node| node.alpha);
+            let most = accelerations.fold(0.0_f64, |most, alpha| most.max(alpha.abs()));
+            if errors[2] > 1.000_001 * share * most {
+                assert!(plan.excess.is_some(), "{k} {share}: {errors:?}");
+            }
+            // Many steps are as exact as that.
+            assert!(share < 1e-4 || ![2, 5, 6].contains(&k) || plan.excess.is_none());
+            for (found, stated) in found.into_iter().zip(errors) {
+                assert!(found <= stated, "{k} {share}: {found} {stated}");
+            }
+            // Rounding is a bound, not a value.
+            assert!(
+                share < 1e-5 || found[2] > 0.5 * errors[2],
+                "{k} {share}: {found:?} {errors:?}"
+            );
+        }
+    }
 }

@@ -3,12 +3,16 @@
 use std::fmt::Write as _;
 
 use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::inspect::Findings;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
 use jred_machine::read;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::cycle::cycle;
+use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{self, Move, Part};
+use jred_motion::retime::{Goal, Request, retime};
 use jred_motion::trace::{Node, Trace};
 use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
@@ -200,5 +204,62 @@ fn a_cam_table_has_derivatives_by_the_master() {
             (found - expected).abs() < 1e-13 * expected,
             "{found} {expected}"
         );
+    }
+}
+
+/// What the work of a profile's motion and the energy differ by, as `jred check` finds it.
+fn imbalance(file: &MachineFile) -> f64 {
+    Findings::of(file).unwrap().agreement.energy.unwrap()
+}
+
+/// The fastest and the gentlest motion of the press balance work and energy as well as its own motion does: at their rows the jerk jumps, and the work is integrated from one to the next.
+#[test]
+fn the_check_accepts_the_profiles() {
+    let none = std::collections::BTreeMap::<String, String>::new();
+    let file = read::parse("press.toml", &press_text(), none).unwrap();
+    let motor = Motor {
+        peak_curve: vec![[0.0, 500.0], [10.0, 500.0]],
+        ..Motor::default()
+    };
+    let actuator = Actuator {
+        coefficients: DIRECT,
+        ratio: 1.0,
+        envelope: Envelope::of(&motor),
+    };
+    let part = Part::Move(Move {
+        from: 180f64.to_radians(),
+        to: 540f64.to_radians(),
+        duration: 1.0,
+    });
+    let fastest = cycle(&file, &actuator, Limits::default(), None, &[part]).unwrap();
+    let found = imbalance(&press_with(&fastest.trace, "cyclic = false\n"));
+    assert!(found < 1e-9, "{found:e}");
+    // A law whose speed is a polynomial of a higher degree than the profile's.
+    for machine in ["cam-translating", "linkage-cam-lever", "load-table"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join(format!("../../machines/{machine}.toml"));
+        let file = read::read(&path).unwrap();
+        let motion = file.required_motion().unwrap();
+        let request = Request {
+            actuator: without_drive(),
+            copper: None,
+            goal: Goal::Rms,
+            ramp: 0.0,
+            steps: 500,
+        };
+        let gentle = retime(&file, motion, &request).unwrap_or_else(|_| panic!("{machine}"));
+        let trace = &gentle.trace;
+        let missed = trace
+            .nodes()
+            .windows(2)
+            .map(|pair| pair[1].missed_since(&pair[0])[0].abs());
+        let way = trace.nodes().last().unwrap().phi - trace.nodes()[0].phi;
+        assert!(missed.sum::<f64>() < 1e-9 * way.abs(), "{machine}");
+        let made = MachineFile {
+            motion: Some(Motion::nodes(trace.nodes(), false)),
+            ..file
+        };
+        let found = imbalance(&made);
+        assert!(found < 1e-9, "{machine}: {found:e}");
     }
 }

@@ -280,13 +280,8 @@ impl<'a> MeterLimits<'a> {
         let broken = broken.filter(|check| check.verdict == Verdict::Fail);
         let words = broken.map(|check| {
             let rule = check.rule;
-            match check.limit {
-                Some(limit) => format!(
-                    "{rule} {} of {}, {}",
-                    check.figure(),
-                    check.with_unit(limit),
-                    check.used()
-                ),
+            match check.bound() {
+                Some(limit) => format!("{rule} {} of {limit}, {}", check.figure(), check.used()),
                 None => format!("{rule} {}: {}", check.figure(), check.note),
             }
         });

@@ -20,6 +20,7 @@ use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
+use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::winding::{Winding, cooled};
@@ -95,6 +96,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         let kept = force.kept_at_rest(&file);
         kept.map_err(|why| no_motion(&why, None))?;
     }
+    let broken = broken(&file, &cycle.trace).map_err(core_report)?;
     let trace = cycle.trace.of_axis(&file.axis());
     if let Some(path) = &options.profile {
         let text = trace.profile();
@@ -113,6 +115,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         cycle: &cycle,
         warmth: warmth.as_ref(),
         forces: &forces,
+        broken: broken.as_ref(),
         reserve,
         of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
@@ -134,7 +137,11 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         print(&planned)?;
     }
-    Ok(Done::Holds)
+    Ok(if broken.is_some() {
+        Done::Violated
+    } else {
+        Done::Holds
+    })
 }
 
 /// What is made as fast as possible.

@@ -15,6 +15,7 @@ use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
+use jred_motion::contact::broken;
 use jred_motion::gentlest::{Fault, without_drive};
 use jred_motion::moves::{Move, NoMoves};
 use jred_motion::retime::{self, Obstacle, Request};
@@ -71,11 +72,13 @@ pub fn retime(options: &Retime) -> Result<Done> {
         }
     }
     written += &plan::write(&options.plan, &file, &retimed.trace)?;
+    let broken = broken(&file, &retimed.trace).map_err(core_report)?;
     let mut shown = list::retime::Shown {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,
         retimed: &retimed,
+        broken: broken.as_ref(),
         written: String::new(),
     };
     if let Some(path) = &options.report {
@@ -86,7 +89,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     shown.written = written;
     print_parts([list::retime::write(&shown, options.format)])?;
     let best = &retimed.best;
-    let exceeds = best.used.max(best.rms_used) > 1.0;
+    let exceeds = best.used.max(best.rms_used) > 1.0 || broken.is_some();
     Ok(if exceeds { Done::Violated } else { Done::Holds })
 }
 

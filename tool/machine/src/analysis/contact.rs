@@ -1,6 +1,10 @@
 //! One-sided contacts: a follower presses on its cam, a rope pulls. Where the motion requires the opposite, the equations
 //! still have a solution, but the real machine has lost contact.
 
+mod over_motion;
+
+pub use over_motion::{Lost, lost};
+
 use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;

@@ -293,6 +293,19 @@ impl Motion {
         stretches
     }
 
+    /// A part of the motion cut where its rows stand, if it goes through nodes: there its jerk jumps. Times (s) with both ends.
+    pub(crate) fn cut_at_rows(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let rows = self.pieces.iter().filter_map(|piece| match &piece.kind {
+            Kind::Nodes(nodes) => Some(nodes),
+            _ => None,
+        });
+        let inner = rows.flatten().map(|node| node.t);
+        let inner = inner.filter(|t| from < *t && *t < to);
+        let mut cuts: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
+        cuts.dedup();
+        cuts
+    }
+
     /// The same motion, prescribed for a coordinate of the tool.
     #[must_use]
     pub fn of_tool(mut self, tool: ToolCoordinate) -> Self {

@@ -20,6 +20,32 @@ pub fn significant(x: f64, digits: i32) -> String {
     format!("{x:.places$e}")
 }
 
+/// Two numbers with four significant digits, and with as many more, up to twelve, as tell them apart.
+pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
+    let texts = |digits: i32| pair.map(|x| plain(x, digits));
+    let apart = (5..=12).map(texts).find(|[one, other]| one != other);
+    let four = pair.map(short);
+    match apart {
+        Some(texts) if four[0] == four[1] => texts,
+        _ => four,
+    }
+}
+
+/// A number with so many significant digits, plain between 1e-4 and 1e6.
+fn plain(x: f64, digits: i32) -> String {
+    let magnitude = x.abs();
+    if digits <= 6 || !(1e-4..1e6).contains(&magnitude) {
+        return significant(x, digits);
+    }
+    let decimals = (digits - 1 - magnitude.log10().floor() as i32).max(0) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
 /// A number with four significant digits; zero if it is only a rounding error compared with `largest`.
 pub fn shown(x: f64, largest: f64) -> String {
     if x.abs() <= 1e-9 * largest.abs() {
@@ -77,5 +103,20 @@ pub fn figure(value: f64) -> String {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told_apart;
+
+    #[test]
+    fn as_many_digits_as_tell_apart() {
+        let told = |a, b| told_apart([a, b]);
+        assert_eq!(told(6.4, 6.368), ["6.4", "6.368"]);
+        assert_eq!(told(6.368_000_017, 6.368), ["6.36800002", "6.368"]);
+        assert_eq!(told(0.800_04, 0.8), ["0.80004", "0.8"]);
+        assert_eq!(told(2.5, 2.5), ["2.5", "2.5"]);
+        assert_eq!(told(1234.561, 1234.5), ["1234.56", "1234.5"]);
     }
 }

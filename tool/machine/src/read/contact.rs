@@ -1,26 +1,12 @@
 //! Checks that followers stay on their cams and ropes stay taut during the prescribed motion.
 
-use std::cell::Cell;
+use jred::Error;
 
-use jred::machine::Mechanism as _;
-use jred::{Error, Reducible as _};
-
-use crate::analysis::contact::OneWay;
-use crate::analysis::duty::{STEPS, smooth_stretches};
+use crate::analysis::contact::lost;
 use crate::model::machine::MachineFile;
-use crate::model::motion::Motion;
-use crate::model::schedule::Now;
-use crate::number::numerics;
 
 use crate::text::problem::Result;
 use crate::text::section::Section;
-
-/// Samples of the drive link's range, a turn or its stroke, and fewest of a stretch of the motion between edges.
-const SAMPLES: f64 = 1440.0;
-const FEWEST: f64 = 128.0;
-
-/// The most samples of a stretch: a drive link may make a thousand turns.
-const MOST: f64 = 60_000.0;
 
 /// Checks that every cam's contact presses and every rope pulls over the whole motion. A cam that guides its follower on
 /// both sides has no contact to check.
@@ -28,94 +14,23 @@ pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let Some(motion) = &file.motion else {
         return Ok(());
     };
-    OneWay::all(file.machine.mechanism())
-        .into_iter()
-        .try_for_each(|joint| holds(file, mechanism, motion, joint))
-}
-
-fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay) -> Result<()> {
     let report = |error: Error| {
         mechanism
             .problem(error.to_string(), "in this mechanism")
             .help(error.cure().to_string())
     };
-    // A dwell asks for the same state at every sample.
-    let last: Cell<Option<(usize, [f64; 3], f64)>> = Cell::new(None);
-    let force = |t: f64| {
-        let state = motion.at(t);
-        let now = Now::of(t, state.omega);
-        let number = file.schedule.number(&now);
-        let state = [state.phi, state.omega, state.alpha];
-        if let Some((same, known, force)) = last.get()
-            && !file.schedule.flows()
-            && same == number
-            && known.map(f64::to_bits) == state.map(f64::to_bits)
-        {
-            return Ok(force);
-        }
-        let force = joint.force(&*file.machine_at(&now, state[0])?, state)?;
-        last.set(Some((number, state, force)));
-        Ok(force)
-    };
-    // The pull of a rope goes with the motion alone, unless a load has edges or a table.
-    let moved = file.machine.mechanism();
-    let tables = moved.own_links() < moved.links().len();
-    let smooth = joint.rope && !tables && !file.schedule.flows() && file.machine.edge(0).is_none();
-    let samples = if smooth { 0.0 } else { SAMPLES };
-    let (t, least) = smallest(file, motion, samples, force).map_err(report)?;
-    if joint.holds(least) {
+    let Some(lost) = lost(file, motion).map_err(report)? else {
         return Ok(());
-    }
-    let state = motion.at(t);
-    let parted = file
-        .machine_at(&Now::of(t, state.omega), state.phi)
-        .and_then(|machine| joint.parted(&machine, [state.phi, state.omega], least))
-        .map_err(report)?;
+    };
+    let parted = lost.parted;
     let message = format!(
         "{} in the prescribed motion: at {}, {}",
         parted.what, parted.state, parted.force
     );
-    let label = if joint.rope {
+    let label = if lost.joint.rope {
         "in this mechanism"
     } else {
         "in this cam"
     };
     Err(mechanism.problem(message, label).help(parted.cure))
-}
-
-/// The time of the smallest force, and the force; looked for at so many places of the drive link's range.
-fn smallest(
-    file: &MachineFile,
-    motion: &Motion,
-    samples: f64,
-    force: impl Fn(f64) -> std::result::Result<f64, Error>,
-) -> std::result::Result<(f64, f64), Error> {
-    let mut best = (0.0, f64::INFINITY);
-    let span = file.machine.domain().span();
-    for (from, to) in smooth_stretches(file, motion, STEPS) {
-        let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
-        let count = (samples * share).ceil().clamp(FEWEST, MOST);
-        // Between stretches the acceleration may jump: a hair inside.
-        let hair = 1e-9 * (to - from);
-        let at = |share: f64| (from + share * (to - from)).clamp(from + hair, to - hair);
-        let (mut place, mut least) = (0.0, f64::INFINITY);
-        for k in 0..=count as u32 {
-            let value = force(at(f64::from(k) / count))?;
-            if value < least {
-                (place, least) = (f64::from(k), value);
-            }
-        }
-        let share = numerics::least(
-            |share| force(at(share)),
-            (place - 1.0) / count,
-            (place + 1.0) / count,
-        )?;
-        let refined = at(share);
-        for (t, value) in [(at(place / count), least), (refined, force(refined)?)] {
-            if value < best.1 {
-                best = (t, value);
-            }
-        }
-    }
-    Ok(best)
 }

@@ -14,6 +14,13 @@ const MOST_PARTS: f64 = 8.0;
 /// Places between two nodes at which limits are looked at.
 pub(super) const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
 
+/// Those of a motion that was made by sweeps: with the nodes, where it leaves a limit of the speed by what is known of the machine there; what an excess does between
+/// them, with its slopes at the ends, rises less than a third above what it is at the nearest of them.
+const SHARES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
+
+/// Share of what a limit may be exceeded by that is kept to at these places.
+const KEPT: f64 = 0.75;
+
 /// Share of what a limit may be exceeded by that rounding may make of it.
 pub(super) const ROUNDED: f64 = 1e-3;
 
@@ -22,14 +29,22 @@ const ROUNDINGS: f64 = 1e4;
 
 /// The state at a share of a step. Of a step so short that rounding of the speeds makes another acceleration, that of the nodes counts.
 pub(super) fn within_step(a: &Node, b: &Node, share: f64) -> State<f64> {
+    felt(a, b, share, ROUNDINGS)
+}
+
+/// The same with so many roundings of the speeds.
+fn felt(a: &Node, b: &Node, share: f64, roundings: f64) -> State<f64> {
     let state = b.after(a, share);
     let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
     let alpha = a.alpha[1] + share * (b.alpha[0] - a.alpha[1]);
-    if (state.alpha - alpha).abs() <= ROUNDINGS * rounding {
+    if (state.alpha - alpha).abs() <= roundings * rounding {
         return State { alpha, ..state };
     }
     state
 }
+
+/// The same within a sweep: of a step that was made, and not cut where two curves meet.
+const MADE: f64 = 64.0;
 
 /// Where the limits leave no acceleration on a motion.
 pub(super) struct Closed {
@@ -101,8 +116,9 @@ pub(super) fn excess(
         let [a, b] = [&pair[0], &pair[1]];
         let cell = &track.cells[piece.cell];
         let inside = ends.inside(cell.length);
-        let mut most = 0.0_f64;
-        for share in LOOKS {
+        // What is exceeded, and what finer cells can do about it.
+        let (mut most, mut curable) = (0.0_f64, 0.0_f64);
+        for share in SHARES {
             let state = b.after(a, share);
             // A place at a corner has the values of its own side.
             let x = (state.phi - ends.from) * direction;
@@ -112,21 +128,21 @@ pub(super) fn excess(
                 let (v, alpha) = (state.omega * direction, alpha * direction);
                 Ok(field.excess_by(&place, v, alpha)?.0)
             };
-            // In a step so short, rounding of the speeds and a bend of the acceleration between the nodes look the same: neither is an excess.
-            let nodes = within_step(a, b, share).alpha;
             let own = excess(state.alpha)?;
-            most = most.max(if own > within {
-                own.min(excess(nodes)?)
-            } else {
-                own
-            });
+            most = most.max(own);
+            if own > KEPT * within {
+                curable = curable.max(excess(felt(a, b, share, MADE).alpha)?);
+            }
         }
         if most > largest.0 {
             largest = (most, a.phi);
         }
-        if most > within {
+        if curable > KEPT * within {
             // The error falls with the third power of the step.
-            let parts = (most / within).cbrt().ceil().clamp(2.0, MOST_PARTS) as usize;
+            let parts = (curable / (KEPT * within))
+                .cbrt()
+                .ceil()
+                .clamp(2.0, MOST_PARTS) as usize;
             let [from, to] = [a, b].map(|node| (node.phi - ends.from) * direction);
             let place = |k: usize| from + (to - from) * k as f64 / parts as f64;
             places.extend((1..parts).map(place));

@@ -1,23 +1,18 @@
 //! All moves of a motion made as fast as possible, its pauses kept.
 
-use jred::Error;
-use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 
-use super::field::{Binding, Limits};
+use super::costs::costs;
+pub use super::costs::{Cost, MORE};
+use super::field::Limits;
+pub use super::motor_load::MotorLoad;
+use super::motor_load::load;
 use super::obstacle::input;
 use super::rms::{Asked, Refused, Rms, slowest, within};
-use super::tool_speed::ToolSpeeds;
 use super::{Fastest, NoMotion, Task, priced, solve};
 use crate::moves::{Move, Part};
-use crate::trace::{Node, Trace};
-use crate::way::{Actuator, BothWays, Way};
-
-/// Share by which torque and speed of the motor are raised to see what they are worth.
-pub const MORE: f64 = 0.1;
-
-/// Gauss and Legendre's rule with two points on 0 to 1.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+use crate::trace::Trace;
+use crate::way::{Actuator, Way};
 
 /// A move made as fast as possible.
 #[derive(Clone, Debug)]
@@ -30,16 +25,6 @@ pub struct Made {
     pub fastest: Fastest,
     /// What each limit that it reaches costs.
     pub costs: Vec<Cost>,
-}
-
-/// What a limit costs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cost {
-    /// The limit.
-    pub limit: Binding,
-    /// The time (s) without it; of the motor's own limits, with a tenth more torque (driving and braking), or with a torque-speed curve
-    /// that reaches to a tenth more speed.
-    pub time: f64,
 }
 
 /// A motion whose moves are as fast as possible.
@@ -55,25 +40,6 @@ pub struct Cycle {
     pub dwells: f64,
     /// What the motor does.
     pub load: MotorLoad,
-}
-
-/// What a motor does in a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotorLoad {
-    /// RMS torque (N·m) over the motion, pauses with the torque that holds the machine.
-    pub rms: f64,
-    /// Largest torque (N·m) and speed (rad/s), as magnitudes.
-    pub peaks: [f64; 2],
-    /// Mean of the speed's magnitude (rad/s).
-    pub mean_speed: f64,
-    /// Torque at rest at the end (N·m), as a magnitude.
-    pub holding: f64,
-    /// S1 torque (N·m) at the mean speed; infinite: not known.
-    pub continuous: f64,
-    /// What the RMS torque may be (N·m): that S1 torque without what a reserve leaves unused.
-    pub allowed: f64,
-    /// Pause (s) that must be added for the RMS torque to be no larger than that; `None`: not even holding is possible.
-    pub pause: Option<f64>,
 }
 
 /// Makes every move of a motion as fast as possible.
@@ -143,8 +109,7 @@ fn at_price(
             }
         }
     }
-    let load =
-        load(file, actuator, &trace, limits.reserve.rms).map_err(|error| (0, error.into()))?;
+    let load = load(file, actuator, &trace, &limits.reserve).map_err(|error| (0, error.into()))?;
     Ok(Cycle {
         moves,
         trace,
@@ -168,7 +133,7 @@ pub fn single(
         let made = make(file, actuator, &task, None, asked, 0)?;
         let trace = made.fastest.trace.clone();
         Ok(Cycle {
-            load: load(file, actuator, &trace, task.limits.reserve.rms)?,
+            load: load(file, actuator, &trace, &task.limits.reserve)?,
             moves: vec![made],
             trace,
             before: None,
@@ -213,7 +178,7 @@ pub fn endless(
     made.costs = costs(file, actuator, &made, priced);
     made.task.speeds = [speed; 2];
     Ok(Cycle {
-        load: load(file, actuator, &trace, limits.reserve.rms)?,
+        load: load(file, actuator, &trace, &limits.reserve)?,
         moves: vec![made],
         trace,
         before: Some(step.duration),
@@ -256,119 +221,4 @@ fn with_costs(
         made.costs = costs(file, actuator, made, priced);
     }
     cycle
-}
-
-fn costs(file: &MachineFile, actuator: &Actuator, made: &Made, priced: bool) -> Vec<Cost> {
-    let mut met: Vec<Binding> = Vec::new();
-    for phase in &made.fastest.phases {
-        // Driving and braking are one motor.
-        let limit = match phase.limit {
-            Binding::Braking => Binding::Driving,
-            other => other,
-        };
-        if !met.contains(&limit) {
-            met.push(limit);
-        }
-    }
-    if priced {
-        // The price of the torque is that of the whole cycle: what another limit costs is not known without it.
-        met.retain(|limit| *limit == Binding::RmsTorque);
-    }
-    let cost = |limit: Binding| {
-        let (actuator, limits) = without(actuator, &made.task.limits, limit);
-        let eased = Task {
-            limits,
-            ..made.task
-        };
-        // Where no motion is found the limit is not what it costs time.
-        let time = super::time(file, &actuator, &eased).ok()?;
-        Some(Cost { limit, time })
-    };
-    met.into_iter().filter_map(cost).collect()
-}
-
-/// The same without a limit, or with more of the motor's own.
-fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, Limits) {
-    let mut actuator = actuator.clone();
-    let mut limits = *limits;
-    match limit {
-        Binding::Driving | Binding::Braking => {
-            // A tenth more torque moves a machine that asks for a tenth less.
-            for c in &mut actuator.coefficients.0 {
-                *c /= 1.0 + MORE;
-            }
-        }
-        Binding::MotorSpeed => actuator.ratio /= 1.0 + MORE,
-        Binding::GearboxTorque => limits.gearbox_torque = None,
-        Binding::GearboxSpeed => limits.gearbox_speed = None,
-        Binding::Speed => limits.speed = None,
-        Binding::ToolSpeed => limits.tool = ToolSpeeds::default(),
-        Binding::Acceleration => limits.acceleration = None,
-        Binding::Deceleration => limits.deceleration = None,
-        Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
-        Binding::Jerk => limits.jerk = None,
-        Binding::TorqueRate => limits.torque_rate = None,
-        // Those of the whole cycle, which no move keeps alone.
-        Binding::RmsTorque | Binding::WindingTemperature => {}
-    }
-    limits.level_ends &= limits.has_rates();
-    (actuator, limits)
-}
-
-/// What the motor does in a motion, of whose S1 torque a share stays unused.
-///
-/// # Errors
-/// The mechanism cannot be placed somewhere.
-pub fn load(
-    file: &MachineFile,
-    actuator: &Actuator,
-    trace: &Trace,
-    reserve: f64,
-) -> Result<MotorLoad, Error> {
-    let ways = BothWays::new(file, actuator);
-    let forwards = ways.forwards();
-    let (mut squares, mut turns) = (0.0, 0.0);
-    let mut peaks = [0.0_f64; 2];
-    for pair in trace.nodes().windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
-        let (step, heading) = (b.step, b.phi - a.phi);
-        if step <= 0.0 {
-            continue;
-        }
-        for share in GAUSS {
-            let motor = ways.torque(&b.after(a, share), heading)?;
-            squares += 0.5 * step * motor * motor;
-        }
-        turns += heading.abs();
-        for (node, alpha) in [(a, a.alpha[1]), (b, b.alpha[0])] {
-            let Node { phi, omega, .. } = *node;
-            let motor = ways.torque(&State { phi, omega, alpha }, heading)?;
-            peaks[0] = peaks[0].max(motor.abs());
-            peaks[1] = peaks[1].max(forwards.motor_speed(node.omega.abs()));
-        }
-    }
-    let duration = trace.duration();
-    let end = trace.nodes().last().map_or(0.0, |node| node.phi);
-    let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
-    let mean_speed = forwards.motor_speed(turns) / duration;
-    // At the largest speed all the time rounding must not step beyond.
-    let continuous =
-        (actuator.envelope).continuous_torque(mean_speed.min(actuator.envelope.max_speed()));
-    let allowed = continuous * (1.0 - reserve);
-    let excess = squares - allowed * allowed * duration;
-    let relief = allowed * allowed - holding * holding;
-    let pause = if excess <= 0.0 || !allowed.is_finite() {
-        Some(0.0)
-    } else {
-        (relief > 0.0).then(|| excess / relief)
-    };
-    Ok(MotorLoad {
-        rms: (squares / duration).sqrt(),
-        peaks,
-        mean_speed,
-        holding,
-        continuous,
-        allowed,
-        pause,
-    })
 }

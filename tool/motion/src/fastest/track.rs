@@ -18,6 +18,9 @@ const LOOKS: u32 = 24;
 /// Share of a cell by which a place at a corner lies inside it: what jumps there has the value of its own side.
 const INSIDE: f64 = 1e-9;
 
+/// Share by which a limit of the tool's speed changes within that at most, if it does not jump there.
+const GOES_ON: f64 = 1e-6;
+
 /// Places closer than this share of the largest position are one: their last digits.
 const SAME: f64 = 16.0 * f64::EPSILON;
 
@@ -144,9 +147,18 @@ impl Track {
         let (nodes, is_edge) = nodes(ends, count, finer);
         let direction = field.way.direction;
         let top = 0.5 * field.top().0.powi(2);
-        let at = |x: f64| {
+        // `x` lies inside a cell whose border is `border`.
+        let at = |x: f64, border: f64| {
             let place = field.way.place(ends.from + direction * x)?;
-            let tool = 0.5 * field.tool_speed(place.phi)?.powi(2);
+            let mut tool = field.tool_speed(place.phi)?;
+            if (x - border).abs() > 0.0 {
+                // What goes on beyond the border has no step there.
+                let there = field.tool_speed(ends.from + direction * border)?;
+                if (there - tool).abs() <= GOES_ON * tool {
+                    tool = there;
+                }
+            }
+            let tool = 0.5 * tool.powi(2);
             let forces = field.forces(place.phi)?;
             let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
             let cap = ceiling(field, &Spot::new(place, &alone, [1.0, 0.0, 0.0]), top);
@@ -161,11 +173,12 @@ impl Track {
             let goes_on = !is_edge[k];
             let first = match end_before.take().filter(|_| goes_on) {
                 Some(before) => before,
-                None if goes_on => at(x)?,
-                None => at(x + inside)?,
+                None if goes_on => at(x, x)?,
+                None => at(x + inside, x)?,
             };
-            let middle = at(x + 0.5 * length)?;
-            let last = at(if is_edge[k + 1] { end - inside } else { end })?;
+            let half = x + 0.5 * length;
+            let middle = at(half, half)?;
+            let last = at(if is_edge[k + 1] { end - inside } else { end }, end)?;
             let joints = first.2.iter().zip(&middle.2).zip(&last.2);
             cells.push(Cell {
                 x,

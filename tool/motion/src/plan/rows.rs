@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 
 use jred::Domain;
 use jred::axis::plan::Knot;
-use jred::machine::motion::{End, Polynomial, State};
+use jred::machine::motion::State;
 
+use super::course::Course;
+use super::polynomial::TIGHT;
 use crate::trace::Node;
 
 /// Share of that by which a position may be, of the way.
@@ -23,22 +25,55 @@ const BEYOND: f64 = 1e-9;
 /// 2³²
 pub(super) const RANGE: f64 = 4_294_967_296.0;
 
+/// What integers of 32 bits make of the greatest speed and of the greatest acceleration, with the sums that they are found by and the factors that follow.
+const DIGITS: [f64; 2] = [1.5 / 16_777_216.0, 1.0 / 4_194_304.0];
+
+/// The place in a row is known to this share of it, at most.
+const PLACE: f64 = 1.0 / 1_073_741_824.0;
+
 /// By how much position, speed and acceleration may be off: shares of the greatest that there are, and at least of the mean speed, and of what takes the greatest speed in the time of the
 /// motion: at constant speed an acceleration is nothing but rounding.
-pub(super) fn bounds(nodes: &[Node], share: f64) -> [f64; 3] {
-    let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let way = most(|node| node.phi) + most(|node| -node.phi);
-    let time = nodes
-        .last()
-        .map_or(0.0, |node| node.t)
-        .max(f64::MIN_POSITIVE);
-    let speed = most(|node| node.omega.abs()).max(way / time);
-    let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
-    [
-        OF_WAY * share * way,
-        share * speed,
-        share * acceleration.max(speed / time),
-    ]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// By how much.
+    pub(super) asked: [f64; 3],
+    /// The greatest speed and acceleration.
+    most: [f64; 2],
+}
+
+impl Bounds {
+    /// Shares of a motion.
+    pub(super) fn of(nodes: &[Node], share: f64) -> Self {
+        let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let way = most(|node| node.phi) + most(|node| -node.phi);
+        let time = nodes
+            .last()
+            .map_or(0.0, |node| node.t)
+            .max(f64::MIN_POSITIVE);
+        let speed = most(|node| node.omega.abs()).max(way / time);
+        let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
+        let acceleration = acceleration.max(speed / time);
+        Self {
+            asked: [OF_WAY * share * way, share * speed, share * acceleration],
+            most: [speed, acceleration],
+        }
+    }
+
+    /// What rounding may take of that in a row so long (s), with this polynomial of its acceleration.
+    fn rounding(&self, length: f64, course: &Course, unit: f64) -> [f64; 3] {
+        let [speed, acceleration] = self.most;
+        let rounded = ROUNDING * unit / length;
+        // Of the coefficients over the window, of which 29 bits are left below the greatest sum.
+        let window = (length.log2().floor() + 1.0).exp2();
+        let powers = course.acceleration.iter().rev();
+        let raised = powers.fold(0.0, |sum, c| sum * window / length + c.abs());
+        let fine = raised / 536_870_912.0;
+        [
+            4.0 * unit + PLACE * length * speed + 10.0 * window * window * fine,
+            rounded + 8.0 * window * fine + DIGITS[0] * speed + PLACE * length * acceleration,
+            rounded / length + MISSED * PLACE * speed / length + DIGITS[1] * acceleration,
+        ]
+    }
 }
 
 /// The range in which positions of rows are counted (rad, or m).
@@ -135,13 +170,28 @@ pub(super) fn without_slivers(
     }
     let mut stays = stays.into_iter();
     nodes.retain(|_| stays.next().unwrap_or(true));
+    joined(&mut nodes);
     (nodes, slivers)
+}
+
+/// Share of a step by which the times of its ends are rounded at most.
+const SAME_STEP: f64 = 1e-6;
+
+/// Lets the steps be as long as the times between the nodes that are left.
+fn joined(nodes: &mut [Node]) {
+    let mut before = None;
+    for node in nodes {
+        let length = before.replace(node.t).map_or(0.0, |t| node.t - t);
+        if (length - node.step).abs() > SAME_STEP * length {
+            node.step = length;
+        }
+    }
 }
 
 /// What a plan is to keep to.
 pub(super) struct Asked<'s> {
     /// By how much position, speed and acceleration may be off.
-    pub(super) bounds: [f64; 3],
+    pub(super) bounds: Bounds,
     pub(super) domain: Domain,
     /// What is left out of the motion, in the order of time.
     pub(super) slivers: &'s [Sliver],
@@ -163,16 +213,15 @@ impl Asked<'_> {
         self.slivers.get(k).is_some_and(|sliver| sliver.t[0] <= t)
     }
 
-    /// By how much a row between these times may be off: more where a sliver is left out beside it, and where rounding its positions takes as much (`unit`, rad or m).
-    fn of_row(&self, ends: [f64; 2], unit: f64) -> [f64; 3] {
-        let [position, speed, acceleration] = self.bounds;
+    /// By how much the polynomial of a row between these times may be off: what rounding leaves of the bounds, or as much as rounding where that takes more than half; and
+    /// more where a sliver is left out beside it.
+    fn of_row(&self, ends: [f64; 2], course: &Course) -> [f64; 3] {
         let length = ends[1] - ends[0];
-        let (rounded, missed) = (ROUNDING * unit / length, self.missed(ends));
-        [
-            position,
-            speed.max(rounded) + missed,
-            acceleration.max(rounded / length) + MISSED * missed / length,
-        ]
+        let rounding = self.bounds.rounding(length, course, unit(self.domain));
+        let missed = self.missed(ends);
+        let more = [0.0, missed, MISSED * missed / length];
+        let asked = self.bounds.asked;
+        std::array::from_fn(|k| (asked[k] * (1.0 - TIGHT) - rounding[k]).max(rounding[k]) + more[k])
     }
 
     /// The knots of the plan: from each one as far as the polynomial through both keeps to the motion, and to the stroke.
@@ -180,7 +229,7 @@ impl Asked<'_> {
         let Some(last) = nodes.len().checked_sub(1) else {
             return Vec::new();
         };
-        let short = shortest(self.bounds, self.domain);
+        let short = shortest(self.bounds.asked, self.domain);
         let fits = |from: usize, to: usize| to == from + 1 || self.keeps(&nodes[from..=to]);
         let mut kept = vec![0];
         let mut from = 0;
@@ -216,17 +265,13 @@ impl Asked<'_> {
         kept.into_iter().map(|k| knot(&nodes[k])).collect()
     }
 
-    /// Whether the polynomial of the fifth degree from the first node to the last keeps to the nodes between, and to the middles of their steps.
+    /// Whether the polynomial of the fifth degree from the first node to the last keeps to every step between, and to the stroke in the nodes and halfway between.
     fn keeps(&self, nodes: &[Node]) -> bool {
-        let [first, inner @ .., last] = nodes else {
+        let [Some(first), Some(last)] = [nodes.first(), nodes.last()] else {
             return true;
         };
-        let through = Polynomial::between(
-            last.phi - first.phi,
-            last.t - first.t,
-            End::new(first.omega, first.alpha[1]),
-            End::new(last.omega, last.alpha[0]),
-        );
+        let through = Course::between(first, last);
+        let length = last.t - first.t;
         let range = match self.domain {
             Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
             Domain::Stroke { from, to } => {
@@ -234,26 +279,18 @@ impl Asked<'_> {
                 from - beyond..=to + beyond
             }
         };
-        let [position, speed, acceleration] = self.of_row([first.t, last.t], unit(self.domain));
-        let near = |t: f64, phi: f64, omega: f64, alpha: f64| {
-            let [x, v, a, _] = through.at(t - first.t);
-            range.contains(&(first.phi + x))
-                && (first.phi + x - phi).abs() <= position
-                && (v - omega).abs() <= speed
-                && (a - alpha).abs() <= acceleration
-        };
-        let at_nodes = inner.iter().all(|node| {
-            node.alpha
-                .iter()
-                .all(|alpha| near(node.t, node.phi, node.omega, *alpha))
-        });
-        at_nodes
-            && nodes.windows(2).all(|pair| {
-                let [before, after] = [&pair[0], &pair[1]];
-                let step = after.t - before.t;
-                let state = after.after(before, 0.5);
-                near(before.t + 0.5 * step, state.phi, state.omega, state.alpha)
-            })
+        let bounds = self.of_row([first.t, last.t], &through);
+        nodes.windows(2).all(|pair| {
+            let [before, after] = [&pair[0], &pair[1]];
+            let from = (before.t - first.t) / length;
+            let width = (after.t - before.t) / length;
+            let own = through.part(from, width, first.phi - before.phi);
+            let middle = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
+            let middle: f64 = own.position.iter().zip(middle).map(|(c, s)| c * s).sum();
+            let end: f64 = own.position.iter().sum();
+            let inside = [middle, end].map(|x| range.contains(&(before.phi + x)));
+            inside == [true; 2] && own.keeps_to(&Course::step(before, after), bounds)
+        })
     }
 }
 

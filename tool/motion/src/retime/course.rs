@@ -29,9 +29,17 @@ pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Tra
     trace
 }
 
+/// Share of the way by which the positions of a phase may differ from the way at its speeds: between two nodes these are cubics, and those of a phase have one degree more.
+const SAME: f64 = 1e-13;
+
+/// Most parts of a phase.
+const MOST_PARTS: f64 = 64.0;
+
 fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
     let mut nodes: Vec<Node> = Vec::with_capacity(phases.len() + 1);
     let (mut t, mut phi) = (0.0, from);
+    let ways = (phases.iter()).map(|phase| phase.polynomial.at(phase.duration)[0].abs());
+    let whole: f64 = ways.sum();
     for phase in phases {
         let [_, omega, alpha, _] = phase.polynomial.at(0.0);
         match nodes.last_mut() {
@@ -44,16 +52,38 @@ fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
                 alpha: [0.0, alpha],
             }),
         }
-        let [way, omega, alpha, _] = phase.polynomial.at(phase.duration);
-        t += phase.duration;
-        phi += way;
-        nodes.push(Node {
-            t,
-            step: phase.duration,
-            phi,
-            omega,
-            alpha: [alpha, 0.0],
-        });
+        let begin = (t, phi);
+        let at = |share: f64| {
+            let since = phase.duration * share;
+            let [way, omega, alpha, _] = phase.polynomial.at(since);
+            Node {
+                t: begin.0 + since,
+                step: since,
+                phi: begin.1 + way,
+                omega,
+                alpha: [alpha; 2],
+            }
+        };
+        let end = at(1.0);
+        let [rest, _] = end.missed_since(&at(0.0));
+        // It falls with the fifth power of the step.
+        let parts = (rest.abs() / (SAME * whole)).sqrt().sqrt().ceil();
+        let parts = if parts.is_finite() {
+            parts.clamp(1.0, MOST_PARTS)
+        } else {
+            1.0
+        };
+        for k in 1..=parts as u32 {
+            let node = at(f64::from(k) / parts);
+            nodes.push(Node {
+                step: phase.duration / parts,
+                ..node
+            });
+        }
+        if let Some(last) = nodes.last_mut() {
+            last.alpha[1] = 0.0;
+        }
+        (t, phi) = (end.t, end.phi);
     }
     nodes
 }

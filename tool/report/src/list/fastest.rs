@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use super::contact::of_fastest;
 use crate::table::output::{Format, json_parts, parts};
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -14,6 +15,7 @@ use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
+use jred_motion::contact::Broken;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::Reached;
@@ -50,6 +52,8 @@ pub struct Answer<'a> {
     pub warmth: Option<&'a Warmth>,
     /// The largest forces in the joints whose force is limited.
     pub forces: &'a [Reached],
+    /// The contact that the motion loses.
+    pub broken: Option<&'a Broken>,
     /// What was asked for, option by option.
     pub asked: Vec<String>,
     /// What it leaves unused of motor and gearbox.
@@ -145,6 +149,10 @@ impl Answer<'_> {
         }
         for force in self.forces {
             line(&mut text, "joint force", &self.force(force));
+        }
+        if let Some(broken) = self.broken {
+            let says = of_fastest(broken, &self.file.axis());
+            line(&mut text, "warning", &says);
         }
         line(&mut text, "reserve", &self.reserve());
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
@@ -242,6 +250,8 @@ impl Answer<'_> {
             })
         });
         map.insert("joint_forces".into(), forces.collect());
+        let broken = self.broken.map(|broken| of_fastest(broken, &axis));
+        map.insert("contact_lost".into(), json!(broken));
         map.insert("unit".into(), axis.coordinate.per().into());
         let moves: Vec<Value> = (cycle.moves.iter())
             .map(|made| move_json(made, &axis, self.file))

@@ -4,6 +4,7 @@ pub mod alternatives;
 pub mod balance;
 pub mod bus_json;
 pub mod bus_text;
+pub mod contact;
 pub mod fastest;
 pub mod front;
 pub mod inspection;

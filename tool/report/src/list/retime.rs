@@ -4,12 +4,14 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use super::contact::of_retime;
 use crate::table::output::Format;
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
+use jred_motion::contact::Broken;
 use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
 use jred_motion::retime::{Figures, Goal, Request, Retimed};
 use jred_sizing::select::fit::input_kind;
@@ -32,6 +34,8 @@ pub struct Shown<'a> {
     pub request: &'a Request,
     /// The result.
     pub retimed: &'a Retimed,
+    /// The contact that the motion loses.
+    pub broken: Option<&'a Broken>,
     /// Which files were written.
     pub written: String,
 }
@@ -189,6 +193,9 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
             short(*own)
         );
         line(text, "warning", &says);
+    }
+    if let Some(broken) = shown.broken {
+        line(text, "warning", &of_retime(broken));
     }
     if shown.drive.is_some() && retimed.best.rms_used > 1.0 {
         let says = if retimed.best.rms_used.is_finite() {
@@ -383,6 +390,7 @@ fn json(shown: &Shown) -> Value {
     };
     map.insert("global".into(), global.into());
     map.insert("local_because".into(), json!(reason));
+    map.insert("contact_lost".into(), json!(shown.broken.map(of_retime)));
     let axis = shown.file.axis();
     map.insert("unit".into(), axis.coordinate.per().into());
     let moves = retimed.moves.iter().map(|gentle| {

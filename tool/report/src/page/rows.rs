@@ -36,9 +36,7 @@ impl CheckRow {
         Self {
             rule: check.rule,
             value: check.figure(),
-            limit: check
-                .limit
-                .map_or("–".into(), |limit| check.with_unit(limit)),
+            limit: check.bound().unwrap_or("–".into()),
             used: check.used(),
             bar: if used.is_finite() {
                 (used * 100.0).clamp(0.0, 100.0).round()

@@ -1,7 +1,7 @@
 //! Remedies in words.
 
 use super::remedy::{Edge, Lever, Miss, Remedy};
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{short, told_apart};
 use jred_machine::units::Vocabulary;
 
 impl Remedy {
@@ -64,12 +64,13 @@ impl Miss {
     pub fn sentence(&self, words: &Vocabulary) -> String {
         let name = self.rule.named(words);
         match (self.used, self.needed) {
-            (Some(used), Some(needed)) => format!(
-                "{name} uses {} of its limit (a limit of {} instead of {} would be satisfied)",
-                percent(used),
-                short(needed),
-                short(self.limit)
-            ),
+            (Some(used), Some(needed)) => {
+                let [needed, limit] = told_apart([needed, self.limit]);
+                format!(
+                    "{name} uses {} of its limit (a limit of {needed} instead of {limit} would be satisfied)",
+                    percent(used)
+                )
+            }
             _ => format!("{name} is required, but there is none"),
         }
     }
@@ -77,7 +78,9 @@ impl Miss {
 
 /// A share that is used; beyond ten times the limit its digits say nothing, as in [`Check::used`](crate::judge::check::Check::used).
 fn percent(used: f64) -> String {
-    if used < 10.0 {
+    if used > 1.0 && used < 1.000_5 {
+        "a little more than 100 %".to_owned()
+    } else if used < 10.0 {
         format!("{:.1} %", used * 100.0)
     } else {
         "> 1000 %".to_owned()

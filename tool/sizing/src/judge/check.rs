@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::judge::Words;
 use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{short, told_apart};
 
 /// A rule with its value, limit and verdict.
 #[derive(Clone, Debug, Serialize)]
@@ -109,17 +109,27 @@ impl Check {
         self.margin
     }
 
-    /// Four digits and the unit.
-    pub fn with_unit(&self, figure: f64) -> String {
-        format!("{} {}", short(figure), self.unit)
-            .trim_end()
-            .to_owned()
+    fn with_unit(&self, figure: &str) -> String {
+        format!("{figure} {}", self.unit).trim_end().to_owned()
+    }
+
+    /// Figure and limit with four digits; where the one exceeds the other by less, with as many as show it.
+    fn figures(&self) -> Option<[String; 2]> {
+        let pair = [self.value?, self.limit?];
+        Some(if self.verdict == Verdict::Fail {
+            told_apart(pair)
+        } else {
+            pair.map(short)
+        })
     }
 
     /// Use of the limit as text.
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
             _ if self.limit.is_none() => String::new(),
+            percent if self.verdict == Verdict::Fail && percent > 100.0 && percent < 100.5 => {
+                "> 100 %".to_owned()
+            }
             percent if percent <= 1000.0 => format!("{percent:.0} %"),
             _ => "> 1000 %".to_owned(),
         }
@@ -127,19 +137,27 @@ impl Check {
 
     /// The figure with its unit, or a dash.
     pub fn figure(&self) -> String {
-        self.value.map_or("–".to_owned(), |v| self.with_unit(v))
+        let text = match self.figures() {
+            Some([value, _]) => Some(value),
+            None => self.value.map(short),
+        };
+        text.map_or("–".to_owned(), |text| self.with_unit(&text))
+    }
+
+    /// Its limit with its unit; `None`: there is none.
+    pub fn bound(&self) -> Option<String> {
+        let text = match self.figures() {
+            Some([_, limit]) => limit,
+            None => short(self.limit?),
+        };
+        Some(self.with_unit(&text))
     }
 
     /// Figure, limit and what the limit is, as one sentence.
     pub fn sentence(&self) -> String {
         let value = self.figure();
-        match self.limit {
-            Some(limit) => format!(
-                "{} {value}, limit {} ({})",
-                self.rule,
-                self.with_unit(limit),
-                self.note
-            ),
+        match self.bound() {
+            Some(limit) => format!("{} {value}, limit {limit} ({})", self.rule, self.note),
             None => format!("{} {value}: {}", self.rule, self.note),
         }
     }

@@ -22,6 +22,9 @@ const STEPS: usize = 360;
 /// Parts of the motion that its work is integrated over, each halved where it must be.
 const PANELS: u32 = 96;
 
+/// Parts of a motion of states, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
+const ROW_PANELS: usize = 8192;
+
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
 
@@ -155,25 +158,36 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
 /// The energy balance over the motion, stretch by stretch: a payload brings its energy with it, and takes it away.
 fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
     let stretches = duty::smooth_stretches(file, motion, STEPS);
-    let panels = |[from, to]: [f64; 2]| {
-        let share = (f64::from(PANELS) * (to - from) / motion.duration()).ceil();
-        share.max(2.0) as u32
-    };
     let parts: Vec<Part> = stretches
         .into_iter()
         .map(|(from, to)| Part::new(file, machines, motion, [from, to]))
         .collect();
+    let duration = motion.duration();
+    // Between two rows of a motion of states, where it is smooth.
+    let over = |part: &Part, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
+        let cuts = motion.cut_at_rows(part.span);
+        let least = if cuts.len() > 2 {
+            (ROW_PANELS / cuts.len()).clamp(1, 4)
+        } else {
+            2
+        };
+        let mut sum = 0.0;
+        for pair in cuts.windows(2) {
+            let share = (pair[1] - pair[0]) / duration;
+            let panels = (f64::from(PANELS) * share).ceil().max(least as f64) as u32;
+            sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
+        }
+        Ok::<f64, Error>(sum)
+    };
     let mut moved = 0.0;
     for part in &parts {
-        let to_and_fro = |t: f64| Ok::<f64, Error>(part.drive(t)?.abs());
         // Only a scale: the rule without halvings.
-        moved += numerics::integral(to_and_fro, part.span, panels(part.span), f64::INFINITY)?;
+        moved += over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY)?;
     }
     let (mut work, mut gain) = (0.0, 0.0);
     for part in &parts {
         let [from, to] = part.span;
-        let tolerance = SHARE * moved * (to - from) / motion.duration();
-        work += numerics::integral(|t| part.power(t), part.span, panels(part.span), tolerance)?;
+        work += over(part, &|t| part.power(t), SHARE * moved)?;
         gain += part.energy(to)? - part.energy(from)?;
     }
     let off = (work - gain).abs();

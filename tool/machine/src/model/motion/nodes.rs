@@ -17,8 +17,9 @@ pub struct Node {
     pub alpha: [f64; 2],
 }
 
-/// What two speeds may differ by in the last digits, as a share of them; and two times.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// What two speeds may differ by in the last digits, as a share of them: those of a sweep through short cells by some forty roundings. And two times.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const OF_TIME: f64 = 16.0 * f64::EPSILON;
 
 /// Share of the largest acceleration by which it may differ before and after a node: rounding.
 const CONTINUOUS: f64 = 1e-6;
@@ -57,7 +58,7 @@ impl<'n> Step<'n> {
         let Self { before, after, .. } = self;
         let speed = after.omega.abs().max(before.omega.abs());
         let acceleration = after.alpha[0].abs().max(before.alpha[1].abs());
-        let rounding = ROUNDING * (speed + acceleration * after.t);
+        let rounding = ROUNDING * speed + OF_TIME * acceleration * after.t;
         if self.missed.abs() > rounding {
             self.missed
         } else {

@@ -12,6 +12,9 @@ use jred_motion::fastest::winding::Temperatures;
 
 use super::{Answer, line};
 
+/// Share below which an S1 torque is another one.
+const ROUNDED: f64 = 1e-5;
+
 /// How warm the winding of the motor gets.
 pub struct Warmth {
     /// Temperature (°C) of the surroundings.
@@ -30,11 +33,13 @@ impl Answer<'_> {
         let Vocabulary { torque, speed, .. } = self.words();
         let effort = torque.unit;
         let load = &self.cycle.load;
+        // A reserve of nothing stays a little below, too.
+        let is_less = load.allowed < (1.0 - ROUNDED) * load.continuous;
         let continuous = if load.continuous.is_finite() {
             format!(
                 ", S1 {torque} {} {effort} at the mean speed{}",
                 short(load.continuous),
-                if load.allowed < load.continuous {
+                if is_less {
                     format!(
                         ", {} of it with the reserve",
                         percent(load.allowed / load.continuous)
@@ -71,7 +76,7 @@ impl Answer<'_> {
                 unit = speed.unit
             ),
         );
-        let what = if load.allowed < load.continuous {
+        let what = if is_less {
             format!(
                 "{} of the S1 {torque}",
                 percent(load.allowed / load.continuous)

@@ -342,9 +342,7 @@ fn rules_table(judged: &Judged) -> String {
         table.add_row([
             check.rule.to_owned(),
             check.figure(),
-            check
-                .limit
-                .map_or(String::new(), |limit| check.with_unit(limit)),
+            check.bound().unwrap_or_default(),
             check.used(),
             margin(check),
             check.verdict.word().to_owned(),

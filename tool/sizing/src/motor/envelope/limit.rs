@@ -102,6 +102,36 @@ impl Piece {
         }
     }
 
+    /// The same torques at `by` times the speeds.
+    fn stretched(&self, by: f64) -> Self {
+        let curve = match self.curve {
+            Curve::Line { start, slope } => Curve::Line {
+                start,
+                slope: slope / by,
+            },
+            // A winding of which each speed takes less voltage.
+            Curve::Winding {
+                circuit,
+                torques,
+                braking,
+            } => Curve::Winding {
+                circuit: Circuit {
+                    flux: circuit.flux / by,
+                    reactance: circuit.reactance / by,
+                    ..circuit
+                },
+                torques,
+                braking,
+            },
+        };
+        Self {
+            from: self.from * by,
+            to: self.to * by,
+            curve,
+            shape: self.shape,
+        }
+    }
+
     /// The same piece between two other speeds inside it.
     #[must_use]
     pub fn cut(&self, from: f64, to: f64) -> Self {
@@ -133,6 +163,12 @@ impl Limit {
     /// The same torque up to a speed.
     pub fn level(torque: f64, to: f64) -> Self {
         Self::new([Piece::level(0.0, to, torque)])
+    }
+
+    /// The same torques at `by` times the speeds.
+    #[must_use]
+    pub fn stretched(&self, by: f64) -> Self {
+        Self::new(self.pieces.iter().map(|piece| piece.stretched(by)))
     }
 
     /// The pieces.

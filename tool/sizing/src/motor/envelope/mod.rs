@@ -113,6 +113,17 @@ impl Envelope {
         self.capped(self.continuous.torque(speed), speed)
     }
 
+    /// The same short-time torques up to `by` times the speed; the S1 torque stays.
+    #[must_use]
+    pub fn stretched(&self, by: f64) -> Self {
+        Self {
+            driving: self.driving.stretched(by),
+            braking: self.braking.stretched(by),
+            max_speed: self.max_speed * by,
+            ..self.clone()
+        }
+    }
+
     /// A torque limited by the peak torque; one that is not known stays so.
     fn capped(&self, torque: f64, speed: f64) -> f64 {
         if torque.is_finite() {

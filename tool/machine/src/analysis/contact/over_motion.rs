@@ -1,0 +1,114 @@
+//! One-sided contacts over a motion.
+
+use std::cell::Cell;
+
+use jred::machine::Mechanism as _;
+use jred::{Error, Reducible as _};
+
+use super::{OneWay, Parted};
+use crate::analysis::duty::{STEPS, smooth_stretches};
+use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
+use crate::model::schedule::Now;
+use crate::number::numerics;
+
+/// Samples of the drive link's range, a turn or its stroke, and fewest of a stretch of the motion between edges.
+const SAMPLES: f64 = 1440.0;
+const FEWEST: f64 = 128.0;
+
+/// The most samples of a stretch: a drive link may make a thousand turns.
+const MOST: f64 = 60_000.0;
+
+/// A contact that is lost in a motion.
+#[derive(Clone, Debug)]
+pub struct Lost {
+    /// The contact.
+    pub joint: OneWay,
+    /// When its force is least (s).
+    pub t: f64,
+    /// That instant in words.
+    pub parted: Parted,
+}
+
+/// The first contact that a motion does not keep, where its force is least.
+///
+/// # Errors
+/// Those of the machine.
+pub fn lost(file: &MachineFile, motion: &Motion) -> Result<Option<Lost>, Error> {
+    for joint in OneWay::all(file.machine.mechanism()) {
+        let (t, least) = least(file, motion, joint)?;
+        if joint.holds(least) {
+            continue;
+        }
+        let state = motion.at(t);
+        let machine = file.machine_at(&Now::of(t, state.omega), state.phi)?;
+        let parted = joint.parted(&machine, [state.phi, state.omega], least)?;
+        return Ok(Some(Lost { joint, t, parted }));
+    }
+    Ok(None)
+}
+
+/// The time of the smallest force, and the force.
+fn least(file: &MachineFile, motion: &Motion, joint: OneWay) -> Result<(f64, f64), Error> {
+    // A dwell asks for the same state at every sample.
+    let last: Cell<Option<(usize, [f64; 3], f64)>> = Cell::new(None);
+    let force = |t: f64| {
+        let state = motion.at(t);
+        let now = Now::of(t, state.omega);
+        let number = file.schedule.number(&now);
+        let state = [state.phi, state.omega, state.alpha];
+        if let Some((same, known, force)) = last.get()
+            && !file.schedule.flows()
+            && same == number
+            && known.map(f64::to_bits) == state.map(f64::to_bits)
+        {
+            return Ok(force);
+        }
+        let force = joint.force(&*file.machine_at(&now, state[0])?, state)?;
+        last.set(Some((number, state, force)));
+        Ok(force)
+    };
+    // The pull of a rope goes with the motion alone, unless a load has edges or a table.
+    let moved = file.machine.mechanism();
+    let tables = moved.own_links() < moved.links().len();
+    let smooth = joint.rope && !tables && !file.schedule.flows() && file.machine.edge(0).is_none();
+    let samples = if smooth { 0.0 } else { SAMPLES };
+    smallest(file, motion, samples, force)
+}
+
+/// The time of the smallest force, and the force; looked for at so many places of the drive link's range.
+fn smallest(
+    file: &MachineFile,
+    motion: &Motion,
+    samples: f64,
+    force: impl Fn(f64) -> Result<f64, Error>,
+) -> Result<(f64, f64), Error> {
+    let mut best = (0.0, f64::INFINITY);
+    let span = file.machine.domain().span();
+    for (from, to) in smooth_stretches(file, motion, STEPS) {
+        let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
+        let count = (samples * share).ceil().clamp(FEWEST, MOST);
+        // Between stretches the acceleration may jump: a hair inside.
+        let hair = 1e-9 * (to - from);
+        let at = |share: f64| (from + share * (to - from)).clamp(from + hair, to - hair);
+        let (mut place, mut least) = (0.0, f64::INFINITY);
+        for k in 0..=count as u32 {
+            let value = force(at(f64::from(k) / count))?;
+            if value < least {
+                (place, least) = (f64::from(k), value);
+            }
+        }
+        let share = numerics::least(
+            |share| force(at(share)),
+            (place - 1.0) / count,
+            (place + 1.0) / count,
+        )?;
+        let refined = at(share);
+        for (t, value) in [(at(place / count), least), (refined, force(refined)?)] {
+            if value < best.1 {
+                best = (t, value);
+            }
+        }
+    }
+    Ok(best)
+}

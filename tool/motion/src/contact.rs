@@ -1,0 +1,85 @@
+//! One-sided contacts in a motion that was made: a follower that leaves its cam, a rope that goes slack.
+//!
+//! No limit of a fastest motion looks at them. The force of a contact is a straight line in the acceleration, so a place and a speed say up to which
+//! acceleration it is kept.
+
+use jred::Error;
+use jred_machine::analysis::contact::{Lost, OneWay, lost};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
+use jred_machine::model::schedule::Now;
+
+use crate::trace::Trace;
+
+/// Shares of a step at which its contacts are looked at.
+const SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// Share of the largest acceleration that keeps a contact that is named as a limit: between the places it may be a little smaller.
+const LEFT: f64 = 0.98;
+
+/// A contact that a motion loses, and what keeps it.
+#[derive(Clone, Debug)]
+pub struct Broken {
+    /// The contact, where and when.
+    pub lost: Lost,
+    /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) with which it is kept, those that are exceeded; `None`: none of them alone.
+    pub limits: Option<[Option<f64>; 2]>,
+}
+
+/// The contact that a motion of the drive link loses.
+///
+/// # Errors
+/// Those of the machine.
+pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error> {
+    let nodes = trace.nodes();
+    if nodes.len() < 2 || OneWay::all(file.machine.mechanism()).is_empty() {
+        return Ok(None);
+    }
+    let Some(lost) = lost(file, &Motion::nodes(nodes, false))? else {
+        return Ok(None);
+    };
+    let limits = limits(file, trace)?;
+    Ok(Some(Broken { lost, limits }))
+}
+
+/// The largest accelerations, while the speed grows and while it falls, that keep all contacts at the places and speeds of a motion, and where it stands
+/// there; of the kinds that exceed them.
+fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>, Error> {
+    let joints = OneWay::all(file.machine.mechanism());
+    let mut most = [f64::INFINITY; 2];
+    let mut exceeded = [false; 2];
+    for pair in trace.nodes().windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let way = b.phi - a.phi;
+        if b.step <= 0.0 || way == 0.0 {
+            continue;
+        }
+        for share in SHARES {
+            let state = b.after(a, share);
+            let now = Now {
+                omega: Some(way.signum()),
+                ..Now::default()
+            };
+            let machine = file.machine_at(&now, state.phi)?;
+            for joint in &joints {
+                for omega in [state.omega, 0.0] {
+                    let force = |alpha: f64| joint.force(&machine, [state.phi, omega, alpha]);
+                    let even = force(0.0)?;
+                    if !joint.holds(even) {
+                        return Ok(None);
+                    }
+                    for (kind, sign) in [(0, way.signum()), (1, -way.signum())] {
+                        let falls = even - force(sign)?;
+                        if falls > 0.0 {
+                            most[kind] = f64::min(most[kind], even / falls);
+                        }
+                        let own = state.alpha * sign;
+                        exceeded[kind] |= own > 0.0 && own * falls > even;
+                    }
+                }
+            }
+        }
+    }
+    let kept = [0, 1].map(|kind| exceeded[kind].then_some(LEFT * most[kind]));
+    Ok((kept != [None; 2]).then_some(kept))
+}

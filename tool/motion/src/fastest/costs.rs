@@ -1,0 +1,86 @@
+//! What the limits that a motion reaches cost: the time without them, or with more of the motor's own.
+
+use jred_machine::model::machine::MachineFile;
+
+use super::cycle::Made;
+use super::field::{Binding, Limits};
+use super::tool_speed::ToolSpeeds;
+use super::{Task, time};
+use crate::way::Actuator;
+
+/// Share by which torque and speed of the motor are raised to see what they are worth.
+pub const MORE: f64 = 0.1;
+
+/// What a limit costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// The limit.
+    pub limit: Binding,
+    /// The time (s) without it; of the motor's own limits, with a tenth more torque (driving and braking), or with a torque-speed curve
+    /// that reaches to a tenth more speed.
+    pub time: f64,
+}
+
+/// What each limit that a move reaches costs; where the RMS torque has a `price`, that alone.
+pub(super) fn costs(
+    file: &MachineFile,
+    actuator: &Actuator,
+    made: &Made,
+    priced: bool,
+) -> Vec<Cost> {
+    let mut met: Vec<Binding> = Vec::new();
+    for phase in &made.fastest.phases {
+        // Driving and braking are one motor.
+        let limit = match phase.limit {
+            Binding::Braking => Binding::Driving,
+            other => other,
+        };
+        if !met.contains(&limit) {
+            met.push(limit);
+        }
+    }
+    if priced {
+        // The price of the torque is that of the whole cycle: what another limit costs is not known without it.
+        met.retain(|limit| *limit == Binding::RmsTorque);
+    }
+    let cost = |limit: Binding| {
+        let (actuator, limits) = without(actuator, &made.task.limits, limit);
+        let eased = Task {
+            limits,
+            ..made.task
+        };
+        // Where no motion is found the limit is not what it costs time.
+        let time = time(file, &actuator, &eased).ok()?;
+        Some(Cost { limit, time })
+    };
+    met.into_iter().filter_map(cost).collect()
+}
+
+/// The same without a limit, or with more of the motor's own.
+fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, Limits) {
+    let mut actuator = actuator.clone();
+    let mut limits = *limits;
+    match limit {
+        Binding::Driving | Binding::Braking => {
+            // A tenth more torque moves a machine that asks for a tenth less.
+            for c in &mut actuator.coefficients.0 {
+                *c /= 1.0 + MORE;
+            }
+        }
+        // The envelope alone: the gearbox turns no faster.
+        Binding::MotorSpeed => actuator.envelope = actuator.envelope.stretched(1.0 + MORE),
+        Binding::GearboxTorque => limits.gearbox_torque = None,
+        Binding::GearboxSpeed => limits.gearbox_speed = None,
+        Binding::Speed => limits.speed = None,
+        Binding::ToolSpeed => limits.tool = ToolSpeeds::default(),
+        Binding::Acceleration => limits.acceleration = None,
+        Binding::Deceleration => limits.deceleration = None,
+        Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
+        Binding::Jerk => limits.jerk = None,
+        Binding::TorqueRate => limits.torque_rate = None,
+        // Those of the whole cycle, which no move keeps alone.
+        Binding::RmsTorque | Binding::WindingTemperature => {}
+    }
+    limits.level_ends &= limits.has_rates();
+    (actuator, limits)
+}

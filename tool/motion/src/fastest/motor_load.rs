@@ -1,0 +1,89 @@
+//! What the motor does in a motion: its RMS torque with the pauses, its peaks, and the pause that its S1 torque asks for.
+
+use jred::Error;
+use jred::machine::motion::State;
+use jred_machine::model::machine::MachineFile;
+
+use super::field::Reserve;
+use crate::trace::{Node, Trace};
+use crate::way::{Actuator, BothWays};
+
+/// Gauss and Legendre's rule with two points on 0 to 1.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// What a motor does in a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorLoad {
+    /// RMS torque (N·m) over the motion, pauses with the torque that holds the machine.
+    pub rms: f64,
+    /// Largest torque (N·m) and speed (rad/s), as magnitudes.
+    pub peaks: [f64; 2],
+    /// Mean of the speed's magnitude (rad/s).
+    pub mean_speed: f64,
+    /// Torque at rest at the end (N·m), as a magnitude.
+    pub holding: f64,
+    /// S1 torque (N·m) at the mean speed; infinite: not known.
+    pub continuous: f64,
+    /// What the RMS torque may be (N·m): that S1 torque without what a reserve leaves unused.
+    pub allowed: f64,
+    /// Pause (s) that must be added for the RMS torque to be no larger than that; `None`: not even holding is possible.
+    pub pause: Option<f64>,
+}
+
+/// What the motor does in a motion, with what a reserve leaves of its S1 torque.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere.
+pub(super) fn load(
+    file: &MachineFile,
+    actuator: &Actuator,
+    trace: &Trace,
+    reserve: &Reserve,
+) -> Result<MotorLoad, Error> {
+    let ways = BothWays::new(file, actuator);
+    let forwards = ways.forwards();
+    let (mut squares, mut turns) = (0.0, 0.0);
+    let mut peaks = [0.0_f64; 2];
+    for pair in trace.nodes().windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let (step, heading) = (b.step, b.phi - a.phi);
+        if step <= 0.0 {
+            continue;
+        }
+        for share in GAUSS {
+            let motor = ways.torque(&b.after(a, share), heading)?;
+            squares += 0.5 * step * motor * motor;
+        }
+        turns += heading.abs();
+        for (node, alpha) in [(a, a.alpha[1]), (b, b.alpha[0])] {
+            let Node { phi, omega, .. } = *node;
+            let motor = ways.torque(&State { phi, omega, alpha }, heading)?;
+            peaks[0] = peaks[0].max(motor.abs());
+            peaks[1] = peaks[1].max(forwards.motor_speed(node.omega.abs()));
+        }
+    }
+    let duration = trace.duration();
+    let end = trace.nodes().last().map_or(0.0, |node| node.phi);
+    let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
+    let mean_speed = forwards.motor_speed(turns) / duration;
+    // At the largest speed all the time rounding must not step beyond.
+    let continuous =
+        (actuator.envelope).continuous_torque(mean_speed.min(actuator.envelope.max_speed()));
+    let allowed = continuous * reserve.leaves(reserve.rms);
+    let excess = squares - allowed * allowed * duration;
+    let relief = allowed * allowed - holding * holding;
+    let pause = if excess <= 0.0 || !allowed.is_finite() {
+        Some(0.0)
+    } else {
+        (relief > 0.0).then(|| excess / relief)
+    };
+    Ok(MotorLoad {
+        rms: (squares / duration).sqrt(),
+        peaks,
+        mean_speed,
+        holding,
+        continuous,
+        allowed,
+        pause,
+    })
+}

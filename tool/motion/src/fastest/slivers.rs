@@ -1,0 +1,55 @@
+//! Steps of a motion that are nothing but rounding.
+//!
+//! Where two limits meet, or at a corner of the machine, a sweep leaves a curve and is back on it within the last digits of the place. A step so
+//! short has no digits for its acceleration: whoever reads the motion as positions or speeds finds any.
+
+use super::sweep::Piece;
+use super::track::Track;
+
+/// Share of the whole time below which a step is none: some hundred roundings of a time near the end. What the speed gains in it goes into the step beside
+/// it, of which it changes the acceleration by the share that this is of that step.
+const SLIVER: f64 = 1e-13;
+
+/// The pieces of a motion with their times, each step that is too short as a part of the longer one of its neighbours.
+pub(super) fn without(track: &Track, pieces: Vec<Piece>, times: &[f64]) -> (Vec<Piece>, Vec<f64>) {
+    let short = SLIVER * times.iter().sum::<f64>();
+    if times.iter().all(|time| *time > short) {
+        return (pieces, times.to_vec());
+    }
+    let mut kept: Vec<(Piece, f64)> = Vec::with_capacity(pieces.len());
+    let mut all: Vec<(Piece, f64)> = pieces.into_iter().zip(times.iter().copied()).collect();
+    for k in 0..all.len() {
+        let sliver = all[k];
+        let (_, time) = sliver;
+        let after = all.get(k + 1).map(|(_, time)| *time);
+        let before = kept.last_mut();
+        match (before, after) {
+            _ if time > short => kept.push(sliver),
+            (Some(before), after) if after.is_none_or(|after| after <= before.1) => {
+                extend(track, before, sliver, 1);
+            }
+            (_, Some(_)) => extend(track, &mut all[k + 1], sliver, 0),
+            (_, None) => kept.push(sliver),
+        }
+    }
+    kept.into_iter().unzip()
+}
+
+/// Takes a sliver into the piece beside it, which then begins (0) or ends (1) where the sliver does.
+fn extend(
+    track: &Track,
+    (piece, time): &mut (Piece, f64),
+    (sliver, its_time): (Piece, f64),
+    end: usize,
+) {
+    let u = sliver.step.u[end];
+    piece.step.u[end] = if sliver.cell == piece.cell {
+        u
+    } else {
+        let [own, other] = [piece.cell, sliver.cell].map(|cell| &track.cells[cell]);
+        (other.x + u * other.length - own.x) / own.length
+    };
+    piece.step.z[end] = sliver.step.z[end];
+    *time += its_time;
+    piece.step.time = Some(*time);
+}

@@ -1,0 +1,57 @@
+//! One-sided contacts in motions that are made.
+
+use std::path::Path;
+
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_motion::contact::broken;
+use jred_motion::fastest::Limits;
+use jred_motion::fastest::cycle::{Cycle, cycle};
+use jred_motion::moves;
+use jred_motion::way::Actuator;
+use jred_sizing::catalogue::Motor;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+
+fn hoist() -> MachineFile {
+    read::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/hoist.toml")).unwrap()
+}
+
+fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
+    let motor = Motor {
+        peak_curve: vec![[0.0, 200.0], [80.0, 200.0]],
+        ..Motor::default()
+    };
+    let actuator = Actuator {
+        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
+        ratio: 1.0,
+        envelope: Envelope::of(&motor),
+    };
+    let parts = moves::parts(file.required_motion().unwrap()).unwrap();
+    cycle(file, &actuator, *limits, None, &parts).unwrap()
+}
+
+/// The cabin of a hoist hangs on two falls: above g/75 mm the drum lets its rope go slack while it brakes on the way up and while it goes down faster. With the limits that are named it stays
+/// taut, and little is lost: they are near that.
+#[test]
+fn a_rope_that_goes_slack_is_named_with_limits() {
+    let file = hoist();
+    let made = fastest(&file, &Limits::default());
+    let found = broken(&file, &made.trace).unwrap().unwrap();
+    assert!(found.lost.joint.rope);
+    let limits = found.limits.unwrap();
+    for limit in limits.into_iter().flatten() {
+        let free = 9.81 / 0.075;
+        assert!((0.9 * free..free).contains(&limit), "{limits:?} {free}");
+    }
+    let [acceleration, deceleration] = limits;
+    let eased = fastest(
+        &file,
+        &Limits {
+            acceleration,
+            deceleration,
+            ..Limits::default()
+        },
+    );
+    assert!(broken(&file, &eased.trace).unwrap().is_none());
+}

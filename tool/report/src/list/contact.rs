@@ -1,0 +1,65 @@
+//! A one-sided contact that a motion loses, in words.
+
+use jred_machine::model::axis::Axis;
+use jred_machine::number::rounding::short;
+use jred_motion::contact::Broken;
+
+/// Where it is lost, when and by what force.
+fn state(broken: &Broken) -> String {
+    let lost = &broken.lost;
+    format!(
+        "{} at {}, after {} s: {}",
+        lost.parted.what,
+        lost.parted.state,
+        short(lost.t),
+        lost.parted.force
+    )
+}
+
+/// In a fastest motion, with the limits that keep it.
+pub fn of_fastest(broken: &Broken, axis: &Axis) -> String {
+    let Some(limits) = broken.limits else {
+        return format!("{}; {}", state(broken), broken.lost.parted.cure);
+    };
+    let [_, column] = axis.coordinate.rates();
+    let options = ["max-acceleration", "max-deceleration"].iter().zip(limits);
+    let options = options.filter_map(|(name, limit)| {
+        let limit = rounded_down(axis.rate(limit?));
+        Some(format!("--{name} \"{} {}\"", short(limit), column.unit))
+    });
+    let options: Vec<String> = options.collect();
+    let kept = if broken.lost.joint.rope {
+        "it stays taut"
+    } else {
+        "it stays"
+    };
+    format!("{}; with {} {kept}", state(broken), options.join(" "))
+}
+
+/// In a motion of a given time.
+pub fn of_retime(broken: &Broken) -> String {
+    format!(
+        "{}; give the move more time, or {}",
+        state(broken),
+        broken.lost.parted.cure
+    )
+}
+
+/// With three digits, and no more than it is.
+fn rounded_down(value: f64) -> f64 {
+    let digit = 10.0_f64.powf(value.log10().floor() - 2.0);
+    (value / digit).floor() * digit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_down;
+
+    #[test]
+    fn a_limit_is_rounded_down() {
+        for (value, expected) in [(129.97, 129.0), (0.012_349, 0.012_3), (1.0, 1.0)] {
+            let found = rounded_down(value);
+            assert!((found - expected).abs() < 1e-12 * expected, "{found}");
+        }
+    }
+}
