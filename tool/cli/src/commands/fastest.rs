@@ -8,7 +8,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, drive_named, envelope, print, quantity, rate};
+use crate::commands::{Done, drive_named, envelope, loses_process, print, quantity, rate};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
@@ -89,6 +89,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
             (found.cycle, Some(warmth))
         }),
     };
+    let loses = task.is_none() && loses_process(&file);
     let (cycle, warmth) = made.map_err(|(number, why)| no_motion(&why, number))?;
     let forces = reached(&file, &limits.forces, &cycle.trace).map_err(core_report)?;
     for force in &forces {
@@ -134,7 +135,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         print(&planned)?;
     }
-    Ok(Done::Holds)
+    Ok(if loses { Done::Violated } else { Done::Holds })
 }
 
 /// What is made as fast as possible.

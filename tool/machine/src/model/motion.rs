@@ -16,6 +16,7 @@ mod nodes;
 mod piece;
 mod recording;
 mod segment;
+mod steady;
 mod tool;
 
 pub use course::SegmentCourse;
@@ -23,6 +24,7 @@ pub use limits::{Limits, TooShort, change, fastest};
 pub use nodes::{Node, step_at};
 pub use recording::{Closing, Recording};
 pub use segment::{Course, Phase, Segment};
+pub use steady::Steady;
 pub use tool::{Measure, Standstill, ToolCoordinate};
 
 /// A motion in consecutive pieces.
