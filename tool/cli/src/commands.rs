@@ -30,7 +30,6 @@ use jred_machine::analysis::inspect::Findings;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Steady;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_report::list;
@@ -187,24 +186,4 @@ fn quantity(
 fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
     let given = quantity(name, text, read, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
-}
-
-/// Whether a motion made anew loses what the file prescribes as process, which is then said segment by segment. A motion that is nothing else has nothing to
-/// keep it for.
-fn loses_process(file: &MachineFile) -> bool {
-    let process = file.process();
-    let whole = file.motion.as_ref().is_some_and(|motion| {
-        let kept: f64 = process.iter().map(Steady::duration).sum();
-        kept >= motion.duration() * (1.0 - 1e-9)
-    });
-    if whole {
-        return false;
-    }
-    for steady in &process {
-        output::say(&format!(
-            "warning: the constant speed of segment {} is not kept: the motion is made anew from rest to rest, or from turn to turn",
-            steady.segment + 1
-        ));
-    }
-    !process.is_empty()
 }

@@ -65,6 +65,8 @@ pub struct Travel {
     pub duration: f64,
     /// Speeds at its ends along the way (rad/s, or m/s); zero is rest.
     pub speeds: [f64; 2],
+    /// With a ramp, the accelerations at ends that move, along the way (rad/s², or m/s²).
+    pub accelerations: [f64; 2],
     /// Share of the path's parameter, about that of the time, over which the acceleration rises from zero at the start and falls to
     /// zero at the end; 0: it begins and ends with a jump.
     pub ramp: f64,

@@ -54,6 +54,7 @@ fn travel(start: f64, distance: f64, duration: f64) -> Travel {
         distance,
         duration,
         speeds: [0.0; 2],
+        accelerations: [0.0; 2],
         ramp: 0.0,
         ring: false,
     }

@@ -8,7 +8,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, drive_named, envelope, loses_process, print, quantity, rate};
+use crate::commands::{Done, drive_named, envelope, print, quantity, rate};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output;
 use crate::output::print_parts;
@@ -23,8 +23,8 @@ use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::winding::{Winding, cooled};
-use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task};
-use jred_motion::moves::{Move, NoMoves, Part, parts, ring};
+use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
+use jred_motion::moves::{Chain, NoMoves, Part, chain};
 use jred_motion::way::Actuator;
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
@@ -89,7 +89,6 @@ pub fn fastest(options: &Options) -> Result<Done> {
             (found.cycle, Some(warmth))
         }),
     };
-    let loses = task.is_none() && loses_process(&file);
     let (cycle, warmth) = made.map_err(|(number, why)| no_motion(&why, number))?;
     let forces = reached(&file, &limits.forces, &cycle.trace).map_err(core_report)?;
     for force in &forces {
@@ -112,6 +111,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         asked,
         actuator: &chosen.actuator,
         cycle: &cycle,
+        chain: parts.chain(),
         warmth: warmth.as_ref(),
         forces: &forces,
         reserve,
@@ -135,20 +135,27 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         print(&planned)?;
     }
-    Ok(if loses { Done::Violated } else { Done::Holds })
+    let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
+    Ok(if exceeds { Done::Violated } else { Done::Holds })
 }
 
 /// What is made as fast as possible.
 enum Motion {
     /// One move.
     Move(Task),
-    /// The moves and pauses of a motion.
-    Parts(Limits, Vec<Part>),
-    /// A motion that turns for ever.
-    Ring(Limits, Move),
+    /// That of the file.
+    Chain(Limits, Chain),
 }
 
 impl Motion {
+    /// What the motion of the file is made of.
+    const fn chain(&self) -> Option<&Chain> {
+        match self {
+            Self::Move(_) => None,
+            Self::Chain(_, chain) => Some(chain),
+        }
+    }
+
     /// It as fast as possible; or why it cannot be made, with the number of the move.
     fn fastest(
         &self,
@@ -158,13 +165,13 @@ impl Motion {
     ) -> Result<Cycle, (Option<usize>, NoMotion)> {
         match self {
             Self::Move(task) => single(file, actuator, *task, rms).map_err(|why| (None, why)),
-            Self::Ring(limits, step) => {
-                endless(file, actuator, *limits, step).map_err(|why| (None, why))
-            }
-            Self::Parts(limits, parts) => {
-                let moves = parts.iter().filter(|part| matches!(part, Part::Move(_)));
-                let several = moves.count() > 1;
-                cycle(file, actuator, *limits, rms, parts)
+            Self::Chain(limits, chain) => {
+                let mut moves = chain.parts.iter().filter_map(Part::step);
+                if let Some((step, _)) = moves.next().filter(|_| chain.endless) {
+                    return endless(file, actuator, *limits, &step).map_err(|why| (None, why));
+                }
+                let several = moves.next().is_some();
+                cycle(file, actuator, *limits, rms, &chain.parts)
                     .map_err(|(index, why)| (several.then_some(index + 1), why))
             }
         }
@@ -174,17 +181,7 @@ impl Motion {
 /// The moves of the file's motion.
 fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
     let motion = file.motion_or("give --from and --to, or ")?;
-    if let Some(step) = ring(motion) {
-        if limits.has_rates() || rms.is_some() {
-            return Err(miette!(
-                help = "leave them out, or give one move with --from and --to",
-                "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
-                file.name
-            ));
-        }
-        return Ok(Motion::Ring(*limits, step));
-    }
-    let parts = parts(motion).map_err(|why| match why {
+    let chain = chain(motion, &file.process()).map_err(|why| match why {
         NoMoves::Still => miette!(
             help = "give --from and --to, or a [motion] with a move",
             "nothing moves in the motion of {}",
@@ -201,8 +198,22 @@ fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Mo
                 short(axis.rate(speed.abs()))
             )
         }
+        NoMoves::AllKept => miette!(
+            help = "give --from and --to, or a [motion] with moves beside the constant speed",
+            "the motion of {} is nothing but constant speed, which is kept",
+            file.name
+        ),
     })?;
-    Ok(Motion::Parts(*limits, parts))
+    if chain.endless {
+        if limits.has_rates() || rms.is_some() {
+            return Err(miette!(
+                help = "leave them out, or give one move with --from and --to",
+                "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+                file.name
+            ));
+        }
+    }
+    Ok(Motion::Chain(*limits, chain))
 }
 
 fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {

@@ -6,7 +6,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
-use crate::commands::{Done, drive_named, loses_process, print_parts, warn_of_supply};
+use crate::commands::{Done, drive_named, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output;
 use jred_machine::model::drive_train;
@@ -89,7 +89,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     shown.written = written;
     print_parts([list::retime::write(&shown, options.format)])?;
     let best = &retimed.best;
-    let exceeds = loses_process(&file) || best.used.max(best.rms_used) > 1.0;
+    let exceeds = best.used.max(best.rms_used) > 1.0;
     Ok(if exceeds { Done::Violated } else { Done::Holds })
 }
 
@@ -118,6 +118,10 @@ pub(super) fn report(
         Obstacle::NoMoves(NoMoves::Still) => miette!(
             help = "give a motion with at least one move",
             "nothing moves in the motion of {name}"
+        ),
+        Obstacle::NoMoves(NoMoves::AllKept) => miette!(
+            help = "give a motion with moves beside the constant speed",
+            "the motion of {name} is nothing but constant speed, which is kept"
         ),
         Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
             let axis = file.axis();

@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::retime::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, loses_process, print};
+use crate::commands::{Done, print};
 use crate::options::{Moved, Size};
 use crate::output;
 use jred_machine::analysis::duty::Duty;
@@ -49,7 +49,6 @@ pub fn size(options: &Size) -> Result<Done> {
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
-    let mut loses = false;
     if options.motion == Moved::Best {
         drive_train::refuse(&file, "size --motion best")?;
         file.refuse_scheduled("size --motion best")?;
@@ -65,9 +64,6 @@ pub fn size(options: &Size) -> Result<Done> {
             narrow: &narrow,
         };
         let best = suited(&judging, options)?;
-        if best.is_some() {
-            loses = loses_process(&file);
-        }
         file.motion = best.or(file.motion);
     }
     let motion = file.required_motion()?;
@@ -113,7 +109,7 @@ pub fn size(options: &Size) -> Result<Done> {
         meter,
     };
     answer.print()?;
-    Ok(if loses || selection.fit.is_empty() {
+    Ok(if selection.fit.is_empty() {
         Done::Violated
     } else {
         Done::Holds
@@ -188,7 +184,7 @@ fn suited(judging: &Judging, options: &Size) -> Result<Option<Motion>> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
-    let says = list::suited::words(&suited);
+    let says = list::suited::words(judging.file, &suited);
     if options.format == Format::Table {
         let table = list::suited::table(&suited);
         print(&format!("{says}\n\n{table}\n"))?;

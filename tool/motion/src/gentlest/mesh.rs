@@ -325,12 +325,14 @@ fn elements(
             continue;
         }
         if let Some(end) = end.filter(|end| !ends.rest[*end]) {
-            // At an end that moves, the speed is given, and with ramps the acceleration is zero.
+            // At an end that moves, the speed is given, and with ramps the acceleration.
             let [_, slope, bend] = shape.at(*u);
-            let pace = travel.speeds[end] * travel.duration / (travel.distance.abs() * slope);
+            let per_way = travel.duration / travel.distance.abs();
+            let pace = travel.speeds[end] * per_way / slope;
             let w = pace * pace;
             let change = if ends.ramp > 0.0 {
-                Value::Fixed(-2.0 * bend * w / slope)
+                let rise = travel.accelerations[end] * travel.duration * per_way;
+                Value::Fixed(2.0 * (rise - bend * w) / slope)
             } else {
                 next()
             };

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use crate::list::kept;
 use crate::table::output::{Format, json_parts, parts};
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -17,6 +18,7 @@ use jred_machine::units::Vocabulary;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::Reached;
+use jred_motion::moves::Chain;
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
@@ -46,6 +48,8 @@ pub struct Answer<'a> {
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
+    /// What the motion of the file is made of, if that was asked for.
+    pub chain: Option<&'a Chain>,
     /// Temperatures of the winding, where they are limited.
     pub warmth: Option<&'a Warmth>,
     /// The largest forces in the joints whose force is limited.
@@ -123,6 +127,10 @@ impl Answer<'_> {
         let moves = counted(cycle.moves.len(), "move", "moves");
         let moving: f64 = cycle.moves.iter().map(|made| made.fastest.time).sum();
         let mut says = format!("{} s: {moves} in {} s", short(whole), short(moving));
+        let kept: f64 = cycle.kept.iter().map(|part| part.kept.duration).sum();
+        if kept > 0.0 {
+            let _ = write!(says, ", {} s kept", short(kept));
+        }
         if cycle.dwells > 0.0 {
             let _ = write!(says, ", {} s at rest", short(cycle.dwells));
         }
@@ -138,6 +146,14 @@ impl Answer<'_> {
         line(&mut text, "duration", &says);
         if !self.asked.is_empty() {
             line(&mut text, "asked for", &self.asked.join("; "));
+        }
+        if let Some(chain) = self.chain {
+            for (name, says) in kept::lines(self.file, chain) {
+                line(&mut text, name, &says);
+            }
+        }
+        for part in &self.cycle.kept {
+            self.exceeded(part, &mut text);
         }
         self.motor(&mut text);
         if let Some(warmth) = self.warmth {
@@ -188,7 +204,14 @@ impl Answer<'_> {
 
     /// Whether the motion turns for ever.
     fn is_endless(&self) -> bool {
-        self.cycle.moves.iter().any(|made| made.task.endless)
+        self.chain.is_some() && self.passes()
+    }
+
+    /// Whether it is in motion where it begins or ends: then it has no place for a pause.
+    fn passes(&self) -> bool {
+        let nodes = self.cycle.trace.nodes();
+        let mut ends = nodes.first().into_iter().chain(nodes.last());
+        ends.any(|node| node.omega != 0.0)
     }
 
     fn json(&self) -> Map<String, Value> {
@@ -247,6 +270,9 @@ impl Answer<'_> {
             .map(|made| move_json(made, &axis, self.file))
             .collect();
         map.insert("moves".into(), moves.into());
+        if let Some(chain) = self.chain {
+            map.insert("kept".into(), kept::json(self.file, chain));
+        }
         map
     }
 }

@@ -7,6 +7,7 @@ pub mod bus_text;
 pub mod fastest;
 pub mod front;
 pub mod inspection;
+pub mod kept;
 pub mod listing;
 pub mod plan;
 pub mod ratio;

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use crate::list::kept;
 use crate::table::output::Format;
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
@@ -11,7 +12,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
 use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
-use jred_motion::retime::{Figures, Goal, Request, Retimed};
+use jred_motion::retime::{Figures, Goal, LAWS, Request, Retimed};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
@@ -155,16 +156,16 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     } = shown;
     let best = retimed.best.of(request.goal);
     let mut says = format!(
-        "{} {}: {} as in the file",
+        "{} {}: {} in the file",
         short(best),
         unit(request.goal, words),
         less(best, retimed.own.of(request.goal))
     );
     if let Some(law) = retimed.best_law(request.goal) {
-        let of = if retimed.endless {
-            "as with"
+        let of = if retimed.laws.len() == LAWS.len() {
+            "with the best law,"
         } else {
-            "as with the best law,"
+            "with"
         };
         let _ = write!(
             says,
@@ -175,6 +176,9 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     }
     line(text, "least", &says);
     line(text, "optimum", &optimum(shown, words));
+    for (name, says) in kept::lines(shown.file, &retimed.chain) {
+        line(text, name, &says);
+    }
     for (k, gentle) in retimed.moves.iter().enumerate() {
         line(
             text,
@@ -405,6 +409,7 @@ fn json(shown: &Shown) -> Value {
         })
     });
     map.insert("moves".into(), moves.collect());
+    map.insert("kept".into(), kept::json(shown.file, &retimed.chain));
     let trace = retimed.trace.of_axis(&axis);
     let nodes = trace.nodes().iter();
     let nodes =
