@@ -211,14 +211,14 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
     };
-    if may_wait && (travel.ring || travel.ends().rest == [true; 2]) {
+    if may_wait {
         waiting::on_the_way(way, travel, objective, found)
     } else {
         found
     }
 }
 
-/// The gentlest motion that waits at its ends alone; at one of them in any case if it must.
+/// The gentlest motion that waits at its ends alone, where they are at rest; at one of them in any case if it must.
 fn from_end_to_end(
     way: &Way,
     travel: &Travel,
@@ -247,16 +247,16 @@ fn from_end_to_end(
         objective,
         edges: edges(way, travel),
     };
-    let at_rest = travel.ends().rest == [true; 2];
-    let held = if at_rest { task.held()? } else { [0.0; 2] };
+    let rests = travel.ends().rest.contains(&true);
+    let held = task.held()?;
     let whole = if must_wait {
         None
     } else {
         task.solve(travel.duration, FIRST, None)?
     };
-    let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
+    let mut solved = match whole.filter(|solved| !rests || !solved.waits(&held)) {
         Some(solved) => solved,
-        None if at_rest => task.shorter(&held)?,
+        None if rests => task.shorter(&held)?,
         None => return Err(Fault::NotFound),
     };
     let moving = solved.moving;

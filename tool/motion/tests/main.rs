@@ -5,6 +5,7 @@ mod balance;
 mod driven;
 mod fastest;
 mod gentlest;
+mod kept;
 mod moves;
 mod plan;
 #[path = "../../support/mod.rs"]

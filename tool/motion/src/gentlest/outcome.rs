@@ -23,7 +23,12 @@ impl Waits {
         Self {
             duration,
             at_end,
-            torque: held[usize::from(at_end)],
+            // At an end that moves nothing is held, and it never waits.
+            torque: if duration > 0.0 {
+                held[usize::from(at_end)]
+            } else {
+                0.0
+            },
         }
     }
 }

@@ -108,13 +108,21 @@ pub(super) struct Solved<'t> {
 }
 
 impl Task<'_> {
-    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted.
+    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted. Infinite at an
+    /// end that moves: there it cannot wait.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
-        let torque = |phi: f64| self.way.holding_at(phi);
+        let rest = self.travel.ends().rest;
+        let torque = |end: usize, phi: f64| {
+            if rest[end] {
+                self.way.holding_at(phi)
+            } else {
+                Ok(f64::INFINITY)
+            }
+        };
         let Travel {
             start, distance, ..
         } = *self.travel;
-        Ok([torque(start)?, torque(start + distance)?])
+        Ok([torque(0, start)?, torque(1, start + distance)?])
     }
 
     /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.

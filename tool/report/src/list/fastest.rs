@@ -19,6 +19,7 @@ use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::Reached;
 use jred_motion::moves::Chain;
+use jred_motion::trace::Node;
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
@@ -202,16 +203,18 @@ impl Answer<'_> {
         text
     }
 
-    /// Whether the motion turns for ever.
+    /// Whether the motion turns for ever without rest.
     fn is_endless(&self) -> bool {
-        self.chain.is_some() && self.passes()
+        let mut nodes = self.cycle.trace.nodes().iter();
+        self.chain.is_some() && nodes.all(|node| node.omega != 0.0)
     }
 
-    /// Whether it is in motion where it begins or ends: then it has no place for a pause.
-    fn passes(&self) -> bool {
+    /// Whether it is one move that ends in motion, and whether it is one that begins or ends so: such a move is not repeated.
+    fn passes(&self) -> [bool; 2] {
         let nodes = self.cycle.trace.nodes();
-        let mut ends = nodes.first().into_iter().chain(nodes.last());
-        ends.any(|node| node.omega != 0.0)
+        let moves = |node: Option<&Node>| node.is_some_and(|node| node.omega != 0.0);
+        let [begins, ends] = [moves(nodes.first()), moves(nodes.last())];
+        [ends, begins || ends].map(|passes| passes && self.chain.is_none())
     }
 
     fn json(&self) -> Map<String, Value> {

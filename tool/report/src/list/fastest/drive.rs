@@ -46,7 +46,8 @@ impl Answer<'_> {
         } else {
             String::new()
         };
-        let holding = if self.passes() {
+        let [ends_in_motion, passes] = self.passes();
+        let holding = if self.is_endless() || ends_in_motion {
             String::new()
         } else {
             let holding = shown(load.holding, load.peaks[0]);
@@ -81,7 +82,7 @@ impl Answer<'_> {
         };
         match load.pause {
             Some(0.0) => {}
-            _ if self.passes() && !self.is_endless() => {}
+            _ if passes => {}
             _ if self.is_endless() => line(
                 text,
                 "warning",
