@@ -31,6 +31,7 @@ mod bound;
 mod cost;
 pub(crate) mod mesh;
 mod outcome;
+mod ramps;
 pub(crate) mod shape;
 mod solve;
 mod task;
@@ -67,8 +68,8 @@ pub struct Travel {
     pub speeds: [f64; 2],
     /// With a ramp, the accelerations at ends that move, along the way (rad/s², or m/s²).
     pub accelerations: [f64; 2],
-    /// Share of the path's parameter, about that of the time, over which the acceleration rises from zero at the start and falls to
-    /// zero at the end; 0: it begins and ends with a jump.
+    /// Share of the time in which the acceleration rises from zero to its first peak, and falls from its last one to zero; 0: it begins and ends with a
+    /// jump. At an end that moves, the share in which it leaves what is given there.
     pub ramp: f64,
     /// Whether it goes on for ever: the end is the start, at a speed that is sought.
     pub ring: bool,
@@ -89,7 +90,7 @@ impl Travel {
             ramp: if self.ring || self.ramp == 0.0 {
                 0.0
             } else {
-                1.0 / mesh::ramps(self.ramp) as f64
+                self.ramp
             },
             ring: self.ring,
         }
@@ -246,7 +247,9 @@ fn from_end_to_end(
         travel,
         objective,
         edges: edges(way, travel),
+        ramps: [travel.ramp; 2],
     };
+    let task = task.fitted(travel.duration)?;
     let rests = travel.ends().rest.contains(&true);
     let held = task.held()?;
     let whole = if must_wait {
@@ -254,17 +257,28 @@ fn from_end_to_end(
     } else {
         task.solve(travel.duration, FIRST, None)?
     };
-    let mut solved = match whole.filter(|solved| !rests || !solved.waits(&held)) {
-        Some(solved) => solved,
-        None if rests => task.shorter(&held)?,
-        None => return Err(Fault::NotFound),
+    let mut solved = match whole {
+        Some(whole) if !(rests && whole.waits(&held)) => whole,
+        whole if rests => match task.shorter(&held) {
+            // Where no wait is found, the motion without one will do.
+            Err(Fault::NotFound) => whole.ok_or(Fault::NotFound)?,
+            found => found?,
+        },
+        _ => return Err(Fault::NotFound),
     };
     let moving = solved.moving;
+    // In a shorter time the acceleration rises otherwise.
+    let shorter = task.fitted(moving)?;
+    if moving < travel.duration
+        && let Some(again) = shorter.solve(moving, FIRST, None)?
+    {
+        solved = again;
+    }
     let mut change = f64::INFINITY;
     let mut parts = FIRST;
     while parts < MOST && change > FINE {
         parts *= 2;
-        let Some(next) = task.solve(moving, parts, Some(&solved))? else {
+        let Some(next) = solved.task.solve(moving, parts, Some(&solved))? else {
             break;
         };
         let powers = [&solved, &next].map(|solved| solved.stage.cost.power);

@@ -70,11 +70,14 @@ fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
 }
 
 /// A move with its objective.
+#[derive(Clone)]
 pub(super) struct Task<'a> {
     pub(super) way: &'a Way<'a>,
     pub(super) travel: &'a Travel,
     pub(super) objective: Objective,
     pub(super) edges: Vec<f64>,
+    /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it begins and ends with a jump.
+    pub(super) ramps: [f64; 2],
 }
 
 /// One of the problems that are solved one after another, the last of which is meant.
@@ -268,7 +271,7 @@ impl Task<'_> {
             duration: moving,
             ..*self.travel
         };
-        let mesh = Mesh::new(self.way, &travel, &self.edges, parts)?;
+        let mesh = Mesh::new(self.way, &travel, self.ramps, (&self.edges, parts))?;
         let scale = self.scale(&mesh, moving)?;
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
