@@ -134,6 +134,8 @@ pub enum Reason {
     Viscous,
     /// Losses of gears.
     Losses,
+    /// The search did not come to its end: of the motions on the way this is the best.
+    Ended,
     /// Something else: the bound is too low.
     Bound,
     /// The motion takes more than the search counted: its polynomials do not follow what was found.
@@ -281,13 +283,13 @@ fn from_end_to_end(
         let Some(next) = solved.task.solve(moving, parts, Some(&solved))? else {
             break;
         };
-        let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
-        if powers[1] < powers[0] {
+        if !next.follows(&solved) {
             break;
         }
+        let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
         // What is left of a cost that can be none is rounding.
-        change = if powers[0] < powers[1] {
+        change = if powers[0] != powers[1] {
             f64::INFINITY
         } else if cost > 1e-20 {
             ((cost - before) / cost).abs()

@@ -182,15 +182,13 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     let mut figures = asked.figures(&best)?;
     // The mean of a high power is not quite the peak: a law may have a lower one.
     if request.goal == Goal::Peak
-        && let Some((name, law)) = asked.better_law(&laws, figures.peak)
+        && let Some(name) = asked.better_law(&laws, figures.peak)
     {
-        for gentle in &mut gentle {
-            let Travel {
-                distance, duration, ..
-            } = gentle.travel;
-            gentle.phases = law::phases(law, distance, duration);
+        let steps = parts.iter().filter_map(Part::step);
+        for (gentle, (step, _)) in gentle.iter_mut().zip(steps) {
+            gentle.phases = asked.by_law(name, &step)?;
             gentle.law = Some(name);
-            gentle.moving = duration;
+            gentle.moving = step.duration;
         }
         best = found(&gentle)?;
         figures = asked.figures(&best)?;

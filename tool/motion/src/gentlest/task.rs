@@ -279,6 +279,8 @@ impl Task<'_> {
             .and_then(|from| at(&goal, &refined(&from.mesh, &from.found.x, &mesh)))
             .filter(|found| found.converged)
             .map(|found| (goal, found));
+        // Of the peak any motion will do that is better than an even one, though the search did not come to its end.
+        let mut rough: Option<(f64, Stage, Minimum)> = None;
         if kept.is_none() {
             let mut x = mesh.sample(|_, _| [1.0, 0.0]);
             let stages = Self::stages(&scale, &goal);
@@ -287,13 +289,26 @@ impl Task<'_> {
                 let Some(found) = at(&stage, &x) else {
                     continue;
                 };
-                x.clone_from(&found.x);
+                if self.objective == Objective::Peak {
+                    let peak = self.problem(&mesh, moving, &scale, &stage).peak(&found.x);
+                    if rough.as_ref().is_none_or(|(least, ..)| peak < *least) {
+                        rough = Some((peak, stage, found.clone()));
+                    }
+                }
+                // The next power begins with what was found, or anew.
+                if found.converged || stage.cost.power == goal.cost.power {
+                    x.clone_from(&found.x);
+                }
                 if found.converged && (number == last || self.serves(&stage)) {
                     kept = Some((stage, found));
                 }
             }
         }
-        Ok(kept.map(|(stage, found)| Solved {
+        let rough = rough.map(|(_, stage, found)| {
+            let converged = false;
+            (stage, Minimum { converged, ..found })
+        });
+        Ok(kept.or(rough).map(|(stage, found)| Solved {
             task: self,
             moving,
             scale,
@@ -340,6 +355,22 @@ impl Task<'_> {
 }
 
 impl Solved<'_> {
+    /// Whether it is to be taken for the one from a coarser mesh.
+    pub(super) fn follows(&self, before: &Self) -> bool {
+        let peak = |solved: &Self| {
+            let problem =
+                (solved.task).problem(&solved.mesh, solved.moving, &solved.scale, &solved.stage);
+            problem.peak(&solved.found.x)
+        };
+        match [before, self].map(|solved| solved.found.converged) {
+            [true, false] => false,
+            [_, true] => {
+                self.stage.cost.power >= before.stage.cost.power || !before.found.converged
+            }
+            [false, false] => peak(self) < peak(before),
+        }
+    }
+
     /// What a second more costs above what a second of holding costs, in numbers of its own.
     fn excess(&self, held: &[f64; 2]) -> f64 {
         let least = held.map(f64::abs).into_iter().fold(f64::INFINITY, f64::min);

@@ -4,13 +4,16 @@ use jred::Error;
 use jred::machine::motion::{End, Law, Polynomial};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, Segment};
+use jred_machine::model::motion::{Motion, Phase, Segment};
 use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;
-use super::{Figures, Goal, LAWS, Request, Row};
+use super::{Figures, Goal, LAWS, Request, Row, law};
 use crate::moves::{Kept, Move, Part, Passing};
 use crate::way::{Actuator, BothWays, Way};
+
+/// The turn at constant kinetic energy.
+const EVEN_ENERGY: &str = "constant kinetic energy";
 
 /// Gauss and Legendre's rule with three points on 0 to 1.
 const GAUSS: [[f64; 2]; 3] = [
@@ -131,20 +134,35 @@ impl Asked<'_> {
         })
     }
 
-    /// The law of the list with the lowest peak, if that is below this one and the law has the form of the ends that is asked for.
-    pub(super) fn better_law(&self, laws: &[Row], peak: f64) -> Option<(&'static str, Law)> {
+    /// The motion of the list with the lowest peak, if that is below this one and it has the form of the ends that is asked for.
+    pub(super) fn better_law(&self, laws: &[Row], peak: f64) -> Option<&'static str> {
         // No law begins or ends with a speed.
         if self.passes() {
             return None;
         }
+        let starts_level = |name: &str| {
+            let law = LAWS.iter().find(|(own, _)| *own == name);
+            law.is_none_or(|(_, law)| law.at(0.0)[2] == 0.0)
+        };
         let rows = laws.iter().filter(|row| row.figures.peak < peak);
-        let named = rows.filter_map(|row| {
-            let (name, law) = LAWS.into_iter().find(|(name, _)| *name == row.name)?;
-            let starts_level = law.at(0.0)[2] == 0.0;
-            (self.request.ramp == 0.0 || starts_level).then_some((row.figures.peak, name, law))
-        });
-        let best = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((best.1, best.2))
+        let rows = rows.filter(|row| self.request.ramp == 0.0 || starts_level(row.name));
+        let best = rows.min_by(|a, b| a.figures.peak.total_cmp(&b.figures.peak))?;
+        Some(best.name)
+    }
+
+    /// A move as the motion of the list with this name makes it.
+    pub(super) fn by_law(&self, name: &str, step: &Move) -> Result<Vec<Phase>, Error> {
+        let distance = step.to - step.from;
+        if let Some((_, law)) = LAWS.iter().find(|(own, _)| *own == name) {
+            return Ok(law::phases(*law, distance, step.duration));
+        }
+        if name == EVEN_ENERGY {
+            return constant_energy(&self.way(step), step);
+        }
+        Ok(vec![Phase {
+            duration: step.duration,
+            polynomial: Polynomial::constant_jerk([distance / step.duration, 0.0, 0.0]),
+        }])
     }
 
     /// Whether a move begins or ends with a speed.
@@ -181,29 +199,21 @@ impl Asked<'_> {
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
     fn classical(&self) -> Result<Vec<Row>, Error> {
-        let steady = self.motion(|step, _| {
-            let distance = step.to - step.from;
-            Segment::constant_speed(distance, step.duration, distance / step.duration)
-        })?;
-        let mut even = Vec::new();
-        for part in self.parts {
-            if let Part::Move(step) = part {
-                even = constant_energy(&self.way(step), step)?;
+        let mut rows = Vec::new();
+        for name in ["constant speed", EVEN_ENERGY] {
+            let mut phases = Vec::new();
+            for (step, _) in self.parts.iter().filter_map(Part::step) {
+                phases = self.by_law(name, &step)?;
             }
+            let motion =
+                self.motion(|step, _| Segment::phases(step.to - step.from, phases.clone()))?;
+            rows.push(Row {
+                name,
+                figures: self.figures(&motion)?,
+                motion,
+            });
         }
-        let even = self.motion(|step, _| Segment::phases(step.to - step.from, even.clone()))?;
-        Ok(vec![
-            Row {
-                name: "constant speed",
-                figures: self.figures(&steady)?,
-                motion: steady,
-            },
-            Row {
-                name: "constant kinetic energy",
-                figures: self.figures(&even)?,
-                motion: even,
-            },
-        ])
+        Ok(rows)
     }
 }
 

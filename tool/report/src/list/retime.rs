@@ -264,10 +264,12 @@ fn optimum(shown: &Shown, words: &Vocabulary) -> String {
             format!("global: the problem is convex, no motion of these moves{of} takes less")
         }
         (Optimum::Local(reason), bound) => {
-            let mut says = format!(
-                "local: no motion near it takes less; of others this is not proved because {}",
-                why(reason)
-            );
+            let near = if reason == Reason::Ended {
+                "local: the best motion that was found; that none takes less is not proved because"
+            } else {
+                "local: no motion near it takes less; of others this is not proved because"
+            };
+            let mut says = format!("{near} {}", why(reason));
             if let Some((bound, _)) = bound {
                 let _ = write!(says, "; none takes less than {bound} {unit}");
             }
@@ -283,6 +285,7 @@ const fn why(reason: Reason) -> &'static str {
         }
         Reason::Viscous => "viscous friction makes the problem non-convex",
         Reason::Losses => "the losses of gears make the problem non-convex",
+        Reason::Ended => "the search did not come to its end",
         Reason::Bound => "the lower bound is not close enough",
         Reason::Written => "the motion takes more than the search counted",
     }
