@@ -29,11 +29,14 @@ fn table(friction: f64, segments: &[&str]) -> MachineFile {
          [mechanism.table]\ninertia = \"2 kg m^2\"\n"
         .to_owned();
     if friction > 0.0 {
-        text += &format!("[[load]]\non = \"table\"\nopposing_moment = \"{friction} N m\"\n");
+        let load = ["[[load]]\non = \"table\"\nopposing_moment = \"", " N m\"\n"];
+        text += &load.join(&friction.to_string());
     }
     text += "[motion]\ntype = \"cycle\"\n";
     for segment in segments {
-        text += &format!("[[motion.segment]]\n{}\n", segment.replace("; ", "\n"));
+        text += "[[motion.segment]]\n";
+        text += &segment.replace("; ", "\n");
+        text += "\n";
     }
     read::parse("machine.toml", &text, Path::new("")).unwrap()
 }

@@ -3,6 +3,8 @@
 mod limits;
 mod winding;
 
+use std::f64::consts::PI;
+
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
@@ -21,11 +23,12 @@ use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
+use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
-use jred_motion::way::Actuator;
+use jred_motion::way::{Actuator, Way};
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
 use jred_report::page;
@@ -36,6 +39,9 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
+
+/// Share by which a speed may exceed the largest one: rounding of its unit.
+const ROUNDING: f64 = 1e-9;
 
 /// What moves the machine, by name, and what its gearbox limits.
 struct Chosen {
@@ -73,7 +79,11 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let rms = rms(options, &file, &chosen)?;
     let warmth = winding::limit(options, &chosen)?;
     let parts = match task {
-        Some(task) => Motion::Move(Task { limits, ..task }),
+        Some(task) => {
+            let task = Task { limits, ..task };
+            passable(options, &file, &chosen.actuator, &task)?;
+            Motion::Move(task)
+        }
         None => of_motion(&file, &limits, rms)?,
     };
     let at = |rms: Option<Rms>| parts.fastest(&file, &chosen.actuator, rms);
@@ -204,14 +214,12 @@ fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Mo
             file.name
         ),
     })?;
-    if chain.endless {
-        if limits.has_rates() || rms.is_some() {
-            return Err(miette!(
-                help = "leave them out, or give one move with --from and --to",
-                "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
-                file.name
-            ));
-        }
+    if chain.endless && (limits.has_rates() || rms.is_some()) {
+        return Err(miette!(
+            help = "leave them out, or give one move with --from and --to",
+            "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+            file.name
+        ));
     }
     Ok(Motion::Chain(*limits, chain))
 }
@@ -253,6 +261,37 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         limits: Limits::default(),
         endless: false,
     }))
+}
+
+/// Refuses speeds of the ends that no way can lead to: motor and options leave less everywhere.
+fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<()> {
+    let way = &Way::new(file, actuator.clone(), 1.0);
+    let limits = task.limits;
+    let (top, limit) = Field { way, limits }.top();
+    let given = [
+        ("from-speed", &options.from_speed),
+        ("to-speed", &options.to_speed),
+    ];
+    for ((name, text), speed) in given.into_iter().zip(task.speeds) {
+        if speed <= top * (1.0 + ROUNDING) {
+            continue;
+        }
+        let text = text.as_deref().unwrap_or_default();
+        let axis = file.axis();
+        let most = axis.rate(top);
+        let most = if text.contains("rpm") {
+            format!("{} rpm", short(most * 30.0 / PI))
+        } else {
+            format!("{} {}", short(most), axis.coordinate.speed_unit())
+        };
+        return Err(miette!(
+            help = "give a lower speed, or raise that limit: a longer way does not help",
+            "--{name} {} is too fast: the limit of the {} leaves {most} at the most, everywhere",
+            plain::quoted(text),
+            limit.name_in(file)
+        ));
+    }
+    Ok(())
 }
 
 /// Whether the motor turns or slides.

@@ -32,7 +32,8 @@ impl<'a> Task<'a> {
             return Ok(task);
         }
         let rest = self.travel.ends().rest;
-        for _ in 0..CORRECTED {
+        let corrected = if rest == [true; 2] { 0 } else { CORRECTED };
+        for _ in 0..corrected {
             let Some(solved) = task.solve(moving, FIRST, None)? else {
                 break;
             };
@@ -40,9 +41,6 @@ impl<'a> Task<'a> {
             let mut next = task.clone();
             for end in [0, 1].into_iter().filter(|end| !rest[*end]) {
                 next.ramps[end] = (next.ramps[end] * asked / rises[end]).min(LONGEST);
-            }
-            if next.ramps == task.ramps {
-                break;
             }
             task = next;
         }

@@ -152,6 +152,9 @@ impl Answer<'_> {
             for (name, says) in kept::lines(self.file, chain) {
                 line(&mut text, name, &says);
             }
+            if let Some(says) = kept::limits(self.file, Some(&self.asked)) {
+                line(&mut text, "limits", &says);
+            }
         }
         for part in &self.cycle.kept {
             self.exceeded(part, &mut text);

@@ -179,6 +179,9 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     for (name, says) in kept::lines(shown.file, &retimed.chain) {
         line(text, name, &says);
     }
+    if let Some(says) = kept::limits(shown.file, None) {
+        line(text, "limits", &says);
+    }
     for (k, gentle) in retimed.moves.iter().enumerate() {
         line(
             text,
@@ -301,7 +304,12 @@ fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
         short(travel.duration)
     );
     if let Some(law) = gentle.law {
-        let _ = write!(says, ": the law {law}");
+        let kind = if LAWS.iter().any(|(name, _)| *name == law) {
+            "the law "
+        } else {
+            ""
+        };
+        let _ = write!(says, ": {kind}{law}");
     }
     let waits = travel.duration - gentle.moving;
     if waits > 0.0 {

@@ -174,7 +174,7 @@ impl Answer<'_> {
             Some([free, rms]) => {
                 let whole = self.cycle.trace.duration();
                 format!(
-                    "binds: it comes to an RMS of {} {effort}; without it {} s, {} less",
+                    "binds: it comes to an RMS of {} {effort}; without it the whole motion takes {} s, {} less",
                     short(*rms),
                     short(*free),
                     percent(1.0 - free / whole)
