@@ -119,6 +119,10 @@ pub(super) fn report(
             help = "give a motion with at least one move",
             "nothing moves in the motion of {name}"
         ),
+        Obstacle::NoMoves(NoMoves::AllKept) => miette!(
+            help = "give a motion with moves beside the constant speed",
+            "the motion of {name} is nothing but constant speed, which is kept"
+        ),
         Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
             let axis = file.axis();
             let unit = axis.coordinate.speed_unit();

@@ -34,8 +34,13 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([("--plot", &options.plot)])?;
     let own = file.simulation.as_ref().ok_or_else(|| {
+        let torque = if options.drive.is_some() {
+            " and output_step (--drive gives the torque)"
+        } else {
+            ", output_step and torque"
+        };
         miette!(
-            help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
+            help = format!("add a [simulation] with start_angle, duration{torque}; docs/machine-file.md shows how"),
             "{} has no [simulation]",
             plain::path(path)
         )
