@@ -43,6 +43,13 @@ const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
 const SLOWEST: f64 = 1e-12;
 const CLOSELY: f64 = 0.01;
 
+/// Factor from one even pace to the next where what the motor's heat costs is sought.
+const SLOWER: f64 = 0.8;
+
+/// Most that limits of rates are eased by at the start, and the factors from one to the next: the first, and what is too near to 1.
+const MOST_EASE: f64 = 1e4;
+const EASES: [f64; 2] = [0.5, 0.8];
+
 /// μ of the first mesh, of those that follow, and of the last: what is left of the time is about ten times as much.
 const ROUGH: [f64; 2] = [0.1, 1e-5];
 const FINER: [f64; 2] = [1e-2, 1e-8];
@@ -51,8 +58,11 @@ const LAST: [f64; 2] = [1e-3, 1e-10];
 /// Share of itself by which a limit is missed where it stands in the way.
 const FEASIBLE: f64 = 1e-6;
 
-/// Share of the motor's torque at rest, at the drive link, over which bends of the torque are rounded.
-const RANGE: f64 = 0.01;
+/// Shares of the largest load of a motion over which bends of the torque are rounded: in the search, and at its end.
+const RANGES: [f64; 2] = [1e-2, 1e-3];
+
+/// How often a motion is sought anew because its own loads are less than half of those that it was sought with.
+const RANGED: u32 = 8;
 
 /// Places closer than this share of u are one.
 const APART: f64 = 1e-9;
@@ -81,6 +91,8 @@ struct Found {
     mesh: Mesh,
     point: Point,
     time: f64,
+    /// Load (N·m) over which bends of the torque are rounded.
+    range: f64,
 }
 
 /// A motion from which one of another price is sought.
@@ -134,8 +146,9 @@ impl Asked<'_> {
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
         for round in 0..WIDENED {
-            let Ok(next) = self.next(&shape, &warm.borders, &warm.found, &warm.margins, LAST)?
-            else {
+            let range = warm.found.range;
+            let (borders, margins) = (&warm.borders, &warm.margins);
+            let Ok(next) = self.next(&shape, borders, &warm.found, margins, LAST, range)? else {
                 break;
             };
             warm.found = next;
@@ -226,25 +239,15 @@ impl Asked<'_> {
         )?)
     }
 
-    /// Load at the drive link over which the bends of the torque are rounded, where power changes its direction.
-    fn range(&self) -> f64 {
-        let way = self.field.way;
-        if way.bends() {
-            let torques = self.field.motor_torques(0.0).map(f64::abs);
-            RANGE * torques[0].max(torques[1]) * way.motor_speed(1.0)
-        } else {
-            0.0
-        }
-    }
-
-    fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins]) -> Problem<'m> {
+    fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins], range: f64) -> Problem<'m> {
         Problem {
             field: self.field,
             mesh,
             unit: self.unit,
             pace: self.ends.length / self.unit,
             price: self.price,
-            range: self.range(),
+            range,
+            ease: 1.0,
             lines: [true, false].map(|braking| self.field.torque_lines(braking)),
             margins,
         }
@@ -273,57 +276,114 @@ impl Asked<'_> {
         borders
     }
 
-    /// In a unit of the time in which an even pace of 1 just meets the limits of rates: the motion may take many times as long as without them.
+    /// In a unit of the time in which an even pace of 1 just meets the limits of rates, or costs least: the motion may take many times as long
+    /// as without them.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
     pub(super) fn in_own_unit(mut self) -> Result<Self, NoMotion> {
-        if !self.limits().has_rates() {
-            return Ok(self);
-        }
         let shape = Shape::new(self.form_of_ends());
         let mesh = self.mesh(&shape, &self.first_borders(&shape))?;
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(&mesh, &margins);
-        let keeps_rates = |pace: f64| problem.keeps_rates(&mesh.even(pace * pace));
-        let [mut low, mut high] = [SLOWEST.ln(), 0.0];
-        if keeps_rates(1.0) || !keeps_rates(SLOWEST) {
-            return Ok(self);
+        let even = |pace: f64| {
+            let x = mesh.even(pace * pace);
+            let problem = self.problem(&mesh, &margins, 0.0).ranged(&x, RANGES[0]);
+            (problem.keeps_rates(&x), problem.whole_cost(&x))
+        };
+        let mut pace = 1.0;
+        if self.limits().has_rates() && !even(1.0).0 && even(SLOWEST).0 {
+            let [mut low, mut high] = [SLOWEST.ln(), 0.0];
+            while high - low > CLOSELY {
+                let middle = f64::midpoint(low, high);
+                if even(middle.exp()).0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            pace = low.exp();
         }
-        while high - low > CLOSELY {
-            let middle = f64::midpoint(low, high);
-            if keeps_rates(middle.exp()) {
-                low = middle;
-            } else {
-                high = middle;
+        if self.price.heat > 0.0 {
+            let mut least = even(pace).1;
+            while pace > SLOWEST {
+                let cost = even(SLOWER * pace).1;
+                if cost >= least {
+                    break;
+                }
+                (least, pace) = (cost, SLOWER * pace);
             }
         }
-        self.unit = self.bound / low.exp();
+        self.unit = self.bound / pace;
         Ok(self)
+    }
+
+    /// From a point, with bends rounded over a range that suits the loads of the motion itself.
+    fn from(&self, mesh: &Mesh, start: Vec<f64>, ease: f64) -> Result<(Point, f64), Stuck> {
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let ranged = |x: &[f64]| Problem {
+            ease,
+            ..self.problem(mesh, &margins, 0.0).ranged(x, RANGES[0])
+        };
+        let mut problem = ranged(&start);
+        let mut point = minimise(&problem, &start, ROUGH)?;
+        for _ in 0..RANGED {
+            let next = ranged(&point.x);
+            if next.range >= 0.5 * problem.range {
+                break;
+            }
+            problem = next;
+            point = minimise(&problem, &point.x, ROUGH)?;
+        }
+        Ok((point, problem.range))
+    }
+
+    /// From limits of rates that hardly bind down to those that are asked for: a machine that goes fast bears its loads with its inertia, which no
+    /// slow start may find.
+    fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
+        let fast = self.unit / self.bound;
+        let mut ease = fast.powi(3).min(MOST_EASE);
+        let even = |pace: f64| mesh.even((pace * fast).powi(2));
+        let mut starts = STARTS.into_iter();
+        let mut found = starts.find_map(|pace| self.from(mesh, even(pace), ease).ok())?;
+        let mut factor = EASES[0];
+        while ease > 1.0 {
+            let next = (ease * factor).max(1.0);
+            match self.from(mesh, found.0.x.clone(), next) {
+                Ok(point) => (found, ease) = (point, next),
+                Err(_) if factor < EASES[1] => factor = factor.sqrt(),
+                Err(_) => return None,
+            }
+        }
+        Some(found)
     }
 
     fn first(&self, shape: &Shape, borders: &[Border]) -> Result<Found, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
-        let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(&mesh, &margins);
         let mut stuck = None;
-        let mut best: Option<(f64, Point)> = None;
         // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
         let fast = self.unit / self.bound;
-        for pace in STARTS.into_iter().flat_map(|pace| [pace * fast, pace]) {
-            match minimise(&problem, &mesh.even(pace * pace), ROUGH) {
-                Ok(point) => {
-                    let cost = problem.whole_cost(&point.x);
-                    if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                        best = Some((cost, point));
-                    }
-                }
-                Err(why) => stuck = stuck.or(Some(why)),
-            }
+        let paces = STARTS.into_iter().flat_map(|pace| [pace * fast, pace]);
+        let even = paces.filter_map(|pace| {
+            let found = self.from(&mesh, mesh.even(pace * pace), 1.0);
+            found.map_err(|why| stuck = stuck.or(Some(why))).ok()
+        });
+        let mut all: Vec<(Point, f64)> = even.collect();
+        if self.limits().has_rates() {
+            all.extend(self.eased(&mesh));
         }
-        if let Some((_, point)) = best {
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let cost = |(point, range): &(Point, f64)| {
+            self.problem(&mesh, &margins, *range).whole_cost(&point.x)
+        };
+        let best = all.into_iter().map(|found| (cost(&found), found));
+        if let Some((_, (point, range))) = best.min_by(|a, b| a.0.total_cmp(&b.0)) {
             let time = self.time(&mesh, &point.x);
-            return Ok(Found { mesh, point, time });
+            return Ok(Found {
+                mesh,
+                point,
+                time,
+                range,
+            });
         }
         let stuck = stuck.filter(|stuck| stuck.missed > FEASIBLE);
         let phi = stuck.map_or(self.ends.from, |stuck| {
@@ -341,11 +401,12 @@ impl Asked<'_> {
         before: &Found,
         margins: &[Margins],
         barrier: [f64; 2],
+        range: f64,
     ) -> Result<Result<Found, Stuck>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let none = vec![Margins::default(); mesh.elements.len()];
         let margins = if margins.is_empty() { &none } else { margins };
-        let problem = self.problem(&mesh, margins);
+        let problem = self.problem(&mesh, margins, range);
         let mut start = mesh.refined(&before.mesh, &before.point.x);
         if problem.at(&start).is_none() {
             start = mesh.levelled(&before.mesh, &before.point.x);
@@ -354,7 +415,12 @@ impl Asked<'_> {
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
         Ok(point.map(|point| {
             let time = self.time(&mesh, &point.x);
-            Found { mesh, point, time }
+            Found {
+                mesh,
+                point,
+                time,
+                range,
+            }
         }))
     }
 

@@ -29,7 +29,7 @@ impl Asked<'_> {
         let mesh = &found.mesh;
         let mut met = vec![(0.0, None); mesh.stations.len()];
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(mesh, &margins);
+        let problem = self.problem(mesh, &margins, found.range);
         let Some([_, rows]) = problem.at(&found.point.x) else {
             return vec![None; mesh.stations.len()];
         };

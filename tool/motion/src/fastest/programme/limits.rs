@@ -61,6 +61,8 @@ pub(super) struct Problem<'a> {
     pub(super) price: Price,
     /// Load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
+    /// Factor of the limits of rates.
+    pub(super) ease: f64,
     /// The motor's torque limits as straight lines, braking and driving.
     pub(super) lines: [Option<Vec<[f64; 2]>>; 2],
     /// Of each piece.
@@ -213,7 +215,7 @@ impl Problem<'_> {
                 ));
             }
         }
-        if let Some(limit) = limits.jerk {
+        if let Some(limit) = limits.jerk.map(|limit| limit * self.ease) {
             let [slope, bend, third] = station.path;
             let [own, change, curve] = &station.basis;
             let scale = (1.0 + margins.jerk) / (limit * self.unit.powi(3));
@@ -311,6 +313,23 @@ impl Problem<'_> {
         self.at(x).is_some_and(|[_, rows]| rows.iter().all(is_kept))
     }
 
+    /// With bends of the torque, if it has any, rounded over a share of the largest load of a motion.
+    pub(super) fn ranged(self, x: &[f64], share: f64) -> Self {
+        let load = |station: &Station| {
+            let state = self.state(station, &self.mesh.values(x, station.element));
+            let place = &station.place;
+            let carried = 0.5 * place.inertia_slope * state.speed * state.speed;
+            let resisting = carried + place.load + place.viscous * state.speed + place.coulomb;
+            (place.inertia * state.acceleration + resisting).abs()
+        };
+        let range = if self.field.way.bends() {
+            share * self.mesh.stations.iter().map(load).fold(0.0, f64::max)
+        } else {
+            0.0
+        };
+        Self { range, ..self }
+    }
+
     /// What a motion costs.
     pub(super) fn whole_cost(&self, x: &[f64]) -> f64 {
         let costs = self.at(x).map(|[costs, _]| costs);
@@ -344,6 +363,7 @@ impl Programme for Problem<'_> {
             let first = rows.len();
             self.limits(station, &values, &state, &torque, &mut rows);
             if let Some(limit) = self.field.limits.torque_rate {
+                let limit = limit * self.ease;
                 if let Some((a, state_a, torque_a)) = &before
                     && a.element == station.element
                 {

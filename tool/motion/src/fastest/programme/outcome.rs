@@ -45,7 +45,7 @@ impl Asked<'_> {
     /// The motion over the time.
     pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
         let direction = self.field.way.direction;
-        let problem = self.problem(&found.mesh, &[]);
+        let problem = self.problem(&found.mesh, &[], found.range);
         let mut nodes: Vec<Node> = Vec::new();
         let mut t = 0.0;
         let count = SHARES.len();

@@ -2,7 +2,7 @@
 
 use super::limits::Margins;
 use super::mesh::Border;
-use super::{Asked, FINER, PIECES, Warm, inner};
+use super::{Asked, FINER, Found, PIECES, RANGES, Warm, inner};
 use crate::fastest::NoMotion;
 use crate::gentlest::shape::Shape;
 
@@ -39,9 +39,22 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
 }
 
 impl Asked<'_> {
+    /// Load over which bends of the torque are rounded beside a motion.
+    fn range(&self, found: &Found) -> f64 {
+        let problem = self.problem(&found.mesh, &[], found.range);
+        problem.ranged(&found.point.x, RANGES[0]).range
+    }
+
     /// On the pieces of another motion; `None`: it is too far away.
     pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
-        let next = self.next(shape, &warm.borders, &warm.found, &warm.margins, FINER)?;
+        let next = self.next(
+            shape,
+            &warm.borders,
+            &warm.found,
+            &warm.margins,
+            FINER,
+            warm.found.range,
+        )?;
         Ok(next.ok().map(|found| Warm {
             found,
             ..warm.clone()
@@ -57,7 +70,8 @@ impl Asked<'_> {
                     ..*border
                 };
                 let borders: Vec<Border> = warm.borders.iter().map(plain).collect();
-                let found = self.next(shape, &borders, &warm.found, &[], FINER)?;
+                let found = 
+                    self.next(shape, &borders, &warm.found, &[], FINER, self.range(&warm.found))?;
                 found.ok().map(|found| (borders, found))
             }
             None => None,
@@ -81,7 +95,8 @@ impl Asked<'_> {
             let next = next.filter(|next| next.len() <= PIECES[1]);
             let solved = match next {
                 Some(next) => {
-                    let solved = match self.next(shape, &next, &found, &[], FINER)? {
+                    let range = self.range(&found);
+                    let solved = match self.next(shape, &next, &found, &[], FINER, range)? {
                         Ok(solved) => Some(solved),
                         // Between the places at which coarse pieces are looked at their motion may be none.
                         Err(_) if round == 0 => self.first(shape, &next).ok(),
@@ -99,6 +114,13 @@ impl Asked<'_> {
             (borders, found) = (next, solved);
             if round == 0 && change < SETTLED {
                 rounds[round] = 0;
+            }
+        }
+        // What rounding leaves of the time falls with the square of its range.
+        if found.range > 0.0 {
+            let range = self.range(&found) * RANGES[1] / RANGES[0];
+            if let Ok(fine) = self.next(shape, &borders, &found, &[], FINER, range)? {
+                found = fine;
             }
         }
         for (border, changes) in borders.iter_mut().zip(self.changes(&found)) {
