@@ -29,6 +29,7 @@ pub use limits::Price;
 use limits::{Margins, Problem};
 use mesh::{Border, Form, Mesh};
 use outcome::{Worst, widen};
+use refine::halved;
 
 /// Pieces of the first mesh, and the most.
 const PIECES: [usize; 2] = [24, 1500];
@@ -48,7 +49,17 @@ const SLOWER: f64 = 0.8;
 
 /// Most that limits of rates are eased by at the start, and the factors from one to the next: the first, and what is too near to 1.
 const MOST_EASE: f64 = 1e4;
-const EASES: [f64; 2] = [0.5, 0.8];
+const EASES: [f64; 2] = [0.1, 0.97];
+
+/// How much longer a motion of one family may take than the one before, and the μ of both.
+const SAME: f64 = 1.2;
+const EASED: [f64; 2] = [1e-2, 1e-5];
+
+/// How often the first pieces are halved for that: coarse ones leave the faster family no motion.
+const HALVED: u32 = 1;
+
+/// Share by which the time of another family differs.
+const CLEARLY: f64 = 1e-3;
 
 /// μ of the first mesh, of those that follow, and of the last: what is left of the time is about ten times as much.
 const ROUGH: [f64; 2] = [0.1, 1e-5];
@@ -318,79 +329,107 @@ impl Asked<'_> {
     }
 
     /// From a point, with bends rounded over a range that suits the loads of the motion itself.
-    fn from(&self, mesh: &Mesh, start: Vec<f64>, ease: f64) -> Result<(Point, f64), Stuck> {
+    fn from(
+        &self,
+        mesh: &Mesh,
+        start: &[f64],
+        ease: f64,
+        barrier: [f64; 2],
+    ) -> Result<(Point, f64), Stuck> {
         let margins = vec![Margins::default(); mesh.elements.len()];
         let ranged = |x: &[f64]| Problem {
             ease,
             ..self.problem(mesh, &margins, 0.0).ranged(x, RANGES[0])
         };
-        let mut problem = ranged(&start);
-        let mut point = minimise(&problem, &start, ROUGH)?;
+        let mut problem = ranged(start);
+        let mut point = minimise(&problem, start, barrier)?;
         for _ in 0..RANGED {
             let next = ranged(&point.x);
             if next.range >= 0.5 * problem.range {
                 break;
             }
             problem = next;
-            point = minimise(&problem, &point.x, ROUGH)?;
+            point = minimise(&problem, &point.x, barrier)?;
         }
         Ok((point, problem.range))
     }
 
     /// From limits of rates that hardly bind down to those that are asked for: a machine that goes fast bears its loads with its inertia, which no
-    /// slow start may find.
+    /// slow start may find. A motion that is much slower than the one before is none of theirs.
     fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
         let fast = self.unit / self.bound;
         let mut ease = fast.powi(3).min(MOST_EASE);
+        if ease <= 1.0 {
+            return None;
+        }
         let even = |pace: f64| mesh.even((pace * fast).powi(2));
         let mut starts = STARTS.into_iter();
-        let mut found = starts.find_map(|pace| self.from(mesh, even(pace), ease).ok())?;
+        let mut found = starts.find_map(|pace| self.from(mesh, &even(pace), ease, ROUGH).ok())?;
+        let mut time = self.time(mesh, &found.0.x);
         let mut factor = EASES[0];
         while ease > 1.0 {
             let next = (ease * factor).max(1.0);
-            match self.from(mesh, found.0.x.clone(), next) {
-                Ok(point) => (found, ease) = (point, next),
-                Err(_) if factor < EASES[1] => factor = factor.sqrt(),
-                Err(_) => return None,
+            let solved = self.from(mesh, &found.0.x, next, EASED).ok();
+            let solved = solved.map(|solved| (self.time(mesh, &solved.0.x), solved));
+            match solved {
+                Some((own, solved)) if own < SAME * time => {
+                    (found, ease, time) = (solved, next, own);
+                }
+                _ if factor < EASES[1] => factor = factor.sqrt(),
+                _ => return None,
             }
         }
         Some(found)
     }
 
-    fn first(&self, shape: &Shape, borders: &[Border]) -> Result<Found, NoMotion> {
-        let mesh = self.mesh(shape, borders)?;
+    /// From nothing, with the borders of its pieces: the fastest of the motions to which several starts lead.
+    fn first(&self, shape: &Shape, borders: Vec<Border>) -> Result<(Vec<Border>, Found), NoMotion> {
+        let mesh = self.mesh(shape, &borders)?;
         let mut stuck = None;
         // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
         let fast = self.unit / self.bound;
         let paces = STARTS.into_iter().flat_map(|pace| [pace * fast, pace]);
         let even = paces.filter_map(|pace| {
-            let found = self.from(&mesh, mesh.even(pace * pace), 1.0);
+            let found = self.from(&mesh, &mesh.even(pace * pace), 1.0, ROUGH);
             found.map_err(|why| stuck = stuck.or(Some(why))).ok()
         });
-        let mut all: Vec<(Point, f64)> = even.collect();
-        if self.limits().has_rates() {
-            all.extend(self.eased(&mesh));
-        }
         let margins = vec![Margins::default(); mesh.elements.len()];
         let cost = |(point, range): &(Point, f64)| {
             self.problem(&mesh, &margins, *range).whole_cost(&point.x)
         };
-        let best = all.into_iter().map(|found| (cost(&found), found));
-        if let Some((_, (point, range))) = best.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            let time = self.time(&mesh, &point.x);
-            return Ok(Found {
-                mesh,
-                point,
-                time,
-                range,
-            });
+        let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best)));
+        let eased = if self.limits().has_rates() {
+            let finer = (0..HALVED).fold(borders, |borders, _| halved(&borders));
+            let mesh = self.mesh(shape, &finer)?;
+            self.eased(&mesh)
+                .map(|best| (finer, self.found(mesh, best)))
+        } else {
+            None
+        };
+        let faster = |(_, eased): &(_, Found)| {
+            best.as_ref()
+                .is_none_or(|(_, best)| eased.time < (1.0 - CLEARLY) * best.time)
+        };
+        if let Some(best) = eased.filter(faster).or(best) {
+            return Ok(best);
         }
-        let stuck = stuck.filter(|stuck| stuck.missed > FEASIBLE);
+        let stuck = stuck.filter(|stuck: &Stuck| stuck.missed > FEASIBLE);
         let phi = stuck.map_or(self.ends.from, |stuck| {
             mesh.stations[stuck.station].place.phi
         });
         let missed = stuck.map_or(0.0, |stuck| stuck.missed);
         Err(self.not_found(stuck.and_then(|stuck| stuck.limit), phi, missed))
+    }
+
+    fn found(&self, mesh: Mesh, (point, range): (Point, f64)) -> Found {
+        let time = self.time(&mesh, &point.x);
+        Found {
+            mesh,
+            point,
+            time,
+            range,
+        }
     }
 
     /// From another mesh; without margins if none are given.
@@ -413,15 +452,7 @@ impl Asked<'_> {
         }
         let point = minimise(&problem, &start, barrier)
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
-        Ok(point.map(|point| {
-            let time = self.time(&mesh, &point.x);
-            Found {
-                mesh,
-                point,
-                time,
-                range,
-            }
-        }))
+        Ok(point.map(|point| self.found(mesh, (point, range))))
     }
 
     /// The time (s).

@@ -29,6 +29,13 @@ fn with(borders: &[Border], more: Vec<Border>) -> Option<Vec<Border>> {
     Some(all)
 }
 
+/// Every piece halved.
+pub(super) fn halved(borders: &[Border]) -> Vec<Border> {
+    let middles = borders.windows(2);
+    let middles = middles.map(|piece| inner(piece[0].u.midpoint(piece[1].u)));
+    with(borders, middles.collect()).unwrap_or_default()
+}
+
 /// The middles of long pieces.
 fn longest_halved(borders: &[Border]) -> Vec<Border> {
     let longer = |piece: &&[Border]| piece[1].u - piece[0].u > LONGEST;
@@ -70,8 +77,14 @@ impl Asked<'_> {
                     ..*border
                 };
                 let borders: Vec<Border> = warm.borders.iter().map(plain).collect();
-                let found = 
-                    self.next(shape, &borders, &warm.found, &[], FINER, self.range(&warm.found))?;
+                let found = self.next(
+                    shape,
+                    &borders,
+                    &warm.found,
+                    &[],
+                    FINER,
+                    self.range(&warm.found),
+                )?;
                 found.ok().map(|found| (borders, found))
             }
             None => None,
@@ -79,9 +92,7 @@ impl Asked<'_> {
         let (mut borders, mut found) = if let Some(started) = started {
             started
         } else {
-            let borders = self.first_borders(shape);
-            let found = self.first(shape, &borders)?;
-            (borders, found)
+            self.first(shape, self.first_borders(shape))?
         };
         let mut change = warm.map_or(f64::INFINITY, |warm| warm.change);
         let mut rounds = [ROUNDS, MOVES, HALVED];
@@ -96,13 +107,12 @@ impl Asked<'_> {
             let solved = match next {
                 Some(next) => {
                     let range = self.range(&found);
-                    let solved = match self.next(shape, &next, &found, &[], FINER, range)? {
-                        Ok(solved) => Some(solved),
+                    match self.next(shape, &next, &found, &[], FINER, range)? {
+                        Ok(solved) => Some((next, solved)),
                         // Between the places at which coarse pieces are looked at their motion may be none.
-                        Err(_) if round == 0 => self.first(shape, &next).ok(),
+                        Err(_) if round == 0 => self.first(shape, next).ok(),
                         Err(_) => None,
-                    };
-                    solved.map(|solved| (next, solved))
+                    }
                 }
                 None => None,
             };
