@@ -14,6 +14,7 @@ mod limits;
 mod mesh;
 mod newton;
 mod outcome;
+mod rate;
 mod refine;
 
 use crate::gentlest::mesh::dot;
@@ -339,7 +340,7 @@ impl Asked<'_> {
         let margins = vec![Margins::default(); mesh.elements.len()];
         let ranged = |x: &[f64]| Problem {
             ease,
-            ..self.problem(mesh, &margins, 0.0).ranged(x, RANGES[0])
+            ..self.problem(mesh, &margins, 0.0).ranged(x, std::env::var("R0").map_or(RANGES[0], |v| v.parse::<f64>().unwrap_or(0.0)))
         };
         let mut problem = ranged(start);
         let mut point = minimise(&problem, start, barrier)?;

@@ -24,7 +24,8 @@ const STEEP: f64 = 0.1;
 const SHORTEST: f64 = 6e-4;
 
 impl Asked<'_> {
-    /// The limit that is met at each station, and which of its rows: driving and braking are two.
+    /// The limit that is met at each station, and which of its rows: driving and braking are two. Those of the torque rate are others where power
+    /// flows another way, because the torque bends where that changes, and with it the jerk jumps.
     pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
         let mesh = &found.mesh;
         let mut met = vec![(0.0, None); mesh.stations.len()];
@@ -45,7 +46,16 @@ impl Asked<'_> {
             let force = multiplier / row.weight;
             let at = &mut met[row.station];
             if row.value > -MET && force > at.0 {
-                *at = (force, row.limit.map(|limit| (limit, number % 2)));
+                let station = &mesh.stations[row.station];
+                let flow = if row.limit == Some(Binding::TorqueRate) {
+                    let values = mesh.values(&found.point.x, station.element);
+                    let state = problem.state(station, &values);
+                    let way = self.field.way;
+                    way.flow(&station.place, state.speed, state.acceleration)
+                } else {
+                    0
+                };
+                *at = (force, row.limit.map(|limit| (limit, number % 2 + 2 * flow)));
             }
         }
         met.into_iter().map(|(_, limit)| limit).collect()

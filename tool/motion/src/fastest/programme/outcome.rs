@@ -3,12 +3,22 @@
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
-use crate::fastest::between::{LOOKS, ROUNDED, within_step};
+use crate::fastest::between::{LOOKS, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
+use crate::way::Demand;
+
+/// Last digits of a speed that make another acceleration in a step, and of a torque.
+const ROUNDINGS: f64 = 4.0;
+
+/// Share of a step over which the rate of the torque is taken.
+const NEAR: f64 = 0.02;
+
+/// Parts of a step in which the rate is looked at, and where the torque bends in it.
+const PARTS: [u32; 2] = [2, 32];
 
 /// The limit that is exceeded most between the nodes, by which share of itself, and where.
 #[derive(Clone, Copy, Debug)]
@@ -149,31 +159,40 @@ impl Asked<'_> {
                 let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
                 look(0, excess, limit);
             }
+            // What rounding of the speeds makes of an acceleration in the step.
+            let rounding = ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
             if let Some(limit) = limits.torque_rate {
-                // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
-                let torque = |share: f64| -> Result<f64, NoMotion> {
-                    let state = within_step(a, b, share);
+                let demand = |share: f64| -> Result<Demand, NoMotion> {
+                    let state = b.after(a, share);
                     let place = place(state.phi)?;
                     let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                    Ok(way.demand(&place, v, alpha).torque)
+                    Ok(way.demand(&place, v, alpha))
                 };
-                let torques = [torque(0.0)?, torque(0.5)?, torque(1.0)?];
-                for pair in torques.windows(2) {
-                    let rate = (pair[1] - pair[0]).abs() / (0.5 * b.step);
+                // The rate changes evenly in a step, and is greatest at an end; where the torque bends anywhere.
+                let flow = |share: f64| -> Result<usize, NoMotion> {
+                    let state = b.after(a, share);
+                    let place = place(state.phi)?;
+                    Ok(way.flow(&place, state.omega * direction, state.alpha * direction))
+                };
+                let parts = if flow(0.0)? == flow(1.0)? {
+                    PARTS[0]
+                } else {
+                    PARTS[1]
+                };
+                for share in (0..=parts).map(|k| f64::from(k) / f64::from(parts)) {
+                    let [first, last] = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+                    let [before, after] = [demand(first)?, demand(last)?];
+                    let change = (after.torque - before.torque).abs();
+                    let rounding = rounding * after.per_acceleration
+                        + ROUNDINGS * f64::EPSILON * after.torque.abs();
+                    let rate = (change - rounding) / ((last - first) * b.step);
                     look(2, rate / limit - 1.0, Binding::TorqueRate);
                 }
             }
             if let Some(limit) = limits.jerk {
-                // Of a step so short that rounding of the speeds makes another jerk, that of its accelerations counts.
-                let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step);
-                let mean = (b.alpha[0] - a.alpha[1]) / b.step;
                 for share in [0.0, 0.5, 1.0] {
-                    let jerk = if rounding > ROUNDED * WITHIN * limit {
-                        mean
-                    } else {
-                        b.jerk_after(a, share)
-                    };
-                    look(1, jerk.abs() / limit - 1.0, Binding::Jerk);
+                    let jerk = b.jerk_after(a, share).abs() - rounding / b.step;
+                    look(1, jerk / limit - 1.0, Binding::Jerk);
                 }
             }
         }
