@@ -21,10 +21,6 @@ pub(super) struct Effort {
     pub(super) gradient: Local,
     /// Factor of the square of w's basis in the second derivatives.
     pub(super) bend: f64,
-    /// ∂T/∂R by the load R, ∂T/∂a by the acceleration, and what moves a bend: it stays at R + lean·a.
-    pub(super) by_load: f64,
-    pub(super) by_acceleration: f64,
-    pub(super) lean: f64,
     /// Where power changes its direction: a factor, and the form whose square it belongs to.
     pub(super) turn: (f64, Local),
 }
@@ -48,9 +44,6 @@ impl Effort {
         let friction = torque.by_load * place.viscous + rate;
         Self {
             value: torque.value,
-            by_load: torque.by_load,
-            by_acceleration: torque.by_acceleration,
-            lean: torque.lean,
             gradient: mix(
                 (torque.by_load * load_by_w + rate * per_root, own),
                 (torque.by_acceleration, &state.by),

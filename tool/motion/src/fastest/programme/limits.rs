@@ -8,9 +8,9 @@
 //! the jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is a share of itself: c ≤ 0, −1 far from it.
 
 use super::effort::{Effort, State, mix};
-use super::rate::Rate;
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
+use super::rate::{Rate, smooth_slopes};
 use crate::fastest::field::{Binding, Field};
 use crate::gentlest::mesh::Value;
 use crate::gentlest::mesh::dot;
@@ -88,10 +88,15 @@ impl Problem<'_> {
         }
     }
 
+    /// What the motor's torque rises with the speed itself.
+    fn friction(&self) -> f64 {
+        let way = self.field.way;
+        way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
+    }
+
     fn motor(&self, station: &Station, state: &State) -> Effort {
         let way = self.field.way;
-        let rate = way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs();
-        Effort::of(station, state, rate, self.range, |place| {
+        Effort::of(station, state, self.friction(), self.range, |place| {
             way.demand(place, state.speed, state.acceleration)
         })
     }
@@ -227,8 +232,11 @@ impl Problem<'_> {
                 Rate::of_acceleration(station, values, self.unit)
             } else {
                 let way = self.field.way;
-                let own = way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs();
-                Rate::of_torque(station, values, state, torque, own, self.unit)
+                let torque =
+                    smooth_slopes(&station.place, state.acceleration, self.range, |place| {
+                        way.demand(place, state.speed, state.acceleration)
+                    });
+                Rate::of_torque(station, values, state, &torque, self.friction(), self.unit)
             };
             let own = &station.basis[0];
             let root = state.w.sqrt();

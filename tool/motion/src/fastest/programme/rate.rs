@@ -7,9 +7,45 @@
 //!
 //! with slopes by u. Times √w/t they are rates by the time: |da/du| ≤ t·j/√w.
 
-use super::effort::{Effort, State, mix};
+use super::effort::{State, mix};
 use super::mesh::{Local, Station, VALUES};
 use crate::gentlest::mesh::dot;
+use crate::gentlest::torque::Torque;
+use crate::way::{Demand, Place};
+
+/// Shares of the slopes that differ by less are one.
+const STRAIGHT: f64 = 1e-9;
+
+/// The slopes of a torque averaged over loads ± `range` once more: Newton's method needs a gradient of them that does not jump.
+pub(super) fn smooth_slopes(
+    place: &Place,
+    acceleration: f64,
+    range: f64,
+    demand: impl Fn(&Place) -> Demand,
+) -> Torque {
+    let at = |by: f64| {
+        let place = Place {
+            load: place.load + by,
+            ..*place
+        };
+        Torque::rounded_of(&place, acceleration, range, &demand)
+    };
+    let own = at(0.0);
+    let [low, high] = [-range, range].map(at);
+    let rise = high.by_load - low.by_load;
+    if rise <= STRAIGHT * high.by_load {
+        return own;
+    }
+    let lean = (high.by_acceleration - low.by_acceleration) / rise;
+    let by_load = 0.5 * (high.value - low.value) / range;
+    Torque {
+        by_load,
+        by_acceleration: own.by_acceleration + lean * (by_load - own.by_load),
+        bend: 0.5 * rise / range,
+        lean,
+        ..own
+    }
+}
 
 /// A slope by u.
 pub(super) struct Rate {
@@ -43,7 +79,7 @@ impl Rate {
         station: &Station,
         values: &Local,
         state: &State,
-        torque: &Effort,
+        torque: &Torque,
         friction: f64,
         t: f64,
     ) -> Self {
@@ -58,7 +94,10 @@ impl Rate {
         let w_by_u = dot(change, values);
         let speed = pace_by_u * root + 0.5 * pace * w_by_u / root;
         let speed_by = mix(
-            (0.5 * pace_by_u / root - 0.25 * pace * w_by_u / (w * root), own),
+            (
+                0.5 * pace_by_u / root - 0.25 * pace * w_by_u / (w * root),
+                own,
+            ),
             (0.5 * pace / root, change),
         );
         let speed_bend = (0.375 * pace * w_by_u / w - 0.25 * pace_by_u) / (w * root);
@@ -71,20 +110,20 @@ impl Rate {
             (0.5 * place.inertia_slope * pace * pace, change),
         );
         let straight = mix((1.0, &straight), (by_u.inertia, &state.by));
-        let load = dot(&straight, values)
-            + by_u.load
-            + by_u.viscous * pace * root
-            + place.viscous * speed;
-        let load_by = mix(
-            (1.0, &straight),
-            (0.5 * by_u.viscous * pace / root, own),
-        );
+        let load =
+            dot(&straight, values) + by_u.load + by_u.viscous * pace * root + place.viscous * speed;
+        let load_by = mix((1.0, &straight), (0.5 * by_u.viscous * pace / root, own));
         let load_by = mix((1.0, &load_by), (place.viscous, &speed_by));
         let viscous = torque.by_load * place.viscous + friction;
         let steady = mix((torque.by_load, &load_by), (friction, &speed_by));
-        let steady = mix((1.0, &steady), (torque.by_acceleration, &acceleration.gradient));
+        let steady = mix(
+            (1.0, &steady),
+            (torque.by_acceleration, &acceleration.gradient),
+        );
         // Where the torque bends its slopes change with the load.
-        let (bend, turn) = &torque.turn;
+        let load_by_w = 0.5 * place.inertia_slope * pace * pace + 0.5 * place.viscous * pace / root;
+        let turn = &mix((load_by_w, own), (torque.lean, &state.by));
+        let bend = torque.bend;
         let across = mix((1.0, &load_by), (torque.lean, &acceleration.gradient));
         let moved = bend * (load + torque.lean * acceleration.value);
         Self {
@@ -92,8 +131,7 @@ impl Rate {
                 + torque.by_acceleration * acceleration.value
                 + friction * speed,
             gradient: mix((1.0, &steady), (moved, turn)),
-            bend: viscous * speed_bend
-                - 0.25 * torque.by_load * by_u.viscous * pace / (w * root),
+            bend: viscous * speed_bend - 0.25 * torque.by_load * by_u.viscous * pace / (w * root),
             turn: [
                 (0.5 * bend, mix((1.0, turn), (1.0, &across))),
                 (-0.5 * bend, mix((1.0, turn), (-1.0, &across))),
