@@ -186,7 +186,9 @@ fn a_cycle_begins_with_what_is_kept() {
     near("kept", kept.from, motion.at(0.4).phi, 1e-12);
     near("time", step.duration, 1.4, 1e-12);
     near("round", step.to - kept.from, TAU, 1e-12);
-    assert_eq!(ends.speeds, [2.0, 2.0]);
+    for speed in ends.speeds {
+        near("speed", speed, 2.0, 1e-12);
+    }
     let found = retimed(&file, Goal::Rms, 0.0);
     near("whole", found.motion.duration(), motion.duration(), 1e-9);
     near("speed", found.motion.at(0.2).omega, 2.0, 1e-9);

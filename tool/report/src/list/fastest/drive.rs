@@ -56,7 +56,12 @@ impl Answer<'_> {
             String::new()
         } else {
             let holding = shown(load.holding, load.peaks[0]);
-            format!("; {holding} {effort} to hold the end")
+            let nodes = self.cycle.trace.nodes();
+            let place = match nodes.last() {
+                Some(node) if node.omega != 0.0 => "it where it rests",
+                _ => "the end",
+            };
+            format!("; {holding} {effort} to hold {place}")
         };
         line(
             text,
