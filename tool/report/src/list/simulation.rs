@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
-use jred_machine::analysis::simulate::{Rest, Simulated, Stop, Together, beside_name};
+use jred_machine::analysis::simulate::{Effort, Rest, Simulated, Stop, Together, beside_name};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -298,20 +298,7 @@ impl<'s> Shown<'s> {
             add("reached", json!(reached));
         }
         if let Some(effort) = self.found.effort {
-            let unit = self.effort_unit();
-            let most = |[value, time]: [f64; 2], scale: f64, unit: &str| json!({ format!("largest [{unit}]"): value * scale, "time [s]": time });
-            let (scale, speed) = if self.slides() {
-                (1.0, "m/s")
-            } else {
-                (1.0 / RPM, "rpm")
-            };
-            let motor = json!({
-                "effort": most(effort.torque, 1.0, unit),
-                format!("RMS [{unit}]"): effort.rms,
-                "power": most(effort.power, 1.0, "W"),
-                "speed": most(effort.speed, scale, speed),
-            });
-            add("motor", motor);
+            add("motor", self.motor(&effort));
         }
         if let Some(stuck) = self.found.missing {
             let effort = self.effort_unit();
@@ -343,39 +330,62 @@ impl<'s> Shown<'s> {
             );
         }
         if let Some((name, loads)) = self.drive {
-            let peak = |peak: &Peak, scale: f64, unit: &str| {
-                json!({
-                    "time [s]": peak.time,
-                    &position: axis.shown(peak.phi),
-                    format!("largest [{unit}]"): peak.value * scale,
-                    format!("allowed [{unit}]"): peak.allowed.map(|allowed| allowed * scale),
-                })
-            };
-            let (scale, unit) = if self.slides() {
-                (1.0, "m/s")
-            } else {
-                (1.0 / RPM, "rpm")
-            };
-            let mut drive = Map::new();
-            drive.insert("name".into(), name.into());
-            drive.insert("motor_speed".into(), peak(&loads.motor_speed, scale, unit));
-            if let Some(torque) = &loads.gearbox_torque {
-                drive.insert("gearbox_torque".into(), peak(torque, 1.0, "N m"));
-            }
-            if let Some(heat) = &loads.heat {
-                let (scale, unit) = if heat.relative {
-                    (100.0, "% of the rated rise")
-                } else {
-                    (1.0, "K")
-                };
-                drive.insert("rise".into(), peak(&heat.hottest, scale, unit));
-            }
-            add("drive", drive.into());
+            add("drive", self.drive_figures(&axis, name, loads));
         }
         if let Some(error) = &self.found.ended {
             add("ended", error.to_string().into());
         }
         after
+    }
+
+    /// What the motor gives, for JSON.
+    fn motor(&self, effort: &Effort) -> Value {
+        let unit = self.effort_unit();
+        let most = |[value, time]: [f64; 2], scale: f64, unit: &str| json!({ format!("largest [{unit}]"): value * scale, "time [s]": time });
+        let (scale, speed) = if self.slides() {
+            (1.0, "m/s")
+        } else {
+            (1.0 / RPM, "rpm")
+        };
+        json!({
+            "effort": most(effort.torque, 1.0, unit),
+            format!("RMS [{unit}]"): effort.rms,
+            "power": most(effort.power, 1.0, "W"),
+            "speed": most(effort.speed, scale, speed),
+        })
+    }
+
+    /// What the drive bears, for JSON.
+    fn drive_figures(&self, axis: &Axis, name: &str, loads: &Loads) -> Value {
+        let position = format!("position [{}]", axis.coordinate.unit());
+        let peak = |peak: &Peak, scale: f64, unit: &str| {
+            json!({
+                "time [s]": peak.time,
+                &position: axis.shown(peak.phi),
+                format!("largest [{unit}]"): peak.value * scale,
+                format!("allowed [{unit}]"): peak.allowed.map(|allowed| allowed * scale),
+            })
+        };
+        let (scale, unit) = if self.slides() {
+            (1.0, "m/s")
+        } else {
+            (1.0 / RPM, "rpm")
+        };
+        let mut drive = Map::new();
+        drive.insert("name".into(), name.into());
+        drive.insert("motor_speed".into(), peak(&loads.motor_speed, scale, unit));
+        if let Some(torque) = &loads.gearbox_torque {
+            drive.insert("gearbox_torque".into(), peak(torque, 1.0, "N m"));
+        }
+        if let Some(heat) = &loads.heat {
+            let (scale, unit) = if heat.relative {
+                (100.0, "% of the rated rise")
+            } else {
+                (1.0, "K")
+            };
+            drive.insert("rise".into(), peak(&heat.hottest, scale, unit));
+        }
+        drive.into()
     }
 
     /// The sentence about end stops.

@@ -4,6 +4,7 @@ mod edges;
 mod look;
 mod plant;
 mod rows;
+mod setup;
 mod start;
 mod stops;
 mod stretch;
@@ -49,45 +50,9 @@ pub(super) fn run<const N: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
     let machines = plant.machines();
-    let file = machines.first;
     let corners = plant.corners();
     let [has_payloads, has_carriages] = machines.guests();
-    let mut run = Run {
-        plant,
-        file,
-        accuracy: Accuracy {
-            tolerance: simulation.tolerance,
-            most_steps: MOST_STEPS,
-        },
-        watch: Watch::new(&machines),
-        stops: simulation.end_stops,
-        ends: simulation.ends(file).map(|[from, to]| {
-            // The end of a stroke may be passed by a rounding.
-            let slack = if simulation.end_stops.is_some() {
-                0.0
-            } else {
-                1e-9 * (to - from)
-            };
-            [from - slack, to + slack]
-        }),
-        impacts: None,
-        direction: 0.0,
-        inside: [f64::NEG_INFINITY, f64::INFINITY],
-        edges: Edges::of(&machines),
-        edge: f64::INFINITY,
-        steps: Cell::new(0),
-        halt: None,
-        driven: None,
-        rest: None,
-        stuck: None,
-        controlling: Controlling::default(),
-        has_payloads,
-        giving: Giving::default(),
-        to_speed: simulation.to_speed,
-        reached: None,
-        held: None,
-        observer,
-    };
+    let mut run = Run::new(plant, &machines, simulation, observer);
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
     let [begin, speed] = plant.link(0.0, &y)?;
