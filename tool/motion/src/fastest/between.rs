@@ -14,9 +14,6 @@ const MOST_PARTS: f64 = 8.0;
 /// Places between two nodes at which limits are looked at.
 pub(super) const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
 
-/// Share of what a limit may be exceeded by that rounding may make of it.
-pub(super) const ROUNDED: f64 = 1e-3;
-
 /// Roundings of a speed by which the sweep may miss it.
 const ROUNDINGS: f64 = 1e4;
 

@@ -14,6 +14,7 @@ mod limits;
 mod mesh;
 mod newton;
 mod outcome;
+mod rate;
 mod refine;
 
 use crate::gentlest::mesh::dot;
@@ -51,12 +52,16 @@ const SLOWER: f64 = 0.8;
 const MOST_EASE: f64 = 1e4;
 const EASES: [f64; 2] = [0.1, 0.97];
 
+/// Power of a factor that was not too near, and the most factors.
+const LONGER: f64 = 1.2;
+const MOST_EASES: u32 = 40;
+
 /// How much longer a motion of one family may take than the one before, and the μ of both.
 const SAME: f64 = 1.2;
 const EASED: [f64; 2] = [1e-2, 1e-5];
 
-/// How often the first pieces are halved for that: coarse ones leave the faster family no motion.
-const HALVED: u32 = 1;
+/// Borders with which that is not tried on finer pieces.
+const MOST_EASED: usize = 3 * PIECES[0];
 
 /// Share by which the time of another family differs.
 const CLEARLY: f64 = 1e-3;
@@ -70,7 +75,10 @@ const LAST: [f64; 2] = [1e-3, 1e-10];
 const FEASIBLE: f64 = 1e-6;
 
 /// Shares of the largest load of a motion over which bends of the torque are rounded: in the search, and at its end.
-const RANGES: [f64; 2] = [1e-2, 1e-3];
+const RANGES: [f64; 2] = [1e-1, 4e-3];
+
+/// Factors of the range with which the motion is sought at last.
+const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 
 /// How often a motion is sought anew because its own loads are less than half of those that it was sought with.
 const RANGED: u32 = 8;
@@ -102,8 +110,9 @@ struct Found {
     mesh: Mesh,
     point: Point,
     time: f64,
-    /// Load (N·m) over which bends of the torque are rounded.
+    /// Load (N·m) over which bends of the torque are rounded, and which share of its largest load that is.
     range: f64,
+    share: f64,
 }
 
 /// A motion from which one of another price is sought.
@@ -157,11 +166,18 @@ impl Asked<'_> {
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
         for round in 0..WIDENED {
-            let range = warm.found.range;
-            let (borders, margins) = (&warm.borders, &warm.margins);
-            let Ok(next) = self.next(&shape, borders, &warm.found, margins, LAST, range)? else {
-                break;
-            };
+            // A range that suits the motion may be too narrow for one that keeps its margins.
+            let mut next = None;
+            for factor in WIDER {
+                let range = [warm.found.range, warm.found.share].map(|range| factor * range);
+                let (borders, margins) = (&warm.borders, &warm.margins);
+                let found = self.next(&shape, borders, &warm.found, margins, LAST, range)?;
+                next = found.ok();
+                if next.is_some() || range[0] == 0.0 {
+                    break;
+                }
+            }
+            let Some(next) = next else { break };
             warm.found = next;
             trace = self.trace(&shape, &warm.found);
             let each;
@@ -198,6 +214,7 @@ impl Asked<'_> {
             limit,
             phi,
             missed,
+            rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
             axis: self.field.way.file.axis(),
         }
     }
@@ -367,19 +384,23 @@ impl Asked<'_> {
         let mut found = starts.find_map(|pace| self.from(mesh, &even(pace), ease, ROUGH).ok())?;
         let mut time = self.time(mesh, &found.0.x);
         let mut factor = EASES[0];
-        while ease > 1.0 {
+        for _ in 0..MOST_EASES {
+            if ease <= 1.0 {
+                return Some(found);
+            }
             let next = (ease * factor).max(1.0);
             let solved = self.from(mesh, &found.0.x, next, EASED).ok();
             let solved = solved.map(|solved| (self.time(mesh, &solved.0.x), solved));
             match solved {
                 Some((own, solved)) if own < SAME * time => {
                     (found, ease, time) = (solved, next, own);
+                    factor = factor.powf(LONGER).max(EASES[0]);
                 }
                 _ if factor < EASES[1] => factor = factor.sqrt(),
                 _ => return None,
             }
         }
-        Some(found)
+        None
     }
 
     /// From nothing, with the borders of its pieces: the fastest of the motions to which several starts lead.
@@ -398,15 +419,16 @@ impl Asked<'_> {
             self.problem(&mesh, &margins, *range).whole_cost(&point.x)
         };
         let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best)));
-        let eased = if self.limits().has_rates() {
-            let finer = (0..HALVED).fold(borders, |borders, _| halved(&borders));
+        let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best, RANGES[0])));
+        // Coarse pieces leave the faster family no motion.
+        let mut eased = None;
+        let mut finer = borders;
+        while self.limits().has_rates() && eased.is_none() && finer.len() < MOST_EASED {
+            finer = halved(&finer);
             let mesh = self.mesh(shape, &finer)?;
-            self.eased(&mesh)
-                .map(|best| (finer, self.found(mesh, best)))
-        } else {
-            None
-        };
+            let found = self.eased(&mesh);
+            eased = found.map(|best| (finer.clone(), self.found(mesh, best, RANGES[0])));
+        }
         let faster = |(_, eased): &(_, Found)| {
             best.as_ref()
                 .is_none_or(|(_, best)| eased.time < (1.0 - CLEARLY) * best.time)
@@ -422,13 +444,14 @@ impl Asked<'_> {
         Err(self.not_found(stuck.and_then(|stuck| stuck.limit), phi, missed))
     }
 
-    fn found(&self, mesh: Mesh, (point, range): (Point, f64)) -> Found {
+    fn found(&self, mesh: Mesh, (point, range): (Point, f64), share: f64) -> Found {
         let time = self.time(&mesh, &point.x);
         Found {
             mesh,
             point,
             time,
             range,
+            share,
         }
     }
 
@@ -440,7 +463,7 @@ impl Asked<'_> {
         before: &Found,
         margins: &[Margins],
         barrier: [f64; 2],
-        range: f64,
+        [range, share]: [f64; 2],
     ) -> Result<Result<Found, Stuck>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let none = vec![Margins::default(); mesh.elements.len()];
@@ -452,7 +475,7 @@ impl Asked<'_> {
         }
         let point = minimise(&problem, &start, barrier)
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
-        Ok(point.map(|point| self.found(mesh, (point, range))))
+        Ok(point.map(|point| self.found(mesh, (point, range), share)))
     }
 
     /// The time (s).

@@ -1,14 +1,28 @@
 //! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
 
+use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
-use crate::fastest::between::{LOOKS, ROUNDED, within_step};
+use crate::fastest::between::{LOOKS, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
+use crate::way::Demand;
+
+/// Last digits of a speed that make another acceleration in a step, and of a torque.
+const ROUNDINGS: f64 = 4.0;
+
+/// Share of a step over which the rate of the torque is taken.
+const NEAR: f64 = 0.02;
+
+/// Parts of a step in which the rate is looked at, and where the torque bends in it.
+const PARTS: [u32; 2] = [2, 32];
+
+/// Shares of themselves by which two limits that are met together may differ.
+const TIED: f64 = 1e-6;
 
 /// The limit that is exceeded most between the nodes, by which share of itself, and where.
 #[derive(Clone, Copy, Debug)]
@@ -142,38 +156,47 @@ impl Asked<'_> {
                     .min((last - near).max(middle));
                 way.place(self.ends.from + direction * x)
             };
+            let mut flows = None;
+            let mut bends = false;
+            let mut look_at_flow = |flow: usize| bends |= *flows.get_or_insert(flow) != flow;
             for share in LOOKS {
                 let state = within_step(a, b, share);
                 let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
                 let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
                 look(0, excess, limit);
+                look_at_flow(way.flow(&place, v, alpha));
             }
+            // What rounding of the speeds makes of an acceleration in the step.
+            let rounding = ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
             if let Some(limit) = limits.torque_rate {
-                // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
-                let torque = |share: f64| -> Result<f64, NoMotion> {
-                    let state = within_step(a, b, share);
+                let demand = |share: f64| -> Result<Demand, NoMotion> {
+                    let state = b.after(a, share);
                     let place = place(state.phi)?;
                     let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                    Ok(way.demand(&place, v, alpha).torque)
+                    Ok(way.demand(&place, v, alpha))
                 };
-                let torques = [torque(0.0)?, torque(0.5)?, torque(1.0)?];
-                for pair in torques.windows(2) {
-                    let rate = (pair[1] - pair[0]).abs() / (0.5 * b.step);
+                for share in [0.0, 1.0] {
+                    let state = b.after(a, share);
+                    let (v, alpha) = (state.omega * direction, state.alpha * direction);
+                    look_at_flow(way.flow(&place(state.phi)?, v, alpha));
+                }
+                // The rate changes evenly in a step, and is greatest at an end; where the torque bends anywhere.
+                let parts = PARTS[usize::from(bends)];
+                for share in (0..=parts).map(|k| f64::from(k) / f64::from(parts)) {
+                    let [first, last] = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+                    let [before, after] = [demand(first)?, demand(last)?];
+                    let change = (after.torque - before.torque).abs();
+                    let rounding = rounding * after.per_acceleration
+                        + ROUNDINGS * f64::EPSILON * after.torque.abs();
+                    let rate = (change - rounding) / ((last - first) * b.step);
                     look(2, rate / limit - 1.0, Binding::TorqueRate);
                 }
             }
             if let Some(limit) = limits.jerk {
-                // Of a step so short that rounding of the speeds makes another jerk, that of its accelerations counts.
-                let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step);
-                let mean = (b.alpha[0] - a.alpha[1]) / b.step;
                 for share in [0.0, 0.5, 1.0] {
-                    let jerk = if rounding > ROUNDED * WITHIN * limit {
-                        mean
-                    } else {
-                        b.jerk_after(a, share)
-                    };
-                    look(1, jerk.abs() / limit - 1.0, Binding::Jerk);
+                    let jerk = b.jerk_after(a, share).abs() - rounding / b.step;
+                    look(1, jerk / limit - 1.0, Binding::Jerk);
                 }
             }
         }
@@ -182,7 +205,7 @@ impl Asked<'_> {
 
     /// Which limit is met, from where to where.
     pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
-        let met = self.met(found);
+        let met = self.all_met(found);
         let count = SHARES.len();
         let mut phases: Vec<Phase> = Vec::new();
         let nodes = trace.nodes();
@@ -195,8 +218,17 @@ impl Asked<'_> {
             let [a, b] = [&pair[0], &pair[1]];
             let piece = index / (count - 1);
             let first = piece * count + index % (count - 1);
-            let limit = [1, 0].into_iter().find_map(|k| met[first + k]);
-            let limit = limit.map(|(limit, _)| limit).or(idle);
+            let mut at = [1, 0].into_iter().map(|k| &met[first + k]);
+            let limit = at.find_map(|at| strongest(at).map(|own| (at, own)));
+            // Of two limits that are met together the one before goes on.
+            let limit = limit.map(|(at, own)| {
+                let before = phases.last().map(|phase| phase.limit);
+                let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;
+                at.iter()
+                    .find(|met| goes_on(met))
+                    .map_or(own.limit, |met| met.limit)
+            });
+            let limit = limit.or(idle);
             let end = |node: &Node| (node.phi, node.t, node.omega.abs());
             let (phi, t, speed) = end(b);
             let limit = limit.or(phases.last().map(|phase| phase.limit));

@@ -12,6 +12,12 @@ const ROUNDS: u32 = 24;
 /// Change of the time, as a share, at which finer pieces gain nothing.
 const SETTLED: f64 = 2e-9;
 
+/// Factor of the range over which bends of the torque are rounded, from one round to the next.
+const NARROWER: f64 = 0.5;
+
+/// How often the first pieces are halved where they have no motion.
+const FINER_STARTS: u32 = 2;
+
 /// How often borders are moved to where the limit changes.
 const MOVES: u32 = 3;
 
@@ -46,26 +52,58 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
 }
 
 impl Asked<'_> {
-    /// Load over which bends of the torque are rounded beside a motion.
-    fn range(&self, found: &Found) -> f64 {
+    /// Load over which bends of the torque are rounded beside a motion, and the share of its largest load that it is.
+    fn range(&self, found: &Found, share: f64) -> [f64; 2] {
         let problem = self.problem(&found.mesh, &[], found.range);
-        problem.ranged(&found.point.x, RANGES[0]).range
+        [problem.ranged(&found.point.x, share).range, share]
     }
 
     /// On the pieces of another motion; `None`: it is too far away.
     pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
-        let next = self.next(
-            shape,
-            &warm.borders,
-            &warm.found,
-            &warm.margins,
-            FINER,
-            warm.found.range,
-        )?;
+        let Warm {
+            borders,
+            found,
+            margins,
+            ..
+        } = warm;
+        let range = [found.range, found.share];
+        let next = self.next(shape, borders, found, margins, FINER, range)?;
         Ok(next.ok().map(|found| Warm {
             found,
             ..warm.clone()
         }))
+    }
+
+    /// On other borders, with the torque rounded less where it bends if that can be.
+    fn narrowed(
+        &self,
+        shape: &Shape,
+        borders: &[Border],
+        found: &Found,
+        share: f64,
+    ) -> Result<Option<Found>, NoMotion> {
+        let next = |share: f64| {
+            let range = self.range(found, share);
+            Ok(self.next(shape, borders, found, &[], FINER, range)?.ok())
+        };
+        match next(share)? {
+            None if share < found.share => next(found.share),
+            next => Ok(next),
+        }
+    }
+
+    /// From nothing. Coarse pieces may have no motion that finer ones have.
+    fn first_of_all(&self, shape: &Shape) -> Result<(Vec<Border>, Found), NoMotion> {
+        let mut borders = self.first_borders(shape);
+        let mut first = self.first(shape, borders.clone());
+        for _ in 0..FINER_STARTS {
+            if !matches!(first, Err(NoMotion::NotFound { .. })) {
+                break;
+            }
+            borders = halved(&borders);
+            first = self.first(shape, borders.clone()).or(first);
+        }
+        first
     }
 
     /// On pieces that are made finer until the time is settled.
@@ -77,43 +115,39 @@ impl Asked<'_> {
                     ..*border
                 };
                 let borders: Vec<Border> = warm.borders.iter().map(plain).collect();
-                let found = self.next(
-                    shape,
-                    &borders,
-                    &warm.found,
-                    &[],
-                    FINER,
-                    self.range(&warm.found),
-                )?;
-                found.ok().map(|found| (borders, found))
+                let found = self.narrowed(shape, &borders, &warm.found, warm.found.share)?;
+                found.map(|found| (borders, found))
             }
             None => None,
         };
         let (mut borders, mut found) = if let Some(started) = started {
             started
         } else {
-            self.first(shape, self.first_borders(shape))?
+            self.first_of_all(shape)?
         };
         let mut change = warm.map_or(f64::INFINITY, |warm| warm.change);
         let mut rounds = [ROUNDS, MOVES, HALVED];
         while let Some(round) = rounds.iter().position(|left| *left > 0) {
             rounds[round] -= 1;
+            let share = if round == 0 && found.range > 0.0 {
+                (NARROWER * found.share).max(RANGES[1])
+            } else {
+                found.share
+            };
             let next = match round {
-                0 => with(&borders, self.finer(&found)),
+                0 => with(&borders, self.finer(&found))
+                    .or_else(|| (share < found.share).then(|| borders.clone())),
                 1 => self.moved(&borders, &found, &self.trace(shape, &found)),
                 _ => with(&borders, longest_halved(&borders)),
             };
             let next = next.filter(|next| next.len() <= PIECES[1]);
             let solved = match next {
-                Some(next) => {
-                    let range = self.range(&found);
-                    match self.next(shape, &next, &found, &[], FINER, range)? {
-                        Ok(solved) => Some((next, solved)),
-                        // Between the places at which coarse pieces are looked at their motion may be none.
-                        Err(_) if round == 0 => self.first(shape, next).ok(),
-                        Err(_) => None,
-                    }
-                }
+                Some(next) => match self.narrowed(shape, &next, &found, share)? {
+                    Some(solved) => Some((next, solved)),
+                    // Between the places at which coarse pieces are looked at their motion may be none.
+                    None if round == 0 => self.first(shape, next).ok(),
+                    None => None,
+                },
                 None => None,
             };
             let Some((next, solved)) = solved else {
@@ -121,16 +155,10 @@ impl Asked<'_> {
                 continue;
             };
             change = (solved.time - found.time).abs() / solved.time;
+            let is_narrower = solved.share < found.share;
             (borders, found) = (next, solved);
-            if round == 0 && change < SETTLED {
+            if round == 0 && change < SETTLED && !is_narrower {
                 rounds[round] = 0;
-            }
-        }
-        // What rounding leaves of the time falls with the square of its range.
-        if found.range > 0.0 {
-            let range = self.range(&found) * RANGES[1] / RANGES[0];
-            if let Ok(fine) = self.next(shape, &borders, &found, &[], FINER, range)? {
-                found = fine;
             }
         }
         for (border, changes) in borders.iter_mut().zip(self.changes(&found)) {
