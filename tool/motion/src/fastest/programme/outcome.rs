@@ -1,5 +1,7 @@
 //! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
 
+use jred::Error;
+
 use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
@@ -10,7 +12,7 @@ use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
-use crate::way::Demand;
+use crate::way::Place;
 
 /// Last digits of a speed that make another acceleration in a step, and of a torque.
 const ROUNDINGS: f64 = 4.0;
@@ -18,8 +20,8 @@ const ROUNDINGS: f64 = 4.0;
 /// Share of a step over which the rate of the torque is taken.
 const NEAR: f64 = 0.02;
 
-/// Parts of a step in which the rate is looked at, and where the torque bends in it.
-const PARTS: [u32; 2] = [2, 32];
+/// Parts of a step in which the torque bends in which its rate is looked at.
+const PARTS: u32 = 32;
 
 /// Shares of themselves by which two limits that are met together may differ.
 const TIED: f64 = 1e-6;
@@ -53,6 +55,27 @@ pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: boo
             }
         }
     }
+}
+
+/// What rounding of the speeds makes of the jerk in a step.
+fn rounded_jerk([a, b]: [&Node; 2]) -> f64 {
+    ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step)
+}
+
+/// The greatest magnitude of the parabola through values at the start, in the middle and at the end.
+fn greatest([first, middle, last]: [f64; 3]) -> f64 {
+    let slope = 4.0 * middle - 3.0 * first - last;
+    let bend = 2.0 * (first + last) - 4.0 * middle;
+    let share = -0.5 * slope / bend;
+    let peak = if share > 0.0 && share < 1.0 {
+        first + share * (slope + share * bend)
+    } else {
+        middle
+    };
+    [first, peak, last]
+        .into_iter()
+        .map(f64::abs)
+        .fold(0.0, f64::max)
 }
 
 impl Asked<'_> {
@@ -156,51 +179,65 @@ impl Asked<'_> {
                     .min((last - near).max(middle));
                 way.place(self.ends.from + direction * x)
             };
-            let mut flows = None;
-            let mut bends = false;
-            let mut look_at_flow = |flow: usize| bends |= *flows.get_or_insert(flow) != flow;
             for share in LOOKS {
                 let state = within_step(a, b, share);
                 let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
                 let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
                 look(0, excess, limit);
-                look_at_flow(way.flow(&place, v, alpha));
             }
-            // What rounding of the speeds makes of an acceleration in the step.
-            let rounding = ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
             if let Some(limit) = limits.torque_rate {
-                let demand = |share: f64| -> Result<Demand, NoMotion> {
-                    let state = b.after(a, share);
-                    let place = place(state.phi)?;
-                    let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                    Ok(way.demand(&place, v, alpha))
-                };
-                for share in [0.0, 1.0] {
-                    let state = b.after(a, share);
-                    let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                    look_at_flow(way.flow(&place(state.phi)?, v, alpha));
-                }
-                // The rate changes evenly in a step, and is greatest at an end; where the torque bends anywhere.
-                let parts = PARTS[usize::from(bends)];
-                for share in (0..=parts).map(|k| f64::from(k) / f64::from(parts)) {
-                    let [first, last] = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
-                    let [before, after] = [demand(first)?, demand(last)?];
-                    let change = (after.torque - before.torque).abs();
-                    let rounding = rounding * after.per_acceleration
-                        + ROUNDINGS * f64::EPSILON * after.torque.abs();
-                    let rate = (change - rounding) / ((last - first) * b.step);
-                    look(2, rate / limit - 1.0, Binding::TorqueRate);
-                }
+                let rate = self.torque_rate([a, b], place)?;
+                look(2, rate / limit - 1.0, Binding::TorqueRate);
             }
             if let Some(limit) = limits.jerk {
-                for share in [0.0, 0.5, 1.0] {
-                    let jerk = b.jerk_after(a, share).abs() - rounding / b.step;
+                for share in [0.0, 1.0] {
+                    let jerk = b.jerk_after(a, share).abs() - rounded_jerk([a, b]);
                     look(1, jerk / limit - 1.0, Binding::Jerk);
                 }
             }
         }
         Ok((worst, own))
+    }
+
+    /// The greatest rate (N·m/s) of the torque in a step, less what rounding may make of it.
+    fn torque_rate(
+        &self,
+        [a, b]: [&Node; 2],
+        place: impl Fn(f64) -> Result<Place, Error>,
+    ) -> Result<f64, NoMotion> {
+        let way = self.field.way;
+        let slope = |share: f64| -> Result<(f64, [usize; 2]), NoMotion> {
+            let ends = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+            let mut torques = [0.0; 2];
+            let mut flows = [0; 2];
+            let mut rounding = 0.0_f64;
+            for (k, share) in ends.into_iter().enumerate() {
+                let state = b.after(a, share);
+                let place = place(state.phi)?;
+                let [v, alpha] = [state.omega, state.alpha].map(|x| x * way.direction);
+                let demand = way.demand(&place, v, alpha);
+                (torques[k], flows[k]) = (demand.torque, way.flow(&place, v, alpha));
+                let parts = demand.torque.abs() + demand.per_acceleration * alpha.abs();
+                let own = ROUNDINGS * f64::EPSILON * parts / (NEAR * b.step)
+                    + rounded_jerk([a, b]) * demand.per_acceleration;
+                rounding = rounding.max(own);
+            }
+            let slope = (torques[1] - torques[0]) / ((ends[1] - ends[0]) * b.step);
+            Ok((slope.signum() * (slope.abs() - rounding).max(0.0), flows))
+        };
+        let [first, middle, last] = [slope(0.0)?, slope(0.5)?, slope(1.0)?];
+        let flow = first.1[0];
+        let flows = [first.1, middle.1, last.1];
+        if flows.iter().flatten().all(|own| *own == flow) {
+            return Ok(greatest([first.0, middle.0, last.0]));
+        }
+        // The torque bends in the step.
+        let mut most = 0.0_f64;
+        for k in 0..=PARTS {
+            most = most.max(slope(f64::from(k) / f64::from(PARTS))?.0.abs());
+        }
+        Ok(most)
     }
 
     /// Which limit is met, from where to where.
