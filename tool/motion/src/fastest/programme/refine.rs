@@ -2,7 +2,8 @@
 
 use super::limits::Margins;
 use super::mesh::Border;
-use super::{Asked, FINER, Found, PIECES, RANGES, Warm, inner};
+use super::starts::SAME;
+use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm, inner};
 use crate::fastest::NoMotion;
 use crate::gentlest::shape::Shape;
 
@@ -74,7 +75,7 @@ impl Asked<'_> {
         }))
     }
 
-    /// On other borders, with the torque rounded less where it bends if that can be.
+    /// On other borders, with the torque rounded over a share of the loads where it bends, or over more if no motion is found.
     fn narrowed(
         &self,
         shape: &Shape,
@@ -82,14 +83,15 @@ impl Asked<'_> {
         found: &Found,
         share: f64,
     ) -> Result<Option<Found>, NoMotion> {
-        let next = |share: f64| {
+        let wider = WIDER.map(|factor| factor * found.share);
+        for share in [share].into_iter().chain(wider) {
             let range = self.range(found, share);
-            Ok(self.next(shape, borders, found, &[], FINER, range)?.ok())
-        };
-        match next(share)? {
-            None if share < found.share => next(found.share),
-            next => Ok(next),
+            let next = self.next(shape, borders, found, &[], FINER, range)?;
+            if next.is_ok() || found.range == 0.0 {
+                return Ok(next.ok());
+            }
         }
+        Ok(None)
     }
 
     /// From nothing. Coarse pieces may have no motion that finer ones have.
@@ -145,7 +147,10 @@ impl Asked<'_> {
                 Some(next) => match self.narrowed(shape, &next, &found, share)? {
                     Some(solved) => Some((next, solved)),
                     // Between the places at which coarse pieces are looked at their motion may be none.
-                    None if round == 0 => self.first(shape, next).ok(),
+                    None if round == 0 => {
+                        let first = self.first(shape, next).ok();
+                        first.filter(|(_, first)| first.time < SAME * found.time)
+                    }
                     None => None,
                 },
                 None => None,
