@@ -209,6 +209,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
         distance: TAU,
         duration: times[0],
         speeds: [0.0; 2],
+        accelerations: [0.0; 2],
         ramp: 0.0,
         ring: false,
     };
