@@ -85,7 +85,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
             assert!(way <= told * 1.02 + 0.01, "{}: {way} {told}", F::NAME);
             // The follower's own ramp, which knows no torque, takes longer or asks for more than the drive has.
             let (mut slow, mut least) = (0.0, 0.0f64);
-            for _ in 0..(RAMP / TICK) as u32 + 1 {
+            for _ in 0..=(RAMP / TICK) as u32 {
                 let planned = follower.next(Rate::STILL).motion;
                 slow += speed_of::<F>(&scale, planned.omega.number()) * f64::from(TICK);
                 let torque = model.torque(planned.phase, planned.omega, planned.alpha);
