@@ -108,7 +108,7 @@ fn sentences_say_what_they_mean() {
         "{}",
         run.out
     );
-    let run = jred("simulate", "belt-axis", &["--drive", "sgm7g-44a"]);
+    let run = jred("simulate", "belt-axis", &["--drive", "sgm7g-03a"]);
     assert!(run.err.contains("no [simulation]"), "{}", run.err);
     assert!(!run.err.contains("and torque"), "{}", run.err);
     let run = jred("retime", "belt-axis", &["--drive", "sgm7g-45a"]);

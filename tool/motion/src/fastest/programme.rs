@@ -132,6 +132,18 @@ impl Asked<'_> {
     /// The mechanism cannot be placed somewhere, a load jumps under a limit of the torque rate, or no motion was found.
     pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
         self.refuse_jumps()?;
+        let found = self.solve_from(start, true);
+        // Coarse pieces may show a fast motion that finer ones do not have.
+        match (start, &found) {
+            (Start::Nothing, Err(NoMotion::NotFound { .. })) if self.limits().has_rates() => {
+                self.solve_from(start, false).or(found)
+            }
+            _ => found,
+        }
+    }
+
+    /// The same with or without a start from limits of rates that are eased.
+    fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
         let shape = Shape::new(self.form_of_ends());
         let beside = match start {
             Start::Beside(warm) => self.beside(&shape, warm)?,
@@ -139,8 +151,10 @@ impl Asked<'_> {
         };
         let mut warm = match (beside, start) {
             (Some(warm), _) => warm,
-            (None, Start::Nothing) => self.refined(&shape, None)?,
-            (None, Start::Near(warm) | Start::Beside(warm)) => self.refined(&shape, Some(warm))?,
+            (None, Start::Nothing) => self.refined(&shape, None, eased)?,
+            (None, Start::Near(warm) | Start::Beside(warm)) => {
+                self.refined(&shape, Some(warm), eased)?
+            }
         };
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;

@@ -95,21 +95,26 @@ impl Asked<'_> {
     }
 
     /// From nothing. Coarse pieces may have no motion that finer ones have.
-    fn first_of_all(&self, shape: &Shape) -> Result<(Vec<Border>, Found), NoMotion> {
+    fn first_of_all(&self, shape: &Shape, eased: bool) -> Result<(Vec<Border>, Found), NoMotion> {
         let mut borders = self.first_borders(shape);
-        let mut first = self.first(shape, borders.clone());
+        let mut first = self.first(shape, borders.clone(), eased);
         for _ in 0..FINER_STARTS {
             if !matches!(first, Err(NoMotion::NotFound { .. })) {
                 break;
             }
             borders = halved(&borders);
-            first = self.first(shape, borders.clone()).or(first);
+            first = self.first(shape, borders.clone(), eased).or(first);
         }
         first
     }
 
     /// On pieces that are made finer until the time is settled.
-    pub(super) fn refined(&self, shape: &Shape, warm: Option<&Warm>) -> Result<Warm, NoMotion> {
+    pub(super) fn refined(
+        &self,
+        shape: &Shape,
+        warm: Option<&Warm>,
+        eased: bool,
+    ) -> Result<Warm, NoMotion> {
         let started = match warm {
             Some(warm) => {
                 let plain = |border: &Border| Border {
@@ -125,7 +130,7 @@ impl Asked<'_> {
         let (mut borders, mut found) = if let Some(started) = started {
             started
         } else {
-            self.first_of_all(shape)?
+            self.first_of_all(shape, eased)?
         };
         let mut change = warm.map_or(f64::INFINITY, |warm| warm.change);
         let mut rounds = [ROUNDS, MOVES, HALVED];
@@ -148,7 +153,7 @@ impl Asked<'_> {
                     Some(solved) => Some((next, solved)),
                     // Between the places at which coarse pieces are looked at their motion may be none.
                     None if round == 0 => {
-                        let first = self.first(shape, next).ok();
+                        let first = self.first(shape, next, eased).ok();
                         first.filter(|(_, first)| first.time < SAME * found.time)
                     }
                     None => None,

@@ -93,6 +93,7 @@ impl Asked<'_> {
         &self,
         shape: &Shape,
         borders: Vec<Border>,
+        from_eased: bool,
     ) -> Result<(Vec<Border>, Found), NoMotion> {
         let mesh = self.mesh(shape, &borders)?;
         let mut stuck = None;
@@ -112,7 +113,8 @@ impl Asked<'_> {
         // Coarse pieces leave the faster family no motion.
         let mut eased = None;
         let mut finer = borders;
-        while self.limits().has_rates() && eased.is_none() && finer.len() < MOST_EASED {
+        let rates = self.limits().has_rates();
+        while from_eased && rates && eased.is_none() && finer.len() < MOST_EASED {
             finer = halved(&finer);
             let mesh = self.mesh(shape, &finer)?;
             let found = self.eased(&mesh);
