@@ -5,6 +5,7 @@ mod encoder;
 mod feed_forward;
 mod follower;
 mod governor;
+mod leave_plan;
 mod limits;
 mod look_ahead;
 pub(crate) mod machine;

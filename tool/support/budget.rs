@@ -60,6 +60,9 @@ pub(crate) const STANDSTILL: f64 = 1e-12;
 /// Motions with a closed form at a tolerance of 1e-10 [1.7e-8].
 pub(crate) const CLOSED_MOTION: f64 = 1e-9;
 
+/// Work in a window of a thousandth of a degree and more, of itself: its edges are met to 4e-15 of the position.
+pub(crate) const NARROW_WINDOW: f64 = 1e-5;
+
 /// A DC motor with its winding against its damped oscillation, of the settled values.
 pub(crate) const SIMULATED_WINDING: f64 = 1e-10;
 

@@ -24,6 +24,7 @@ use miette::{Result, miette};
 use crate::busy;
 use crate::commands::core_error::core_report;
 use crate::options;
+use crate::options::catalogue::CatalogueFiles;
 use crate::output;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::inspect::Findings;
@@ -148,6 +149,22 @@ fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
 fn drive_named(mut catalogue: Catalogue, name: &str, file: &MachineFile) -> Result<ChosenDrive> {
     fit_input(&mut catalogue, file)?;
     Ok(ChosenDrive::of(&named(&catalogue, name)?.1))
+}
+
+/// The drive that `--drive` names, if it is given; without it a catalogue is of no use.
+fn drive_asked(
+    name: Option<&str>,
+    files: &CatalogueFiles,
+    file: &MachineFile,
+) -> Result<Option<ChosenDrive>> {
+    match (name, files.given().next()) {
+        (Some(name), _) => drive_named(files.open()?, name, file).map(Some),
+        (None, Some(option)) => Err(miette!(
+            help = "give --drive MOTOR+GEARBOX, or leave the catalogue out",
+            "{option} is read for a drive, and no --drive is given"
+        )),
+        (None, None) => Ok(None),
+    }
 }
 
 /// What a drive can give at the supply of the machine; warns of what is assumed, and of a drive that is not made for the supply.

@@ -17,6 +17,7 @@ mod export;
 mod finite;
 mod hidden;
 mod machines;
+mod made_anew;
 mod many_rows;
 mod meter;
 mod motions;

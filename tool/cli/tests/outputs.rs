@@ -15,7 +15,7 @@ fn of_repository(path: &str) -> String {
 }
 
 /// A command, the option of an output, and a file that the command reads. `@` is the test's folder.
-const READ: [[&str; 3]; 12] = [
+const READ: [[&str; 3]; 15] = [
     ["reduce @press.toml", "--report", "press.toml"],
     ["reduce @load-table.toml", "--report", "load-table.csv"],
     [
@@ -45,6 +45,21 @@ const READ: [[&str; 3]; 12] = [
         "size @press.toml --catalogue @all",
         "--report",
         "all/gearboxes.csv",
+    ],
+    [
+        "fastest @press.toml --motors @motors.csv",
+        "--profile",
+        "motors.csv",
+    ],
+    [
+        "retime @press.toml --motors @motors.csv --drive sgm7a-25a+npt025mf-4",
+        "--report",
+        "motors.csv",
+    ],
+    [
+        "simulate @press.toml --motors @motors.csv --drive sgm7a-25a+npt025mf-4",
+        "--plot",
+        "motors.csv",
     ],
     [
         "vary @press.toml --resume --vary crank.length=30mm",

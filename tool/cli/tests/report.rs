@@ -348,8 +348,8 @@ fn the_page_of_a_simulation() {
     let page = std::fs::read_to_string(plot).unwrap();
     check_self_contained(&page);
     check_nesting(&page);
-    // Speed, angle, motor torque, energies, balance.
-    check_plots(&page, 5);
+    // Position, speed, acceleration, motor torque, energies, balance.
+    check_plots(&page, 6);
 }
 
 /// The columns of a drive link that slides have other names: every chart has its curve.
@@ -360,8 +360,8 @@ fn the_page_of_a_simulation_that_slides() {
     let machine = press_file().with_file_name("linear-gripper.toml");
     jred([&"simulate", &machine, &"--plot", &plot]).ends(0);
     let page = std::fs::read_to_string(plot).unwrap();
-    check_plots(&page, 5);
-    assert!(page.contains("Motor force") && page.contains("v [m/s]"));
+    check_plots(&page, 6);
+    assert!(page.contains("motor force [N]") && page.contains("v [m/s]"));
     for plot in plots(&page) {
         assert!(plot.contains("<path"), "no curve: {plot}");
     }

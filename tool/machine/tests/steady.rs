@@ -82,6 +82,21 @@ fn a_moment_resists_one_way_and_drives_the_other() {
     }
 }
 
+/// Without load and losses a motor comes to the speed at which its torque changes sign, which is one of those looked at.
+#[test]
+fn a_motor_without_load_turns_at_no_load_speed() {
+    let omega = 1000.0 * jred_machine::units::RPM;
+    for motor in [
+        "induction_motor = { synchronous_speed = \"1000 rpm\", breakdown_torque = \"57 N m\", breakdown_slip = \"24 %\" }",
+        "dc_motor = { no_load_speed = \"1000 rpm\", stall_torque = \"50 N m\" }",
+        "torque_speed = [[\"0 rpm\", \"50 N m\"], [\"1000 rpm\", \"0 N m\"], [\"1100 rpm\", \"-50 N m\"]]",
+    ] {
+        let figures = of(&rotor("", motor)).cycle.unwrap().figures;
+        near("speed", figures.mean_speed, omega, budget::STEADY);
+        within("work", figures.works[0], 0.0, 1e-9);
+    }
+}
+
 /// A line of torque against viscous and Coulomb friction: one constant speed, reached as an exponential function.
 #[test]
 fn a_line_against_friction() {

@@ -31,6 +31,7 @@ mod bound;
 mod cost;
 pub(crate) mod mesh;
 mod outcome;
+mod ramps;
 pub(crate) mod shape;
 mod solve;
 mod task;
@@ -65,8 +66,10 @@ pub struct Travel {
     pub duration: f64,
     /// Speeds at its ends along the way (rad/s, or m/s); zero is rest.
     pub speeds: [f64; 2],
-    /// Share of the path's parameter, about that of the time, over which the acceleration rises from zero at the start and falls to
-    /// zero at the end; 0: it begins and ends with a jump.
+    /// With a ramp, the accelerations at ends that move, along the way (rad/s², or m/s²).
+    pub accelerations: [f64; 2],
+    /// Share of the time in which the acceleration rises from zero to its first peak, and falls from its last one to zero; 0: it begins and ends with a
+    /// jump. At an end that moves, the share in which it leaves what is given there.
     pub ramp: f64,
     /// Whether it goes on for ever: the end is the start, at a speed that is sought.
     pub ring: bool,
@@ -87,7 +90,7 @@ impl Travel {
             ramp: if self.ring || self.ramp == 0.0 {
                 0.0
             } else {
-                1.0 / mesh::ramps(self.ramp) as f64
+                self.ramp
             },
             ring: self.ring,
         }
@@ -131,6 +134,8 @@ pub enum Reason {
     Viscous,
     /// Losses of gears.
     Losses,
+    /// The search did not come to its end: of the motions on the way this is the best.
+    Ended,
     /// Something else: the bound is too low.
     Bound,
     /// The motion takes more than the search counted: its polynomials do not follow what was found.
@@ -209,14 +214,14 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
     };
-    if may_wait && (travel.ring || travel.ends().rest == [true; 2]) {
+    if may_wait {
         waiting::on_the_way(way, travel, objective, found)
     } else {
         found
     }
 }
 
-/// The gentlest motion that waits at its ends alone; at one of them in any case if it must.
+/// The gentlest motion that waits at its ends alone, where they are at rest; at one of them in any case if it must.
 fn from_end_to_end(
     way: &Way,
     travel: &Travel,
@@ -244,34 +249,47 @@ fn from_end_to_end(
         travel,
         objective,
         edges: edges(way, travel),
+        ramps: [travel.ramp; 2],
     };
-    let at_rest = travel.ends().rest == [true; 2];
-    let held = if at_rest { task.held()? } else { [0.0; 2] };
+    let task = task.fitted(travel.duration)?;
+    let rests = travel.ends().rest.contains(&true);
+    let held = task.held()?;
     let whole = if must_wait {
         None
     } else {
         task.solve(travel.duration, FIRST, None)?
     };
-    let mut solved = match whole.filter(|solved| !at_rest || !solved.waits(&held)) {
-        Some(solved) => solved,
-        None if at_rest => task.shorter(&held)?,
-        None => return Err(Fault::NotFound),
+    let mut solved = match whole {
+        Some(whole) if !(rests && whole.waits(&held)) => whole,
+        whole if rests => match task.shorter(&held) {
+            // Where no wait is found, the motion without one will do.
+            Err(Fault::NotFound) => whole.ok_or(Fault::NotFound)?,
+            found => found?,
+        },
+        _ => return Err(Fault::NotFound),
     };
     let moving = solved.moving;
+    // In a shorter time the acceleration rises otherwise.
+    let shorter = task.fitted(moving)?;
+    if moving < travel.duration
+        && let Some(again) = shorter.solve(moving, FIRST, None)?
+    {
+        solved = again;
+    }
     let mut change = f64::INFINITY;
     let mut parts = FIRST;
     while parts < MOST && change > FINE {
         parts *= 2;
-        let Some(next) = task.solve(moving, parts, Some(&solved))? else {
+        let Some(next) = solved.task.solve(moving, parts, Some(&solved))? else {
             break;
         };
-        let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
-        if powers[1] < powers[0] {
+        if !next.follows(&solved) {
             break;
         }
+        let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
         // What is left of a cost that can be none is rounding.
-        change = if powers[0] < powers[1] {
+        change = if powers[0] != powers[1] {
             f64::INFINITY
         } else if cost > 1e-20 {
             ((cost - before) / cost).abs()

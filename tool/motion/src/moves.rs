@@ -1,15 +1,12 @@
-//! What a prescribed motion is made of: moves one way from rest to rest, and the pauses between them.
+//! What a prescribed motion is made of: moves one way, the pauses between them, and the parts that are kept as they are because the machine does its work there.
 
-use std::convert::Infallible;
+mod kept;
+mod timeline;
 
-use jred_machine::model::motion::Motion;
-use jred_machine::number::numerics::edge;
+use jred_machine::model::motion::{Motion, Steady};
 
-/// Parts of a smooth stretch at whose ends the direction is looked at.
-const SAMPLES: u32 = 256;
-
-/// Share of the largest speed below which the drive link is at rest: rounding at the ends of a law.
-const REST: f64 = 1e-12;
+pub use kept::Kept;
+use timeline::Timeline;
 
 /// Share of the whole motion below which a pause is a point of rest only.
 const POINT: f64 = 1e-9;
@@ -18,10 +15,14 @@ const POINT: f64 = 1e-9;
 const CLOSED: f64 = 1e-6;
 
 /// One part of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// From rest to rest in one direction.
     Move(Move),
+    /// In one direction, from a kept part or to one.
+    Passing(Move, Passing),
+    /// Kept as it is.
+    Kept(Kept),
     /// At rest.
     Dwell {
         /// Position of the drive link (rad, or m).
@@ -35,12 +36,34 @@ impl Part {
     /// How long it takes (s).
     pub const fn duration(&self) -> f64 {
         match self {
-            Self::Move(Move { duration, .. }) | Self::Dwell { duration, .. } => *duration,
+            Self::Move(Move { duration, .. })
+            | Self::Passing(Move { duration, .. }, _)
+            | Self::Kept(Kept { duration, .. })
+            | Self::Dwell { duration, .. } => *duration,
+        }
+    }
+
+    /// Where it begins (rad, or m).
+    pub const fn from(&self) -> f64 {
+        match self {
+            Self::Move(Move { from, .. })
+            | Self::Passing(Move { from, .. }, _)
+            | Self::Kept(Kept { from, .. }) => *from,
+            Self::Dwell { at, .. } => *at,
+        }
+    }
+
+    /// The move that it is, if it is one, and how it begins and ends.
+    pub fn step(&self) -> Option<(Move, Passing)> {
+        match self {
+            Self::Move(step) => Some((*step, Passing::default())),
+            Self::Passing(step, ends) => Some((*step, *ends)),
+            Self::Kept(_) | Self::Dwell { .. } => None,
         }
     }
 }
 
-/// A move of the drive link in one direction, at rest at both ends but where it turns for ever.
+/// A move of the drive link in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
     /// Where it begins (rad, or m).
@@ -49,6 +72,38 @@ pub struct Move {
     pub to: f64,
     /// How long it takes in the motion (s).
     pub duration: f64,
+}
+
+/// How a move begins and ends, both counted in its direction; at rest where nothing is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Passing {
+    /// Speeds (rad/s, or m/s), not negative.
+    pub speeds: [f64; 2],
+    /// Accelerations (rad/s², or m/s²) of the kept parts there.
+    pub accelerations: [f64; 2],
+}
+
+/// The parts of a motion, one after another, as long as the motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// The parts.
+    pub parts: Vec<Part>,
+    /// Whether it turns for ever without rest and nothing of it is kept: one move, which comes round with the speed that it began with.
+    pub endless: bool,
+    /// When it begins in the motion (s): a motion that turns for ever begins where something is kept, or rests.
+    pub begins: f64,
+    /// The constant speed of a motion that is nothing else: it is not kept, because nothing would be left to seek.
+    pub given_up: Option<Steady>,
+}
+
+impl Chain {
+    /// The kept parts.
+    pub fn kept(&self) -> impl Iterator<Item = &Kept> {
+        self.parts.iter().filter_map(|part| match part {
+            Part::Kept(kept) => Some(kept),
+            _ => None,
+        })
+    }
 }
 
 /// Why a motion is not made of moves and pauses.
@@ -63,123 +118,25 @@ pub enum NoMoves {
     },
     /// Nothing moves.
     Still,
+    /// All of it is kept.
+    AllKept,
 }
 
-/// A time in which the direction stays: −1, 0 or +1.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    from: f64,
-    to: f64,
-    sign: i8,
-}
-
-/// The moves and pauses of the drive link, one after another, as long as the motion.
+/// The moves, pauses and kept parts of the drive link. `process` is what is kept.
 ///
 /// # Errors
-/// A motion that begins or ends in motion, or in which nothing moves.
-pub fn parts(motion: &Motion) -> Result<Vec<Part>, NoMoves> {
-    let stretches = motion.stretches();
-    let time = |(from, to): (f64, f64), k: u32| match k {
-        SAMPLES => to,
-        k => from + (to - from) * f64::from(k) / f64::from(SAMPLES),
-    };
-    let samples = |stretch| (0..=SAMPLES).map(move |k| motion.at(time(stretch, k)).omega);
-    let speeds = stretches.iter().flat_map(|stretch| samples(*stretch));
-    let largest = speeds.fold(0.0_f64, |most, omega| most.max(omega.abs()));
-    if largest == 0.0 {
-        return Err(NoMoves::Still);
-    }
-    let sign = |t: f64| {
-        let omega = motion.at(t).omega;
-        if omega.abs() <= REST * largest {
-            0
-        } else if omega > 0.0 {
-            1
-        } else {
-            -1
-        }
-    };
-    for (t, at_end) in [(0.0, false), (motion.duration(), true)] {
-        if sign(t) != 0 {
-            let speed = motion.at(t).omega;
-            return Err(NoMoves::NotAtRest { speed, at_end });
-        }
-    }
-    let mut spans: Vec<Span> = Vec::new();
-    for stretch in stretches {
-        for k in 0..SAMPLES {
-            let [from, to] = [time(stretch, k), time(stretch, k + 1)];
-            let inner = [k > 0, k + 1 < SAMPLES];
-            split(&sign, [from, to], inner, &mut spans);
-        }
-    }
-    let shortest = POINT * motion.duration();
-    spans.retain(|span| span.sign != 0 || span.to - span.from > shortest);
-    let mut parts = Vec::new();
-    let mut rest = spans.as_slice();
-    while let [first, ..] = rest {
-        let goes_on = |pair: &[Span]| {
-            let &[a, b] = pair else { return false };
-            a.sign == b.sign && (a.sign == 0 || sign(a.to) != 0)
-        };
-        let count = 1 + rest.windows(2).take_while(|pair| goes_on(pair)).count();
-        let (run, after) = rest.split_at(count);
-        let from = if parts.is_empty() { 0.0 } else { first.from };
-        let to = after.first().map_or(motion.duration(), |next| next.from);
-        parts.push(part(motion, first.sign, [from, to]));
-        debug_assert!(!run.is_empty());
-        rest = after;
-    }
-    Ok(parts)
-}
-
-/// A motion that turns for ever, as one move of its period; `None`: it rests, or its end is not its start.
-pub fn ring(motion: &Motion) -> Option<Move> {
+/// A motion that begins or ends in motion and does not turn for ever, or in which nothing moves, or nothing that is not kept.
+pub fn chain(motion: &Motion, process: &[Steady]) -> Result<Chain, NoMoves> {
     let duration = motion.duration();
-    let [start, end] = [motion.at(0.0), motion.at(duration)];
-    let closed = (end.omega - start.omega).abs() <= CLOSED * start.omega.abs();
-    (motion.cyclic && closed && start.omega != 0.0).then_some(Move {
-        from: start.phi,
-        to: end.phi,
-        duration,
-    })
-}
-
-fn part(motion: &Motion, sign: i8, [from, to]: [f64; 2]) -> Part {
-    let duration = to - from;
-    if sign == 0 {
-        let at = motion.at(from).phi;
-        return Part::Dwell { at, duration };
+    let kept: f64 = process.iter().map(Steady::duration).sum();
+    let all = kept >= duration * (1.0 - POINT);
+    let ends = [0.0, duration].map(|t| motion.at(t).omega);
+    let turns =
+        motion.cyclic && ends[0] != 0.0 && (ends[1] - ends[0]).abs() <= CLOSED * ends[0].abs();
+    if all && !turns {
+        return Err(NoMoves::AllKept);
     }
-    Part::Move(Move {
-        from: motion.at(from).phi,
-        to: motion.at(to).phi,
-        duration,
-    })
-}
-
-/// The spans between two samples; `inner`: whether a sample lies inside its stretch, where a zero is the beginning or the end of a pause,
-/// not of a law.
-fn split(sign: &impl Fn(f64) -> i8, [from, to]: [f64; 2], inner: [bool; 2], spans: &mut Vec<Span>) {
-    let middle = sign(from.midpoint(to));
-    let [before, after] = [sign(from), sign(to)];
-    let mut push = |from: f64, to: f64, sign: i8| spans.push(Span { from, to, sign });
-    let keeps = |own: i8| move |t: f64| Ok::<_, Infallible>(sign(t) == own);
-    if before * after < 0 {
-        let Ok(turn) = edge(keeps(before), from, to);
-        push(from, turn, before);
-        push(turn, to, after);
-    } else if before == 0 && after == 0 {
-        push(from, to, middle);
-    } else if before == 0 && inner[0] {
-        let Ok(start) = edge(keeps(0), from, to);
-        push(from, start, 0);
-        push(start, to, after);
-    } else if after == 0 && inner[1] {
-        let Ok(end) = edge(keeps(before), from, to);
-        push(from, end, before);
-        push(end, to, 0);
-    } else {
-        push(from, to, if before == 0 { after } else { before });
-    }
+    let timeline = Timeline::new(motion, if all { &[] } else { process })?;
+    let given_up = process.first().filter(|_| all).copied();
+    timeline.chain(turns, given_up)
 }

@@ -2,20 +2,19 @@
 
 use jred::Error;
 use jred::machine::motion::Law;
-use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Segment};
-use jred_sizing::cycle::Cycle;
 
 use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Reason, Travel};
-use crate::moves::{self, Move, NoMoves, Part};
+use crate::moves::{self, Chain, Move, NoMoves, Part};
 use crate::trace::Trace;
-use crate::way::{Actuator, Way};
+use crate::way::Actuator;
 
+use self::asked::Asked;
 use self::course::trace;
-use self::even::constant_energy;
 pub use self::figures::{Figures, Goal, WINDING, copper};
 
+mod asked;
 mod course;
 mod even;
 mod figures;
@@ -89,8 +88,8 @@ pub struct Retimed {
     pub moves: Vec<Gentle>,
     /// Lower bound of the figure that is to be least, for all motions with these moves in these times.
     pub bound: Option<f64>,
-    /// Whether it turns without rest.
-    pub endless: bool,
+    /// What the motion is made of.
+    pub chain: Chain,
     /// The motion.
     pub motion: Motion,
     /// The same as nodes over the time.
@@ -147,65 +146,58 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         (Goal::Energy, Some(copper)) => Objective::Energy { copper },
         (Goal::Energy, None) => return Err(Obstacle::NoCopper),
     };
-    let parts = match moves::parts(motion) {
-        Ok(parts) => parts,
-        Err(why) => vec![Part::Move(
-            moves::ring(motion).ok_or(Obstacle::NoMoves(why))?,
-        )],
-    };
-    let endless = moves::parts(motion).is_err();
+    let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
+    let parts = &chain.parts;
     let asked = Asked {
         file,
         request,
         cyclic: motion.cyclic,
-        start: motion.at(0.0).phi,
+        parts,
     };
     let mut gentle = Vec::new();
-    for part in &parts {
-        let Part::Move(step) = part else { continue };
+    for (step, ends) in parts.iter().filter_map(Part::step) {
         let travel = Travel {
             start: step.from,
             distance: step.to - step.from,
             duration: step.duration,
-            speeds: [0.0; 2],
+            speeds: ends.speeds,
+            accelerations: ends.accelerations,
             ramp: request.ramp,
-            ring: endless,
+            ring: chain.endless,
         };
-        let way = asked.way(step);
+        let way = asked.way(&step);
         let found = gentlest::gentlest(&way, &travel, objective);
         let number = gentle.len() + 1;
-        gentle.push(found.map_err(|fault| Obstacle::Move(number, *step, fault))?);
+        gentle.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
     }
     let found = |gentle: &[Gentle]| {
         let mut found = gentle.iter();
-        asked.motion(&parts, |step| {
+        asked.motion(|step, _| {
             let phases = found.next().map(|gentle| gentle.phases.clone());
             Segment::phases(step.to - step.from, phases.unwrap_or_default())
         })
     };
-    let laws = asked.beside(&parts, endless)?;
+    let laws = asked.beside(chain.endless)?;
     let mut best = found(&gentle)?;
     let mut figures = asked.figures(&best)?;
     // The mean of a high power is not quite the peak: a law may have a lower one.
     if request.goal == Goal::Peak
-        && let Some((name, law)) = asked.better_law(&laws, figures.peak)
+        && let Some(name) = asked.better_law(&laws, figures.peak)
     {
-        for gentle in &mut gentle {
-            let Travel {
-                distance, duration, ..
-            } = gentle.travel;
-            gentle.phases = law::phases(law, distance, duration);
+        let steps = parts.iter().filter_map(Part::step);
+        for (gentle, (step, _)) in gentle.iter_mut().zip(steps) {
+            gentle.phases = asked.by_law(name, &step)?;
             gentle.law = Some(name);
-            gentle.moving = duration;
+            gentle.moving = step.duration;
         }
         best = found(&gentle)?;
         figures = asked.figures(&best)?;
     }
     let duration = best.duration();
-    let pauses = asked.held(&parts)?;
-    let bound = bound(&gentle, pauses, duration, request.goal);
+    let fixed = [asked.held()?, asked.kept_peak()?];
+    let bound = bound(&gentle, fixed, duration, request.goal);
     // What the search counts must be what the motion takes.
-    let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + pauses;
+    let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + fixed[0];
     let counted = figure(cost, duration, request.goal);
     let differs = figures.of(request.goal) - counted > AGREES * counted;
     if request.goal != Goal::Peak && differs {
@@ -222,24 +214,24 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         laws,
         best: figures,
         bound: bound.map(|bound| bound.min(least)),
-        endless,
-        trace: trace(file, &parts, &gentle),
+        trace: trace(file, parts, &gentle),
+        chain,
         moves: gentle,
         motion: best,
     })
 }
 
-/// The bound of all moves together, with what the pauses cost. Not that of the motion less what the search left: the written motion may take more than the
+/// The bound of all moves together, with what pauses and kept parts cost, and their peak. Not that of the motion less what the search left: the written motion may take more than the
 /// one that was found.
-fn bound(moves: &[Gentle], pauses: f64, duration: f64, goal: Goal) -> Option<f64> {
+fn bound(moves: &[Gentle], [cost, peak]: [f64; 2], duration: f64, goal: Goal) -> Option<f64> {
     if goal == Goal::Peak {
         let least = moves.iter().map(|gentle| gentle.least_peak);
         return least
             .collect::<Option<Vec<f64>>>()
-            .map(|all| all.into_iter().fold(0.0, f64::max));
+            .map(|all| all.into_iter().fold(peak, f64::max));
     }
     let least: f64 = moves.iter().map(|gentle| gentle.bound).sum::<Option<_>>()?;
-    Some(figure(least + pauses, duration, goal))
+    Some(figure(least + cost, duration, goal))
 }
 
 /// The figure of a cost over all moves and pauses.
@@ -247,140 +239,5 @@ fn figure(cost: f64, duration: f64, goal: Goal) -> f64 {
     match goal {
         Goal::Rms => (cost / duration).max(0.0).sqrt(),
         _ => cost,
-    }
-}
-
-/// The machine with what is asked.
-struct Asked<'a> {
-    file: &'a MachineFile,
-    request: &'a Request,
-    cyclic: bool,
-    start: f64,
-}
-
-impl Asked<'_> {
-    /// What the pauses cost: holding, in the unit of the moves' costs.
-    fn held(&self, parts: &[Part]) -> Result<f64, Error> {
-        let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
-        let per_square = match self.request.goal {
-            Goal::Energy => self.request.copper.unwrap_or(0.0),
-            _ => 1.0,
-        };
-        let mut cost = 0.0;
-        for part in parts {
-            if let Part::Dwell { at, duration } = part {
-                let torque = way.holding(&way.place_at_rest(*at)?);
-                cost += per_square * torque * torque * duration;
-            }
-        }
-        Ok(cost)
-    }
-
-    fn way(&self, step: &Move) -> Way<'_> {
-        let direction = (step.to - step.from).signum();
-        Way::new(self.file, self.request.actuator.clone(), direction)
-    }
-
-    /// The same parts with other moves.
-    fn motion(
-        &self,
-        parts: &[Part],
-        mut with: impl FnMut(&Move) -> Segment,
-    ) -> Result<Motion, Error> {
-        let segments: Vec<Segment> = parts
-            .iter()
-            .map(|part| match part {
-                Part::Move(step) => with(step),
-                Part::Dwell { duration, .. } => Segment::dwell(*duration),
-            })
-            .collect();
-        let motion = Motion::segments(self.start, &segments, self.cyclic);
-        motion.map_err(|(_, error)| error.into())
-    }
-
-    fn figures(&self, motion: &Motion) -> Result<Figures, Error> {
-        let duty = Duty::new(self.file, motion, self.request.steps)?;
-        let cycle = Cycle::new(&duty);
-        let Actuator {
-            coefficients,
-            ratio,
-            envelope,
-        } = &self.request.actuator;
-        let rms = cycle.rms_torque(coefficients);
-        let [drawn, _] = cycle.energies(coefficients, *ratio);
-        let copper = (self.request.copper).map(|copper| copper * rms * rms * cycle.duration());
-        let speed = cycle.peak_speed() * ratio;
-        let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
-        Ok(Figures {
-            rms_used: rms / continuous,
-            speed_used: speed / envelope.max_speed(),
-            rms,
-            peak: cycle.peak_torque(coefficients),
-            drawn,
-            copper,
-            speed,
-            used: cycle.peak(coefficients, *ratio, envelope).used,
-        })
-    }
-
-    /// The law of the list with the lowest peak, if that is below this one and the law has the form of the ends that is asked for.
-    fn better_law(&self, laws: &[Row], peak: f64) -> Option<(&'static str, Law)> {
-        let rows = laws.iter().filter(|row| row.figures.peak < peak);
-        let named = rows.filter_map(|row| {
-            let (name, law) = LAWS.into_iter().find(|(name, _)| *name == row.name)?;
-            let starts_level = law.at(0.0)[2] == 0.0;
-            (self.request.ramp == 0.0 || starts_level).then_some((row.figures.peak, name, law))
-        });
-        let best = named.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((best.1, best.2))
-    }
-
-    /// The laws; of a rotation without rest the classical motions.
-    fn beside(&self, parts: &[Part], endless: bool) -> Result<Vec<Row>, Error> {
-        if endless {
-            self.classical(parts)
-        } else {
-            let rows = LAWS.into_iter().map(|(name, law)| {
-                let motion = self.motion(parts, |step| {
-                    Segment::law(step.to - step.from, step.duration, law)
-                })?;
-                let figures = self.figures(&motion)?;
-                Ok(Row {
-                    name,
-                    figures,
-                    motion,
-                })
-            });
-            rows.collect()
-        }
-    }
-
-    /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
-    fn classical(&self, parts: &[Part]) -> Result<Vec<Row>, Error> {
-        let steady = self.motion(parts, |step| {
-            let distance = step.to - step.from;
-            Segment::constant_speed(distance, step.duration, distance / step.duration)
-        })?;
-        let mut even = Vec::new();
-        for part in parts {
-            if let Part::Move(step) = part {
-                even = constant_energy(&self.way(step), step)?;
-            }
-        }
-        let even = self.motion(parts, |step| {
-            Segment::phases(step.to - step.from, even.clone())
-        })?;
-        Ok(vec![
-            Row {
-                name: "constant speed",
-                figures: self.figures(&steady)?,
-                motion: steady,
-            },
-            Row {
-                name: "constant kinetic energy",
-                figures: self.figures(&even)?,
-                motion: even,
-            },
-        ])
     }
 }

@@ -11,6 +11,7 @@ use jred_sizing::motor::envelope::{Envelope, Prepared};
 use jred_sizing::select::size::{Candidate, Order, Selection};
 
 use crate::gentlest::without_drive;
+use crate::moves::{self, Chain};
 use crate::retime::{Figures, Goal, Obstacle, Request, Retimed, retime};
 use crate::way::Actuator;
 
@@ -54,6 +55,8 @@ pub struct Suited<'c> {
     pub tried: Vec<Tried<'c>>,
     /// The first drive with the motion of the file.
     pub before: Option<Drive<'c>>,
+    /// What the motion of the file is made of.
+    pub chain: Chain,
     /// With the motion of the first drive tried, another one that comes before it: its own motion would be worse for it.
     pub ahead: Option<Drive<'c>>,
 }
@@ -88,6 +91,7 @@ impl<'a> Judging<'a> {
         let mut suited = Suited {
             tried: Vec::new(),
             before: before.fit.first().map(|(_, drive, _)| *drive),
+            chain: moves::chain(self.own, &self.file.process()).map_err(Obstacle::NoMoves)?,
             ahead: None,
         };
         for (id, drive) in before.tried.iter().chain(&free.tried) {

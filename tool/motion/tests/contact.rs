@@ -27,8 +27,8 @@ fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
         ratio: 1.0,
         envelope: Envelope::of(&motor),
     };
-    let parts = moves::parts(file.required_motion().unwrap()).unwrap();
-    cycle(file, &actuator, *limits, None, &parts).unwrap()
+    let chain = moves::chain(file.required_motion().unwrap(), &file.process()).unwrap();
+    cycle(file, &actuator, *limits, None, &chain.parts).unwrap()
 }
 
 /// The cabin of a hoist hangs on two falls: above g/75 mm the drum lets its rope go slack while it brakes on the way up and while it goes down faster. With the limits that are named it stays

@@ -66,7 +66,7 @@ fn fastest(file: &MachineFile, motor: &Actuator, task: &Task) -> Fastest {
     let most = if task.limits.forces.is_some() {
         1e-8
     } else {
-        2e-9
+        5e-9
     };
     assert!(found.excess <= most, "exceeded by {:e}", found.excess);
     let nodes = found.trace.nodes();

@@ -18,6 +18,7 @@ use crate::support::near;
 mod closed_form;
 mod objectives;
 mod polynomials;
+mod ramps;
 mod slow;
 
 /// A disc that turns freely, with an opposing moment if there is one.
@@ -54,6 +55,7 @@ fn travel(start: f64, distance: f64, duration: f64) -> Travel {
         distance,
         duration,
         speeds: [0.0; 2],
+        accelerations: [0.0; 2],
         ramp: 0.0,
         ring: false,
     }
@@ -113,9 +115,10 @@ fn ramps_begin_and_end_without_a_jump() {
     }
     assert!(before.abs() < 1e-6 * most, "{before}");
     let least = 12.0 * 4.0 * distance * distance / duration.powi(3);
+    // A rise by the parabola over a tenth, of whatever height, and then what is best: 1/(2S) with S = (0.1·(1/3 − 1/24))²/(0.1·8/15) + 0.4³/3, 1.118·least.
     // ∫S″² of the law of fifth degree is 120/7.
     assert!(
-        gentle.cost > 1.001 * least && gentle.cost < 1.1 * least,
+        gentle.cost > 1.11 * least && gentle.cost < 1.15 * least,
         "{}",
         gentle.cost / least
     );

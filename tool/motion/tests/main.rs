@@ -6,6 +6,7 @@ mod contact;
 mod driven;
 mod fastest;
 mod gentlest;
+mod kept;
 mod moves;
 mod plan;
 #[path = "../../support/mod.rs"]

@@ -2,7 +2,7 @@
 
 use jred::machine::motion::Law;
 use jred_machine::model::motion::{Motion, Segment};
-use jred_motion::moves::{Move, NoMoves, Part, parts};
+use jred_motion::moves::{Move, NoMoves, Part, chain};
 
 /// Moves, a pause, a move that goes on through a joint of two segments in motion, and one straight back.
 #[test]
@@ -16,7 +16,7 @@ fn segments_become_moves_and_pauses() {
         Segment::dwell(0.1),
     ];
     let motion = Motion::segments(0.2, &segments, true).unwrap();
-    let found = parts(&motion).unwrap();
+    let found = chain(&motion, &[]).unwrap().parts;
     let a_move = |from, to, duration| Part::Move(Move { from, to, duration });
     let expected = [
         a_move(0.2, 1.2, 0.5),
@@ -50,11 +50,16 @@ fn segments_become_moves_and_pauses() {
 #[test]
 fn a_motion_without_rest_has_no_moves() {
     let motion = Motion::constant_speed(0.0, 3.0, 6.0);
+    let chained = chain(&motion, &[]).unwrap();
+    assert!(chained.endless && chained.given_up.is_none());
+    assert_eq!(chained.parts.len(), 1);
+    let steady = Segment::constant_speed(6.0, 2.0, 3.0);
+    let once = Motion::segments(0.0, &[steady], false).unwrap();
     let expected = NoMoves::NotAtRest {
         speed: 3.0,
         at_end: false,
     };
-    assert_eq!(parts(&motion), Err(expected));
+    assert_eq!(chain(&once, &[]), Err(expected));
     let still = Motion::segments(0.0, &[Segment::dwell(1.0)], true).unwrap();
-    assert_eq!(parts(&still), Err(NoMoves::Still));
+    assert_eq!(chain(&still, &[]), Err(NoMoves::Still));
 }

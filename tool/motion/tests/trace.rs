@@ -142,7 +142,7 @@ fn a_profile_keeps_the_corners() {
     );
     // The second move begins from rest; the first one where the cycle turns back, without one.
     assert_eq!(Features::of(&found, &DIRECT, 1.0).starts, 1);
-    let parts = moves::parts(motion).unwrap();
+    let parts = moves::chain(motion, &[]).unwrap().parts;
     let same = matches!(
         parts.as_slice(),
         [Part::Move(_), Part::Dwell { .. }, Part::Move(_)]

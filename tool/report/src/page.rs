@@ -383,5 +383,11 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 pub fn simulation_page(shown: &list::simulation::Shown) -> String {
     let file = shown.machines.first;
     let sections = figures::simulation(&shown.found.columns);
-    MotionPage::page(file, "simulation", shown.about(), "", sections)
+    MotionPage::page(
+        file,
+        "simulation",
+        shown.about(),
+        &shown.summary(),
+        sections,
+    )
 }

@@ -3,6 +3,8 @@
 mod limits;
 mod winding;
 
+use std::f64::consts::PI;
+
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
@@ -22,11 +24,12 @@ use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
+use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::winding::{Winding, cooled};
-use jred_motion::fastest::{Limits, NoMotion, Reserve, Rms, Task};
-use jred_motion::moves::{Move, NoMoves, Part, parts, ring};
-use jred_motion::way::Actuator;
+use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
+use jred_motion::moves::{Chain, NoMoves, Part, chain};
+use jred_motion::way::{Actuator, Way};
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
 use jred_report::page;
@@ -37,6 +40,9 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
+
+/// Share by which a speed may exceed the largest one: rounding of its unit.
+const ROUNDING: f64 = 1e-9;
 
 /// What moves the machine, by name, and what its gearbox limits.
 struct Chosen {
@@ -53,17 +59,17 @@ struct Chosen {
 /// Bad input, or no motion within the limits.
 pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
+    variator::refuse(&file, "fastest")?;
+    drive_train::refuse(&file, "fastest")?;
+    file.refuse_timed("fastest")?;
+    let task = task(options, &file)?;
+    let chosen = chosen(options, &file)?;
     output::check([
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
         ("--report", &options.report),
     ])?;
-    variator::refuse(&file, "fastest")?;
-    drive_train::refuse(&file, "fastest")?;
-    file.refuse_timed("fastest")?;
-    let task = task(options, &file)?;
-    let chosen = chosen(options, &file)?;
     let reserve = match options.reserve {
         None => Reserve::default(),
         Some(Asked::Share(share)) => Reserve::of_motor(share),
@@ -74,7 +80,11 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let rms = rms(options, &file, &chosen)?;
     let warmth = winding::limit(options, &chosen)?;
     let parts = match task {
-        Some(task) => Motion::Move(Task { limits, ..task }),
+        Some(task) => {
+            let task = Task { limits, ..task };
+            passable(options, &file, &chosen.actuator, &task)?;
+            Motion::Move(task)
+        }
         None => of_motion(&file, &limits, rms)?,
     };
     let at = |rms: Option<Rms>| parts.fastest(&file, &chosen.actuator, rms);
@@ -113,6 +123,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         asked,
         actuator: &chosen.actuator,
         cycle: &cycle,
+        chain: parts.chain(),
         warmth: warmth.as_ref(),
         forces: &forces,
         broken: broken.as_ref(),
@@ -137,7 +148,8 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         print(&planned)?;
     }
-    Ok(if broken.is_some() {
+    let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
+    Ok(if broken.is_some() || exceeds {
         Done::Violated
     } else {
         Done::Holds
@@ -148,13 +160,19 @@ pub fn fastest(options: &Options) -> Result<Done> {
 enum Motion {
     /// One move.
     Move(Task),
-    /// The moves and pauses of a motion.
-    Parts(Limits, Vec<Part>),
-    /// A motion that turns for ever.
-    Ring(Limits, Move),
+    /// That of the file.
+    Chain(Limits, Chain),
 }
 
 impl Motion {
+    /// What the motion of the file is made of.
+    const fn chain(&self) -> Option<&Chain> {
+        match self {
+            Self::Move(_) => None,
+            Self::Chain(_, chain) => Some(chain),
+        }
+    }
+
     /// It as fast as possible; or why it cannot be made, with the number of the move.
     fn fastest(
         &self,
@@ -164,13 +182,13 @@ impl Motion {
     ) -> Result<Cycle, (Option<usize>, NoMotion)> {
         match self {
             Self::Move(task) => single(file, actuator, *task, rms).map_err(|why| (None, why)),
-            Self::Ring(limits, step) => {
-                endless(file, actuator, *limits, step).map_err(|why| (None, why))
-            }
-            Self::Parts(limits, parts) => {
-                let moves = parts.iter().filter(|part| matches!(part, Part::Move(_)));
-                let several = moves.count() > 1;
-                cycle(file, actuator, *limits, rms, parts)
+            Self::Chain(limits, chain) => {
+                let mut moves = chain.parts.iter().filter_map(Part::step);
+                if let Some((step, _)) = moves.next().filter(|_| chain.endless) {
+                    return endless(file, actuator, *limits, &step).map_err(|why| (None, why));
+                }
+                let several = moves.next().is_some();
+                cycle(file, actuator, *limits, rms, &chain.parts)
                     .map_err(|(index, why)| (several.then_some(index + 1), why))
             }
         }
@@ -180,17 +198,7 @@ impl Motion {
 /// The moves of the file's motion.
 fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
     let motion = file.motion_or("give --from and --to, or ")?;
-    if let Some(step) = ring(motion) {
-        if limits.has_rates() || rms.is_some() {
-            return Err(miette!(
-                help = "leave them out, or give one move with --from and --to",
-                "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
-                file.name
-            ));
-        }
-        return Ok(Motion::Ring(*limits, step));
-    }
-    let parts = parts(motion).map_err(|why| match why {
+    let chain = chain(motion, &file.process()).map_err(|why| match why {
         NoMoves::Still => miette!(
             help = "give --from and --to, or a [motion] with a move",
             "nothing moves in the motion of {}",
@@ -207,8 +215,20 @@ fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Mo
                 short(axis.rate(speed.abs()))
             )
         }
+        NoMoves::AllKept => miette!(
+            help = "give --from and --to, or a [motion] with moves beside the constant speed",
+            "the motion of {} is nothing but constant speed, which is kept",
+            file.name
+        ),
     })?;
-    Ok(Motion::Parts(*limits, parts))
+    if chain.endless && (limits.has_rates() || rms.is_some()) {
+        return Err(miette!(
+            help = "leave them out, or give one move with --from and --to",
+            "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+            file.name
+        ));
+    }
+    Ok(Motion::Chain(*limits, chain))
 }
 
 fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {
@@ -248,6 +268,37 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         limits: Limits::default(),
         endless: false,
     }))
+}
+
+/// Refuses speeds of the ends that no way can lead to: motor and options leave less everywhere.
+fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<()> {
+    let way = &Way::new(file, actuator.clone(), 1.0);
+    let limits = task.limits;
+    let (top, limit) = Field { way, limits }.top();
+    let given = [
+        ("from-speed", &options.from_speed),
+        ("to-speed", &options.to_speed),
+    ];
+    for ((name, text), speed) in given.into_iter().zip(task.speeds) {
+        if speed <= top * (1.0 + ROUNDING) {
+            continue;
+        }
+        let text = text.as_deref().unwrap_or_default();
+        let axis = file.axis();
+        let most = axis.rate(top);
+        let most = if text.contains("rpm") {
+            format!("{} rpm", short(most * 30.0 / PI))
+        } else {
+            format!("{} {}", short(most), axis.coordinate.speed_unit())
+        };
+        return Err(miette!(
+            help = "give a lower speed, or raise that limit: a longer way does not help",
+            "--{name} {} is too fast: the limit of the {} leaves {most} at the most, everywhere",
+            plain::quoted(text),
+            limit.name_in(file)
+        ));
+    }
+    Ok(())
 }
 
 /// Whether the motor turns or slides.

@@ -6,7 +6,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
-use crate::commands::{Done, drive_named, print_parts, warn_of_supply};
+use crate::commands::{Done, drive_asked, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output;
 use jred_machine::model::drive_train;
@@ -31,20 +31,17 @@ use jred_sizing::study::chosen::ChosenDrive;
 /// Bad input, or no motion of moves and pauses.
 pub fn retime(options: &Retime) -> Result<Done> {
     let file = read::read(&options.file)?;
+    variator::refuse(&file, "retime")?;
+    drive_train::refuse(&file, "retime")?;
+    file.refuse_timed("retime")?;
+    let motion = file.required_motion()?;
+    let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
         ("--report", &options.report),
     ])?;
-    variator::refuse(&file, "retime")?;
-    drive_train::refuse(&file, "retime")?;
-    file.refuse_timed("retime")?;
-    let motion = file.required_motion()?;
-    let chosen = match &options.drive {
-        Some(name) => Some(drive_named(options.catalogue.open()?, name, &file)?),
-        None => None,
-    };
     let drive = chosen.as_ref().map(ChosenDrive::drive);
     if let Some(drive) = &drive {
         warn_of_supply(drive, &file);
@@ -121,6 +118,10 @@ pub(super) fn report(
         Obstacle::NoMoves(NoMoves::Still) => miette!(
             help = "give a motion with at least one move",
             "nothing moves in the motion of {name}"
+        ),
+        Obstacle::NoMoves(NoMoves::AllKept) => miette!(
+            help = "give a motion with moves beside the constant speed",
+            "the motion of {name} is nothing but constant speed, which is kept"
         ),
         Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
             let axis = file.axis();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive_named, envelope, print_parts, rate};
+use crate::commands::{Done, drive_asked, envelope, print_parts, rate};
 use crate::options::simulate::Simulate;
 use crate::output;
 use jred_machine::analysis::reduce::{Sets, add_columns};
@@ -19,6 +19,7 @@ use jred_machine::read;
 use jred_motion::driven::{Loads, Unfit, driven};
 use jred_report::list;
 use jred_report::page;
+use jred_sizing::study::chosen::ChosenDrive;
 
 /// Runs the command.
 ///
@@ -30,10 +31,16 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     };
     let file = read::read(path)?;
     let others = read_all(others)?;
+    let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([("--plot", &options.plot)])?;
     let own = file.simulation.as_ref().ok_or_else(|| {
+        let torque = if options.drive.is_some() {
+            " and output_step (--drive gives the torque)"
+        } else {
+            ", output_step and torque"
+        };
         miette!(
-            help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
+            help = format!("add a [simulation] with start_angle, duration{torque}; docs/machine-file.md shows how"),
             "{} has no [simulation]",
             plain::path(path)
         )
@@ -50,13 +57,26 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     };
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
-    let (mut found, drive) = match &options.drive {
+    let (mut found, drive) = match &chosen {
         None => (simulate::simulate_together(&machines, simulation)?, None),
-        Some(name) => {
-            let (found, drive) = with_drive(options, name, &machines, simulation)?;
+        Some(chosen) => {
+            let (found, drive) = with_drive(chosen, &machines, simulation)?;
             (found, Some(drive))
         }
     };
+    let run = |simulation: &Simulation| -> Result<Simulated> {
+        match &chosen {
+            None => Ok(simulate::simulate_together(&machines, simulation)?),
+            Some(chosen) => {
+                let (found, _) = with_drive(chosen, &machines, simulation)?;
+                Ok(found)
+            }
+        }
+    };
+    let stops = options
+        .stops
+        .map(|count| simulate::stops(&file, simulation, count, run))
+        .transpose()?;
     let asked = Sets {
         torques: options.torques,
         points: options.points,
@@ -68,6 +88,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         machines: &machines,
         simulation,
         found: &found,
+        stops: stops.as_deref(),
         drive: drive.as_ref().map(|(name, loads)| (name.as_str(), loads)),
     };
     if let Some(path) = &options.plot {
@@ -121,14 +142,12 @@ fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> 
 
 /// The motion under a drive of the catalogue, the name of that and what it bears.
 fn with_drive(
-    options: &Simulate,
-    name: &str,
+    chosen: &ChosenDrive,
     machines: &Together,
     simulation: &Simulation,
 ) -> Result<(Simulated, (String, Loads))> {
     let file = machines.first;
     variator::refuse(file, "simulate --drive")?;
-    let chosen = drive_named(options.catalogue.open()?, name, file)?;
     let drive = chosen.drive();
     envelope(&drive, file);
     let found =

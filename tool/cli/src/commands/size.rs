@@ -184,7 +184,7 @@ fn suited(judging: &Judging, options: &Size) -> Result<Option<Motion>> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
-    let says = list::suited::words(&suited);
+    let says = list::suited::words(judging.file, &suited);
     if options.format == Format::Table {
         let table = list::suited::table(&suited);
         print(&format!("{says}\n\n{table}\n"))?;

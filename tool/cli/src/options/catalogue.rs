@@ -26,6 +26,18 @@ pub struct CatalogueFiles {
 }
 
 impl CatalogueFiles {
+    /// The options that are given.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let given = [
+            ("--catalogue", !self.catalogue.is_empty()),
+            ("--motors", self.motors.is_some()),
+            ("--gearboxes", self.gearboxes.is_some()),
+        ];
+        given
+            .into_iter()
+            .filter_map(|(name, given)| given.then_some(name))
+    }
+
     /// Opens the catalogue and prints warnings about implausible values to standard error.
     ///
     /// # Errors

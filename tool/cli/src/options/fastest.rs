@@ -61,7 +61,12 @@ pub struct Fastest {
     #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with = "torque")]
     pub drive: Option<String>,
     /// Instead of a drive: largest torque at the input of the drive train, e.g. "20 N m" ("500 N" for a linear motor).
-    #[arg(long, requires = "motor_speed", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        requires = "motor_speed",
+        conflicts_with_all = ["catalogue", "motors", "gearboxes"],
+        allow_hyphen_values = true
+    )]
     pub torque: Option<String>,
     /// Largest speed of that motor, e.g. "3000 rpm" ("2 m/s").
     #[arg(

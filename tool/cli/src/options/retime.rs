@@ -35,7 +35,7 @@ pub struct Retime {
     /// How a move begins and ends.
     #[arg(long, value_parser = word::<Ends>(), default_value_t)]
     pub ends: Ends,
-    /// With --ends zero: share of a move's time for the acceleration to rise, e.g. "5 %"; 10 % if not given. The motion has so many pieces.
+    /// With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given.
     #[arg(long, value_name = "SHARE", value_parser = ramp)]
     pub ramp: Option<f64>,
     /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".

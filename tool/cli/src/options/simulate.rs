@@ -25,6 +25,9 @@ pub struct Simulate {
     /// Say when the drive link, or the axis, first reaches this speed, e.g. "120 rpm", either way.
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub to_speed: Option<String>,
+    /// Switch the motor off at this many instants over the last cycle before the `stop` of the file, and name the longest way and time to rest.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    pub stops: Option<u32>,
     /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry friction.
     #[arg(long)]
     pub torques: bool,

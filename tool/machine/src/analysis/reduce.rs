@@ -238,7 +238,7 @@ fn sets(
         sets.push(Box::new(curves::Motion));
     }
     if torques {
-        sets.push(Box::new(curves::Torques));
+        sets.push(Box::new(curves::Torques { sum: !reactions }));
     }
     if points {
         sets.push(Box::new(points::Points { in_time }));

@@ -6,6 +6,7 @@
 mod clock;
 mod commanded;
 mod control;
+mod emergency;
 mod error;
 mod free;
 mod geared;
@@ -20,6 +21,7 @@ mod winding;
 
 pub use clock::Moment;
 use commanded::{COMMANDED, COMMANDED_WITH_GUESTS, Commanded, Commander};
+pub use emergency::{Stop, stops};
 pub use error::SimulationError;
 pub use geared::{Geared, Together};
 pub use machine::beside_name;

@@ -12,7 +12,7 @@ use crate::model::coordinate::positions;
 use crate::model::drive_train::DriveTrain;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
-use crate::model::motion::Motion;
+use crate::model::motion::{Motion, Steady};
 use crate::model::rules::RuleSet;
 use crate::model::schedule::{Now, Schedule};
 use crate::model::simulation::Simulation;
@@ -108,6 +108,13 @@ impl MachineFile {
                 self.name
             )
         })
+    }
+
+    /// What the motion prescribes as process: segments of constant speed, and of a winder the constant speed of the web, whichever law leads to it.
+    pub fn process(&self) -> Vec<Steady> {
+        let winds = self.machine.mechanism().kind() == "winder";
+        let stretches = self.motion.iter().flat_map(Motion::steady);
+        stretches.filter(|steady| steady.whole || winds).collect()
     }
 
     /// The coordinate in which people speak of this axis: that of its motion, if it goes with the drive link evenly, else the drive link's.

@@ -16,6 +16,7 @@ mod nodes;
 mod piece;
 mod recording;
 mod segment;
+mod steady;
 mod tool;
 
 pub use course::SegmentCourse;
@@ -23,6 +24,7 @@ pub use limits::{Limits, TooShort, change, fastest};
 pub use nodes::{Node, step_at};
 pub use recording::{Closing, Recording};
 pub use segment::{Course, Phase, Segment};
+pub use steady::Steady;
 pub use tool::{Measure, Standstill, ToolCoordinate};
 
 /// A motion in consecutive pieces.
@@ -31,6 +33,7 @@ pub struct Motion {
     pieces: Vec<Piece>,
     /// What is prescribed, if it is not the drive link.
     tool: Option<Arc<ToolCoordinate>>,
+    limits: Vec<(usize, Limits)>,
     /// Whether the motion repeats; sizing takes the RMS over the whole duration either way.
     pub cyclic: bool,
 }
@@ -75,6 +78,7 @@ impl Motion {
                 kind,
             }],
             tool: None,
+            limits: Vec::new(),
             cyclic: true,
         }
     }
@@ -127,9 +131,12 @@ impl Motion {
             }
             phi += segment.distance;
         }
+        let limits = segments.iter().enumerate();
+        let limits = limits.filter_map(|(index, segment)| Some((index, segment.limits?)));
         Ok(Self {
             pieces,
             tool: None,
+            limits: limits.collect(),
             cyclic,
         })
     }
@@ -206,6 +213,7 @@ impl Motion {
         Self {
             pieces: nodes::runs(nodes).into_iter().map(piece).collect(),
             tool: None,
+            limits: Vec::new(),
             cyclic,
         }
     }
@@ -220,8 +228,14 @@ impl Motion {
                 kind,
             }],
             tool: None,
+            limits: Vec::new(),
             cyclic: recording.closing != Closing::Open,
         }
+    }
+
+    /// The limits that the file gives its segments, by their numbers from 0 on.
+    pub fn limits(&self) -> &[(usize, Limits)] {
+        &self.limits
     }
 
     /// Length of the motion (s).

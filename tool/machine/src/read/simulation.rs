@@ -11,6 +11,7 @@ use crate::model::simulation::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
+use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, LENGTH, MASS, TIME};
@@ -33,26 +34,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
     };
     let section = item.section("[simulation]".into())?;
     let [start_angle, start_speed] = start(&section, around)?;
-    let duration = section.quantity("duration", &TIME)?;
-    let output_step = section.quantity("output_step", &TIME)?;
-    duration.check_positive()?;
-    output_step.check_positive()?;
-    let steps = duration.si / output_step.si;
-    if !(1.0 - 1e-9..=MAX_STEPS * (1.0 + 1e-9)).contains(&steps) {
-        let what = format!(
-            "is {}, which gives {} steps",
-            output_step.shown(),
-            figure(steps)
-        );
-        return Err(output_step
-            .problem(&what, "check this step")
-            .at(duration.span(), "against this duration")
-            .help(format!(
-                "between 1 and {MAX_STEPS} steps are possible: a step from {} to {}",
-                output_step.show(duration.si / MAX_STEPS),
-                output_step.show(duration.si)
-            )));
-    }
+    let [duration, output_step] = times(&section)?;
     let words = [
         "motor",
         if drive.slides() {
@@ -129,6 +111,31 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         rotor_inertia,
         tolerance,
     }))
+}
+
+/// Length and distance of the rows.
+fn times(section: &Section) -> Result<[Value; 2]> {
+    let duration = section.quantity("duration", &TIME)?;
+    let output_step = section.quantity("output_step", &TIME)?;
+    duration.check_positive()?;
+    output_step.check_positive()?;
+    let steps = duration.si / output_step.si;
+    if !(1.0 - 1e-9..=MAX_STEPS * (1.0 + 1e-9)).contains(&steps) {
+        let what = format!(
+            "is {}, which gives {} steps",
+            output_step.shown(),
+            figure(steps)
+        );
+        return Err(output_step
+            .problem(&what, "check this step")
+            .at(duration.span(), "against this duration")
+            .help(format!(
+                "between 1 and {MAX_STEPS} steps are possible: a step from {} to {}",
+                output_step.show(duration.si / MAX_STEPS),
+                output_step.show(duration.si)
+            )));
+    }
+    Ok([duration, output_step])
 }
 
 /// Where the drive link starts (rad, or m), and how fast. A controlled machine that is not told so starts as its motion does.

@@ -64,8 +64,7 @@ fn window(section: &Section) -> Result<Option<Window>> {
             "the load rises over one ramp and falls over another: write at most {}",
             ramp.show(width / 2.0)
         );
-        // Rounding may leave two ramps a hair wider than the range.
-        if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+        if is_too_long(ramp.si, from.si, width) {
             return Err(ramp
                 .problem(&what, "too long")
                 .at(between.span(), "range")
@@ -147,7 +146,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
             )
             .help("give positions within the stroke; positions beyond its ends are allowed"));
     }
-    if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+    if is_too_long(ramp.si, from.si, width) {
         return Err(ramp
             .problem(
                 &format!(
@@ -171,4 +170,9 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
                 "check these positions",
             )
         })
+}
+
+/// Whether two ramps are wider than a range. Rounding may leave them a hair wider, the more the further away the range is.
+fn is_too_long(ramp: f64, from: f64, width: f64) -> bool {
+    width + 1e-14 * from.abs() < 2.0 * ramp * (1.0 - 1e-12)
 }

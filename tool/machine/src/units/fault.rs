@@ -1,5 +1,7 @@
 //! What is wrong with a value as it was written, and what to do about it.
 
+use std::cmp::Reverse;
+
 /// The fault of a value, before its key is known.
 #[derive(Debug)]
 pub struct Fault {
@@ -29,7 +31,7 @@ impl Fault {
     }
 }
 
-/// The word that `wrong` is most likely a misspelling of.
+/// The word that `wrong` is most likely a misspelling of; of equally near ones the one that begins like it for longest.
 pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let lower = wrong.to_lowercase();
     let length = lower.chars().count();
@@ -41,8 +43,14 @@ pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     (words.iter())
         .filter_map(|word| Some((distance(word.as_ref())?, word.as_ref())))
         .filter(|(distance, _)| *distance <= allowed)
-        .min_by_key(|(distance, _)| *distance)
+        .min_by_key(|(distance, word)| (*distance, Reverse(common(&lower, &word.to_lowercase()))))
         .map(|(_, word)| word.to_owned())
+}
+
+/// Letters with which both begin.
+fn common(one: &str, other: &str) -> usize {
+    let pairs = one.chars().zip(other.chars());
+    pairs.take_while(|(a, b)| a == b).count()
 }
 
 /// The word that is meant where one of `words` must stand: [`closest`], or else one that is a part of the other, such as "rack" and

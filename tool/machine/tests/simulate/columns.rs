@@ -1,5 +1,6 @@
 //! Points, links and joint forces in the rows of a simulation.
 
+use jred::machine::TorqueTerms;
 use jred_machine::analysis::reduce::{At, Over, Request, Sets, add_columns, reduce_at};
 use jred_machine::analysis::simulate::{Together, simulate};
 
@@ -18,24 +19,16 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let file = parse(&text).unwrap();
     let found = simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
     let narrow = found.columns.heads().len();
+    let sets = Sets {
+        torques: true,
+        points: true,
+        reactions: true,
+        ..Sets::default()
+    };
     let alone = Together::alone(&file);
     let machine = alone.all().next().unwrap();
     let states = found.states_of(&machine);
-    let all = add_columns(
-        &file,
-        &found.columns,
-        &states,
-        (
-            Sets {
-                torques: true,
-                points: true,
-                reactions: true,
-                ..Sets::default()
-            },
-            "",
-        ),
-    )
-    .unwrap();
+    let all = add_columns(&file, &found.columns, &states, (sets, "")).unwrap();
     let at: Vec<At> = (found.states.iter())
         .map(|[phi, omega, alpha]| At {
             phi: *phi,
@@ -45,11 +38,7 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let request = Request {
         over: Over::Angle,
         positions: 2,
-        sets: Sets {
-            points: true,
-            reactions: true,
-            ..Sets::default()
-        },
+        sets,
         state: None,
     };
     let reduced = reduce_at(&file, &request, &at).unwrap();
@@ -66,10 +55,13 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let drive = all.get("T_drive [N m]");
     let (motor, alpha) = (all.get("motor torque [N m]"), all.get("alpha [rad/s^2]"));
     let most = largest(&drive);
+    let parts = TorqueTerms::NAMES.map(|part| all.get(&format!("T_drive {part} [N m]")));
     // The machine starts from rest, where friction has no direction in one row.
     for k in 1..drive.len() {
         let expected = motor[k] - 0.1 * alpha[k];
         within("torque", drive[k], expected, budget::SAME_SUMS * most);
+        let parts = parts.iter().map(|part| part[k]).sum::<f64>();
+        within("parts", parts, expected, budget::SAME_SUMS * most);
     }
     // Simpson's rule over 2000 steps, against the work that the simulation integrates.
     let omega = all.get("omega [rad/s]");

@@ -10,7 +10,7 @@ use crate::support::{budget, near, within};
 /// 24 V, 0.5 Ω, 0.06 N·m/A, and this inductance in mH, on a rotor of 0.4 kg·m² geared by nothing.
 fn motor(inductance: &str) -> String {
     format!(
-        "rotor_inertia = \"0 kg m^2\"\ndc_motor = {{ voltage = \"24 V\", resistance = \"0.5 ohm\", \
+        "rotor_inertia = \"0 kg m^2\"\ndc_motor = {{ voltage = \"24 V\", resistance = \"0.5 Ohm\", \
          torque_constant = \"0.06 N m/A\"{inductance} }}"
     )
 }
@@ -196,10 +196,8 @@ fn an_induction_motor_by_its_name_plate() {
 fn a_winding_has_no_controller() {
     let motion = "[motion]\ntype = \"constant-speed\"\nspeed = \"60 rpm\"\n";
     let control = "control = { speed_gain = \"1 N m s/rad\" }";
-    let text = format!(
-        "{motion}{}\n{control}",
-        light("", &motor(", inductance = \"1 mH\""))
-    );
+    let simulation = format!("{}\n{control}", motor(", inductance = \"1 mH\""));
+    let text = light(motion, &simulation);
     let report = rendered(&parse(&text).unwrap_err());
     assert!(
         report.contains("belongs to a motor at a constant voltage"),

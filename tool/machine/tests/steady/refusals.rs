@@ -63,6 +63,19 @@ fn machines_without_a_cycle() {
     );
 }
 
+/// Loads that are far too large are named with the torque that is missing, not with steps of an integrator.
+#[test]
+fn loads_that_are_far_too_large() {
+    let press = press_text();
+    for (from, to) in [
+        ("opposing_force = \"150 N\"", "opposing_force = \"1e8 N\""),
+        ("mass = \"42 kg\"", "mass = \"1e6 kg\""),
+    ] {
+        let stuck = why(&edited(&press, from, to), None);
+        assert!(matches!(stuck, SteadyError::Stuck { .. }), "{stuck}");
+    }
+}
+
 /// A flywheel carries a press over its working stroke that its motor alone cannot do; no flywheel makes up for work that is missing.
 #[test]
 fn a_flywheel_where_there_is_no_cycle_without() {
@@ -87,4 +100,11 @@ fn a_flywheel_where_there_is_no_cycle_without() {
     let none = why(&weaker, Some(0.1));
     assert!(matches!(none, SteadyError::NoFlywheel { .. }), "{none}");
     assert!(none.to_string().contains("the machine stops"), "{none}");
+    // The punch's work, and that of friction and of the belt, over a turn.
+    let needed = none.to_string();
+    let needed = needed.rsplit_once("asks for ").unwrap().1;
+    let needed: f64 = needed.split_once(' ').unwrap().0.parse().unwrap();
+    let given = try_of(&weak, Some(0.1)).unwrap().flywheel.unwrap();
+    let mean = given.cycle.figures.torque[0];
+    assert!(needed > 3.0 && needed < mean, "{needed} {mean}");
 }

@@ -21,9 +21,6 @@ const SHARES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
 /// Share of what a limit may be exceeded by that is kept to at these places.
 const KEPT: f64 = 0.75;
 
-/// Share of what a limit may be exceeded by that rounding may make of it.
-pub(super) const ROUNDED: f64 = 1e-3;
-
 /// Roundings of a speed by which the sweep may miss it.
 const ROUNDINGS: f64 = 1e4;
 

@@ -5,12 +5,13 @@ use jred_machine::model::machine::MachineFile;
 use super::costs::costs;
 pub use super::costs::{Cost, MORE};
 use super::field::Limits;
+use super::kept::KeptPart;
 pub use super::motor_load::MotorLoad;
 use super::motor_load::load;
 use super::obstacle::input;
 use super::rms::{Asked, Refused, Rms, slowest, within};
 use super::{Fastest, NoMotion, Task, priced, solve};
-use crate::moves::{Move, Part};
+use crate::moves::{Move, Part, Passing};
 use crate::trace::Trace;
 use crate::way::{Actuator, Way};
 
@@ -38,6 +39,8 @@ pub struct Cycle {
     pub before: Option<f64>,
     /// Time at rest (s).
     pub dwells: f64,
+    /// The parts that were kept.
+    pub kept: Vec<KeptPart>,
     /// What the motor does.
     pub load: MotorLoad,
 }
@@ -53,10 +56,8 @@ pub fn cycle(
     rms: Option<Rms>,
     parts: &[Part],
 ) -> Result<Cycle, (usize, NoMotion)> {
-    let ways = parts.iter().filter_map(|part| match part {
-        Part::Move(step) => Some([step.from, step.to]),
-        Part::Dwell { .. } => None,
-    });
+    let steps = parts.iter().filter_map(Part::step);
+    let ways = steps.map(|(step, _)| [step.from, step.to]);
     let slow = slowest(file, actuator, ways).map_err(|why| (0, why.into()))?;
     let at = |asked: &mut Asked| at_price(file, actuator, &limits, parts, asked);
     let found = within(rms, slow, input(file), at).map_err(|why| match why {
@@ -73,25 +74,30 @@ fn at_price(
     parts: &[Part],
     asked: &mut Asked,
 ) -> Result<Cycle, (usize, NoMotion)> {
-    let start = parts.first().map_or(0.0, |part| match part {
-        Part::Move(step) => step.from,
-        Part::Dwell { at, .. } => *at,
-    });
+    let start = parts.first().map_or(0.0, Part::from);
     let coordinate = Way::new(file, actuator.clone(), 1.0).coordinate();
     let mut trace = Trace::from_rest(coordinate, start);
     let mut moves = Vec::new();
     let mut dwells = 0.0;
+    let mut kept = Vec::new();
     for part in parts {
         match part {
             Part::Dwell { duration, .. } => {
                 trace.dwell(*duration);
                 dwells += duration;
             }
-            Part::Move(step) => {
+            Part::Kept(part) => {
+                let part = KeptPart::new(file, actuator, limits, part);
+                let part = part.map_err(|why| (moves.len(), why.into()))?;
+                trace.then(part.kept.nodes());
+                kept.push(part);
+            }
+            Part::Move(step) | Part::Passing(step, _) => {
+                let Passing { speeds, .. } = part.step().map(|(_, ends)| ends).unwrap_or_default();
                 let task = Task {
                     from: step.from,
                     to: step.to,
-                    speeds: [0.0; 2],
+                    speeds,
                     limits: *limits,
                     endless: false,
                 };
@@ -115,6 +121,7 @@ fn at_price(
         trace,
         before: Some(parts.iter().map(Part::duration).sum()),
         dwells,
+        kept,
         load,
     })
 }
@@ -138,6 +145,7 @@ pub fn single(
             trace,
             before: None,
             dwells: 0.0,
+            kept: Vec::new(),
         })
     };
     let slow = slowest(file, actuator, [[task.from, task.to]])?;
@@ -183,6 +191,7 @@ pub fn endless(
         trace,
         before: Some(step.duration),
         dwells: 0.0,
+        kept: Vec::new(),
     })
 }
 

@@ -20,7 +20,7 @@ pub struct MotorLoad {
     pub peaks: [f64; 2],
     /// Mean of the speed's magnitude (rad/s).
     pub mean_speed: f64,
-    /// Torque at rest at the end (N·m), as a magnitude.
+    /// Torque at rest at the end (N·m), or where the motion rests last, as a magnitude.
     pub holding: f64,
     /// S1 torque (N·m) at the mean speed; infinite: not known.
     pub continuous: f64,
@@ -63,7 +63,10 @@ pub(super) fn load(
         }
     }
     let duration = trace.duration();
-    let end = trace.nodes().last().map_or(0.0, |node| node.phi);
+    // Of a motion that does not end at rest, where it rests before.
+    let mut backwards = trace.nodes().iter().rev();
+    let rest = backwards.find(|node| node.omega == 0.0);
+    let end = rest.or(trace.nodes().last()).map_or(0.0, |node| node.phi);
     let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
     let mean_speed = forwards.motor_speed(turns) / duration;
     // At the largest speed all the time rounding must not step beyond.

@@ -114,6 +114,8 @@ pub enum NoMotion {
         rms: f64,
         /// What it may be.
         allowed: f64,
+        /// Whether the search for motions with less did not come to its end.
+        stopped: bool,
         /// Their unit: N of a motor that slides.
         unit: Coordinate,
     },
@@ -140,6 +142,8 @@ pub enum NoMotion {
         phi: f64,
         /// Share of the limit by which it is exceeded there.
         missed: f64,
+        /// Whether jerk and torque rate are limited.
+        rates: [bool; 2],
         /// In whose words it is said.
         axis: Axis,
     },

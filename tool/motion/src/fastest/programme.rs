@@ -14,7 +14,9 @@ mod limits;
 mod mesh;
 mod newton;
 mod outcome;
+mod rate;
 mod refine;
+mod starts;
 
 use crate::gentlest::mesh::dot;
 use crate::gentlest::shape::Shape;
@@ -43,6 +45,9 @@ const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
 const SLOWEST: f64 = 1e-12;
 const CLOSELY: f64 = 0.01;
 
+/// Factor from one even pace to the next where what the motor's heat costs is sought.
+const SLOWER: f64 = 0.8;
+
 /// μ of the first mesh, of those that follow, and of the last: what is left of the time is about ten times as much.
 const ROUGH: [f64; 2] = [0.1, 1e-5];
 const FINER: [f64; 2] = [1e-2, 1e-8];
@@ -51,8 +56,11 @@ const LAST: [f64; 2] = [1e-3, 1e-10];
 /// Share of itself by which a limit is missed where it stands in the way.
 const FEASIBLE: f64 = 1e-6;
 
-/// Share of the motor's torque at rest, at the drive link, over which bends of the torque are rounded.
-const RANGE: f64 = 0.01;
+/// Shares of the largest load of a motion over which bends of the torque are rounded: in the search, and at its end.
+const RANGES: [f64; 2] = [1e-1, 4e-3];
+
+/// Factors of the range with which the motion is sought at last.
+const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 
 /// Places closer than this share of u are one.
 const APART: f64 = 1e-9;
@@ -81,6 +89,9 @@ struct Found {
     mesh: Mesh,
     point: Point,
     time: f64,
+    /// Load (N·m) over which bends of the torque are rounded, and which share of its largest load that is.
+    range: f64,
+    share: f64,
 }
 
 /// A motion from which one of another price is sought.
@@ -121,6 +132,18 @@ impl Asked<'_> {
     /// The mechanism cannot be placed somewhere, a load jumps under a limit of the torque rate, or no motion was found.
     pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
         self.refuse_jumps()?;
+        let found = self.solve_from(start, true);
+        // Coarse pieces may show a fast motion that finer ones do not have.
+        match (start, &found) {
+            (Start::Nothing, Err(NoMotion::NotFound { .. })) if self.limits().has_rates() => {
+                self.solve_from(start, false).or(found)
+            }
+            _ => found,
+        }
+    }
+
+    /// The same with or without a start from limits of rates that are eased.
+    fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
         let shape = Shape::new(self.form_of_ends());
         let beside = match start {
             Start::Beside(warm) => self.beside(&shape, warm)?,
@@ -128,17 +151,31 @@ impl Asked<'_> {
         };
         let mut warm = match (beside, start) {
             (Some(warm), _) => warm,
-            (None, Start::Nothing) => self.refined(&shape, None)?,
-            (None, Start::Near(warm) | Start::Beside(warm)) => self.refined(&shape, Some(warm))?,
+            (None, Start::Nothing) => self.refined(&shape, None, eased)?,
+            (None, Start::Near(warm) | Start::Beside(warm)) => {
+                self.refined(&shape, Some(warm), eased)?
+            }
         };
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
         for round in 0..WIDENED {
-            let Ok(next) = self.next(&shape, &warm.borders, &warm.found, &warm.margins, LAST)?
-            else {
-                break;
-            };
-            warm.found = next;
+            // A range that suits the motion may be too narrow for one that keeps its margins.
+            let mut next = None;
+            for factor in WIDER {
+                let range = [warm.found.range, warm.found.share].map(|range| factor * range);
+                let (borders, margins) = (&warm.borders, &warm.margins);
+                let found = self.next(&shape, borders, &warm.found, margins, LAST, range)?;
+                next = found.ok();
+                if next.is_some() || range[0] == 0.0 {
+                    break;
+                }
+            }
+            // The first time it has no margins yet, and what was found before is one as well.
+            match next {
+                Some(next) => warm.found = next,
+                None if round > 0 => break,
+                None => {}
+            }
             trace = self.trace(&shape, &warm.found);
             let each;
             (worst, each) = self.exceeded(&trace, warm.margins.len())?;
@@ -174,6 +211,7 @@ impl Asked<'_> {
             limit,
             phi,
             missed,
+            rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
             axis: self.field.way.file.axis(),
         }
     }
@@ -226,25 +264,15 @@ impl Asked<'_> {
         )?)
     }
 
-    /// Load at the drive link over which the bends of the torque are rounded, where power changes its direction.
-    fn range(&self) -> f64 {
-        let way = self.field.way;
-        if way.bends() {
-            let torques = self.field.motor_torques(0.0).map(f64::abs);
-            RANGE * torques[0].max(torques[1]) * way.motor_speed(1.0)
-        } else {
-            0.0
-        }
-    }
-
-    fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins]) -> Problem<'m> {
+    fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins], range: f64) -> Problem<'m> {
         Problem {
             field: self.field,
             mesh,
             unit: self.unit,
             pace: self.ends.length / self.unit,
             price: self.price,
-            range: self.range(),
+            range,
+            ease: 1.0,
             lines: [true, false].map(|braking| self.field.torque_lines(braking)),
             margins,
         }
@@ -273,64 +301,56 @@ impl Asked<'_> {
         borders
     }
 
-    /// In a unit of the time in which an even pace of 1 just meets the limits of rates: the motion may take many times as long as without them.
+    /// In a unit of the time in which an even pace of 1 just meets the limits of rates, or costs least: the motion may take many times as long
+    /// as without them.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
     pub(super) fn in_own_unit(mut self) -> Result<Self, NoMotion> {
-        if !self.limits().has_rates() {
-            return Ok(self);
-        }
         let shape = Shape::new(self.form_of_ends());
         let mesh = self.mesh(&shape, &self.first_borders(&shape))?;
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(&mesh, &margins);
-        let keeps_rates = |pace: f64| problem.keeps_rates(&mesh.even(pace * pace));
-        let [mut low, mut high] = [SLOWEST.ln(), 0.0];
-        if keeps_rates(1.0) || !keeps_rates(SLOWEST) {
-            return Ok(self);
+        let even = |pace: f64| {
+            let x = mesh.even(pace * pace);
+            let problem = self.problem(&mesh, &margins, 0.0).ranged(&x, RANGES[0]);
+            (problem.keeps_rates(&x), problem.whole_cost(&x))
+        };
+        let mut pace = 1.0;
+        if self.limits().has_rates() && !even(1.0).0 && even(SLOWEST).0 {
+            let [mut low, mut high] = [SLOWEST.ln(), 0.0];
+            while high - low > CLOSELY {
+                let middle = f64::midpoint(low, high);
+                if even(middle.exp()).0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            pace = low.exp();
         }
-        while high - low > CLOSELY {
-            let middle = f64::midpoint(low, high);
-            if keeps_rates(middle.exp()) {
-                low = middle;
-            } else {
-                high = middle;
+        if self.price.heat > 0.0 {
+            let mut least = even(pace).1;
+            while pace > SLOWEST {
+                let cost = even(SLOWER * pace).1;
+                if cost >= least {
+                    break;
+                }
+                (least, pace) = (cost, SLOWER * pace);
             }
         }
-        self.unit = self.bound / low.exp();
+        self.unit = self.bound / pace;
         Ok(self)
     }
 
-    fn first(&self, shape: &Shape, borders: &[Border]) -> Result<Found, NoMotion> {
-        let mesh = self.mesh(shape, borders)?;
-        let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(&mesh, &margins);
-        let mut stuck = None;
-        let mut best: Option<(f64, Point)> = None;
-        // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
-        let fast = self.unit / self.bound;
-        for pace in STARTS.into_iter().flat_map(|pace| [pace * fast, pace]) {
-            match minimise(&problem, &mesh.even(pace * pace), ROUGH) {
-                Ok(point) => {
-                    let cost = problem.whole_cost(&point.x);
-                    if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                        best = Some((cost, point));
-                    }
-                }
-                Err(why) => stuck = stuck.or(Some(why)),
-            }
+    fn found(&self, mesh: Mesh, (point, range): (Point, f64), share: f64) -> Found {
+        let time = self.time(&mesh, &point.x);
+        Found {
+            mesh,
+            point,
+            time,
+            range,
+            share,
         }
-        if let Some((_, point)) = best {
-            let time = self.time(&mesh, &point.x);
-            return Ok(Found { mesh, point, time });
-        }
-        let stuck = stuck.filter(|stuck| stuck.missed > FEASIBLE);
-        let phi = stuck.map_or(self.ends.from, |stuck| {
-            mesh.stations[stuck.station].place.phi
-        });
-        let missed = stuck.map_or(0.0, |stuck| stuck.missed);
-        Err(self.not_found(stuck.and_then(|stuck| stuck.limit), phi, missed))
     }
 
     /// From another mesh; without margins if none are given.
@@ -341,21 +361,19 @@ impl Asked<'_> {
         before: &Found,
         margins: &[Margins],
         barrier: [f64; 2],
+        [range, share]: [f64; 2],
     ) -> Result<Result<Found, Stuck>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let none = vec![Margins::default(); mesh.elements.len()];
         let margins = if margins.is_empty() { &none } else { margins };
-        let problem = self.problem(&mesh, margins);
+        let problem = self.problem(&mesh, margins, range);
         let mut start = mesh.refined(&before.mesh, &before.point.x);
         if problem.at(&start).is_none() {
             start = mesh.levelled(&before.mesh, &before.point.x);
         }
         let point = minimise(&problem, &start, barrier)
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
-        Ok(point.map(|point| {
-            let time = self.time(&mesh, &point.x);
-            Found { mesh, point, time }
-        }))
+        Ok(point.map(|point| self.found(mesh, (point, range), share)))
     }
 
     /// The time (s).

@@ -149,11 +149,15 @@ pub(super) fn within<E>(
     };
     let mut least = free.load.rms;
     let mut best = None;
+    let mut stopped = false;
     for share in SHARES {
         let found = match try_at(share, false) {
             Ok(found) => found,
             // Where the time hardly counts any more, or less than nothing, there may be no slowest motion.
-            Err(_) if cheap[0] > 0.0 => break,
+            Err(_) if cheap[0] > 0.0 => {
+                stopped = true;
+                break;
+            }
             Err(why) => return Err(Refused::Move(why)),
         };
         let own = [share, over(&found)];
@@ -168,6 +172,7 @@ pub(super) fn within<E>(
         return Err(Refused::Limit(NoMotion::RmsTooLarge {
             rms: least,
             allowed: limit,
+            stopped,
             unit,
         }));
     };

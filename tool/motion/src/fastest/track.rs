@@ -154,7 +154,7 @@ impl Track {
             if (x - border).abs() > 0.0 {
                 // What goes on beyond the border has no step there.
                 let there = field.tool_speed(ends.from + direction * border)?;
-                if (there - tool).abs() <= GOES_ON * tool {
+                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
                     tool = there;
                 }
             }

@@ -122,6 +122,9 @@ pub(crate) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
     ]
 }
 
+/// How a ramp rises: ever more slowly, as the acceleration of the laws does, in straight lines through these shares of its length and height.
+const RISE: [[f64; 2]; 1] = [[0.5, 0.75]];
+
 /// How the slopes at a node are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Node {
@@ -131,9 +134,13 @@ enum Node {
     Edge,
 }
 
-/// Elements of a motion whose acceleration is continuous: as many as the ramp, the first of them, goes into the whole.
-pub(super) fn ramps(ramp: f64) -> usize {
-    ((1.0 / ramp).round() as usize).max(4)
+/// The elements of a motion whose acceleration is continuous: the ramps, and between them as many as are about as long as the ramp that is asked for.
+fn ramped([first, last]: [f64; 2], asked: f64) -> Vec<(f64, Node)> {
+    let between = 1.0 - first - last;
+    let count = (1.0 / asked - 2.0).round().max(2.0);
+    let inner = (0..=count as usize).map(|k| first + between * k as f64 / count);
+    let all = std::iter::once(0.0).chain(inner).chain([1.0]);
+    all.map(|u| (u, Node::Smooth)).collect()
 }
 
 impl Mesh {
@@ -142,17 +149,17 @@ impl Mesh {
     pub(super) fn new(
         way: &Way,
         travel: &Travel,
-        edges: &[f64],
-        parts: usize,
+        ramps: [f64; 2],
+        (edges, parts): (&[f64], usize),
     ) -> Result<Self, Error> {
         let ends = travel.ends();
-        let shape = Shape::new(ends);
+        let shape = Shape::with_ramps(ends.rest, ramps, &RISE);
         let marks = edges.iter().map(|share| shape.place(*share));
+        let bends = shape.knots().filter(|_| ends.ramp > 0.0);
+        let marks = marks.chain(bends);
         let fine = nodes(marks.collect(), parts);
         let nodes = if ends.ramp > 0.0 {
-            let count = ramps(ends.ramp);
-            let node = |k: usize| (k as f64 / count as f64, Node::Smooth);
-            (0..=count).map(node).collect()
+            ramped(ramps, ends.ramp)
         } else {
             fine.clone()
         };
@@ -325,16 +332,28 @@ fn elements(
             continue;
         }
         if let Some(end) = end.filter(|end| !ends.rest[*end]) {
-            // At an end that moves, the speed is given, and with ramps the acceleration is zero.
+            // At an end that moves, the speed is given, and with ramps the acceleration.
             let [_, slope, bend] = shape.at(*u);
-            let pace = travel.speeds[end] * travel.duration / (travel.distance.abs() * slope);
+            let per_way = travel.duration / travel.distance.abs();
+            let pace = travel.speeds[end] * per_way / slope;
             let w = pace * pace;
             let change = if ends.ramp > 0.0 {
-                Value::Fixed(-2.0 * bend * w / slope)
+                let rise = travel.accelerations[end] * travel.duration * per_way;
+                Value::Fixed(2.0 * (rise - bend * w) / slope)
             } else {
                 next()
             };
             all.push([change, Value::Fixed(w), change]);
+            continue;
+        }
+        let of_ramp = [(k <= 1, 1, 0), (k + 1 >= last, last - 1, 1)];
+        let is_ramp = |end: usize| ends.ramp > 0.0 && ends.rest[end];
+        let mut of_ramp = of_ramp.into_iter();
+        if let Some((_, border, end)) = of_ramp.find(|(near, _, end)| *near && is_ramp(*end)) {
+            // In a ramp the pace is even, as fast as it takes its share of the time.
+            let length = (nodes[border].0 - end as f64).abs();
+            let pace = length / ends.ramp;
+            all.push([level, Value::Fixed(pace * pace), level]);
             continue;
         }
         all.push(match kind {

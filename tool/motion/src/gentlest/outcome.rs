@@ -23,7 +23,12 @@ impl Waits {
         Self {
             duration,
             at_end,
-            torque: held[usize::from(at_end)],
+            // At an end that moves nothing is held, and it never waits.
+            torque: if duration > 0.0 {
+                held[usize::from(at_end)]
+            } else {
+                0.0
+            },
         }
     }
 }
@@ -75,9 +80,12 @@ impl Solved<'_> {
         };
         let cost = size * moving * cost + held;
         let convex = !viscous && !scale.bends && multiplier >= -1e-9 * found.cost;
-        let proved = convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
+        let proved =
+            found.converged && convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
         let optimum = if proved {
             Optimum::Global
+        } else if !found.converged {
+            Optimum::Local(Reason::Ended)
         } else if viscous {
             Optimum::Local(Reason::Viscous)
         } else if scale.bends {

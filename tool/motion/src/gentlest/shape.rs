@@ -15,17 +15,32 @@ pub(crate) struct Shape {
 impl Shape {
     /// For ends at rest (or not), with ramps of the acceleration over a share of u (or none).
     pub(crate) fn new(ends: Ends) -> Self {
-        let [starts, stops] = ends.rest;
-        let ramp = ends.ramp;
+        Self::with_ramps(ends.rest, [ends.ramp; 2], &[])
+    }
+
+    /// The same with a ramp for each end, or none at both, which passes these shares of its height at these shares of its length: a straight one passes none.
+    pub(super) fn with_ramps(
+        [starts, stops]: [bool; 2],
+        [first_ramp, last_ramp]: [f64; 2],
+        passes: &[[f64; 2]],
+    ) -> Self {
+        let ramp = first_ramp.max(last_ramp);
         // The second derivative is a straight line between these.
         let mut knots: Vec<[f64; 2]> = Vec::new();
         if ramp > 0.0 && starts {
             knots.push([0.0, 0.0]);
+            knots.extend(
+                passes
+                    .iter()
+                    .map(|[share, height]| [share * first_ramp, *height]),
+            );
         }
-        let from = if starts { ramp } else { 0.0 };
-        let to = if stops { 1.0 - ramp } else { 1.0 };
+        let from = if starts { first_ramp } else { 0.0 };
+        let to = if stops { 1.0 - last_ramp } else { 1.0 };
+        // Between two rests the slope ends as it begins.
+        let area = |ramp: f64| ramp * rise(passes) + 0.5 * (to - from);
         let (first, last) = match (starts, stops) {
-            (true, true) => (1.0, -1.0),
+            (true, true) => (1.0, -area(first_ramp) / area(last_ramp)),
             (true, false) => (1.0, 1.0),
             (false, true) => (-1.0, -1.0),
             (false, false) => (0.0, 0.0),
@@ -33,6 +48,8 @@ impl Shape {
         knots.push([from, first]);
         knots.push([to, last]);
         if ramp > 0.0 && stops {
+            let back = passes.iter().rev();
+            knots.extend(back.map(|[share, height]| [1.0 - share * last_ramp, last * height]));
             knots.push([1.0, 0.0]);
         }
         let change: f64 = knots
@@ -105,6 +122,17 @@ impl Shape {
         }
         0.5 * (low + high)
     }
+}
+
+/// The area under a ramp of length and height one that passes these places.
+fn rise(passes: &[[f64; 2]]) -> f64 {
+    let mut area = 0.0;
+    let mut before = [0.0, 0.0];
+    for &[share, height] in passes.iter().chain(&[[1.0, 1.0]]) {
+        area += 0.5 * (share - before[0]) * (height + before[1]);
+        before = [share, height];
+    }
+    area
 }
 
 #[cfg(test)]

@@ -236,6 +236,13 @@ impl Problem<'_> {
         )
     }
 
+    /// The largest torque (N·m) at the stations.
+    pub(super) fn peak(&self, x: &[f64]) -> f64 {
+        let torques =
+            (0..self.mesh.stations.len()).map(|index| self.torque(x, index).1.value.abs());
+        torques.fold(0.0, f64::max)
+    }
+
     /// Speed and acceleration.
     pub(super) fn state(&self, [slope, bend]: [f64; 2], w: f64, change: f64) -> [f64; 2] {
         let t = self.duration;

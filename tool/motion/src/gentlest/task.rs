@@ -70,11 +70,14 @@ fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
 }
 
 /// A move with its objective.
+#[derive(Clone)]
 pub(super) struct Task<'a> {
     pub(super) way: &'a Way<'a>,
     pub(super) travel: &'a Travel,
     pub(super) objective: Objective,
     pub(super) edges: Vec<f64>,
+    /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it begins and ends with a jump.
+    pub(super) ramps: [f64; 2],
 }
 
 /// One of the problems that are solved one after another, the last of which is meant.
@@ -108,13 +111,21 @@ pub(super) struct Solved<'t> {
 }
 
 impl Task<'_> {
-    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted.
+    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted. Infinite at an
+    /// end that moves: there it cannot wait.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
-        let torque = |phi: f64| self.way.holding_at(phi);
+        let rest = self.travel.ends().rest;
+        let torque = |end: usize, phi: f64| {
+            if rest[end] {
+                self.way.holding_at(phi)
+            } else {
+                Ok(f64::INFINITY)
+            }
+        };
         let Travel {
             start, distance, ..
         } = *self.travel;
-        Ok([torque(start)?, torque(start + distance)?])
+        Ok([torque(0, start)?, torque(1, start + distance)?])
     }
 
     /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
@@ -260,7 +271,7 @@ impl Task<'_> {
             duration: moving,
             ..*self.travel
         };
-        let mesh = Mesh::new(self.way, &travel, &self.edges, parts)?;
+        let mesh = Mesh::new(self.way, &travel, self.ramps, (&self.edges, parts))?;
         let scale = self.scale(&mesh, moving)?;
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
@@ -268,6 +279,8 @@ impl Task<'_> {
             .and_then(|from| at(&goal, &refined(&from.mesh, &from.found.x, &mesh)))
             .filter(|found| found.converged)
             .map(|found| (goal, found));
+        // Of the peak any motion will do that is better than an even one, though the search did not come to its end.
+        let mut rough: Option<(f64, Stage, Minimum)> = None;
         if kept.is_none() {
             let mut x = mesh.sample(|_, _| [1.0, 0.0]);
             let stages = Self::stages(&scale, &goal);
@@ -276,13 +289,26 @@ impl Task<'_> {
                 let Some(found) = at(&stage, &x) else {
                     continue;
                 };
-                x.clone_from(&found.x);
+                if self.objective == Objective::Peak {
+                    let peak = self.problem(&mesh, moving, &scale, &stage).peak(&found.x);
+                    if rough.as_ref().is_none_or(|(least, ..)| peak < *least) {
+                        rough = Some((peak, stage, found.clone()));
+                    }
+                }
+                // The next power begins with what was found, or anew.
+                if found.converged || stage.cost.power == goal.cost.power {
+                    x.clone_from(&found.x);
+                }
                 if found.converged && (number == last || self.serves(&stage)) {
                     kept = Some((stage, found));
                 }
             }
         }
-        Ok(kept.map(|(stage, found)| Solved {
+        let rough = rough.map(|(_, stage, found)| {
+            let converged = false;
+            (stage, Minimum { converged, ..found })
+        });
+        Ok(kept.or(rough).map(|(stage, found)| Solved {
             task: self,
             moving,
             scale,
@@ -329,6 +355,22 @@ impl Task<'_> {
 }
 
 impl Solved<'_> {
+    /// Whether it is to be taken for the one from a coarser mesh.
+    pub(super) fn follows(&self, before: &Self) -> bool {
+        let peak = |solved: &Self| {
+            let problem =
+                (solved.task).problem(&solved.mesh, solved.moving, &solved.scale, &solved.stage);
+            problem.peak(&solved.found.x)
+        };
+        match [before, self].map(|solved| solved.found.converged) {
+            [true, false] => false,
+            [_, true] => {
+                self.stage.cost.power >= before.stage.cost.power || !before.found.converged
+            }
+            [false, false] => peak(self) < peak(before),
+        }
+    }
+
     /// What a second more costs above what a second of holding costs, in numbers of its own.
     fn excess(&self, held: &[f64; 2]) -> f64 {
         let least = held.map(f64::abs).into_iter().fold(f64::INFINITY, f64::min);

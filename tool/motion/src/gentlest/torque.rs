@@ -23,6 +23,9 @@ pub(crate) struct Torque {
 /// Shares of the slopes that differ by less are one.
 const STRAIGHT: f64 = 1e-9;
 
+/// Most bends in one range: of loads so large that their last digits are more than the range there would be any number.
+const MOST_BENDS: u32 = 8;
+
 impl Torque {
     /// Without rounding.
     pub(super) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
@@ -95,7 +98,7 @@ impl Torque {
                 ..low
             };
         }
-        let [value, by_acceleration] = mean([-range, range], [low, high], &at);
+        let [value, by_acceleration] = mean([-range, range], [low, high], &at, MOST_BENDS);
         Self {
             value,
             by_load: 0.5 * (high.value - low.value) / range,
@@ -108,7 +111,12 @@ impl Torque {
 
 /// The means of the torque and of its slope by the acceleration over loads from one to another, where it is `ends`: straight lines, in each of
 /// which power flows one way. A machine with two lossy stages has two bends, which may lie in the same range.
-fn mean([from, to]: [f64; 2], ends: [Torque; 2], at: &impl Fn(f64) -> Torque) -> [f64; 2] {
+fn mean(
+    [from, to]: [f64; 2],
+    ends: [Torque; 2],
+    at: &impl Fn(f64) -> Torque,
+    bends: u32,
+) -> [f64; 2] {
     let [low, high] = ends;
     let width = to - from;
     let rise = high.by_load - low.by_load;
@@ -120,10 +128,10 @@ fn mean([from, to]: [f64; 2], ends: [Torque; 2], at: &impl Fn(f64) -> Torque) ->
     let right = width - left;
     let corner = low.value + low.by_load * left;
     let between = at(from + left);
-    let [first, last] = if between.value > corner + STRAIGHT * rise * width {
+    let [first, last] = if bends > 1 && between.value > corner + STRAIGHT * rise * width {
         [
-            mean([from, from + left], [low, between], at),
-            mean([from + left, to], [between, high], at),
+            mean([from, from + left], [low, between], at, bends - 1),
+            mean([from + left, to], [between, high], at, bends - 1),
         ]
     } else {
         [

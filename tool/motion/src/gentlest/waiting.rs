@@ -107,7 +107,15 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
             found.push(least(size, at(k) - aside, at(k + 1))?);
         }
     }
-    let [first, last] = [torques[0], torques[LOOKS as usize]].map(f64::abs);
+    let rest = travel.ends().rest;
+    let at_ends = [torques[0], torques[LOOKS as usize]];
+    let [first, last] = [0, 1].map(|end| {
+        if rest[end] {
+            at_ends[end].abs()
+        } else {
+            f64::INFINITY
+        }
+    });
     let (end, at_end) = if last <= first {
         (travel.start + travel.distance, last)
     } else {
@@ -118,11 +126,15 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
         all.push((phi, way.holding_at(phi)?.abs()));
     }
     // A place that takes more than an end is none.
-    all.retain(|(_, torque)| travel.ring || *torque <= at_end);
+    all.retain(|(_, torque)| *torque <= at_end);
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all.truncate(MOST);
-    if !travel.ring {
+    if at_end.is_finite() {
         all.push((end, at_end));
+    } else if all.is_empty() && !travel.ring {
+        // Where holding takes the same everywhere, one place is as good as another.
+        let middle = travel.start + 0.5 * travel.distance;
+        all.push((middle, way.holding_at(middle)?.abs()));
     }
     Ok(all)
 }
@@ -140,10 +152,16 @@ fn waiting_at(
 ) -> Option<Gentle> {
     let end = travel.start + travel.distance;
     let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
+        let at = |values: [f64; 2]| {
+            let kept = |k: usize, whole: f64| if is(ends[k], whole) { values[k] } else { 0.0 };
+            [kept(0, travel.start), kept(1, end)]
+        };
         let part = Travel {
             start: ends[0],
             distance: ends[1] - ends[0],
             duration,
+            speeds: at(travel.speeds),
+            accelerations: at(travel.accelerations),
             ..*travel
         };
         from_end_to_end(way, &part, objective, must_wait).ok()

@@ -10,17 +10,14 @@ use crate::trace::{Node, Trace};
 /// The motion as nodes.
 pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Trace {
     let coordinate = file.machine.mechanism().coordinate();
-    let mut trace = Trace::new(coordinate, Vec::new());
+    let start = parts.first().map_or(0.0, Part::from);
+    let mut trace = Trace::from_rest(coordinate, start);
     let mut moves = moves.iter();
     for part in parts {
         match part {
-            Part::Dwell { at, duration } => {
-                if trace.nodes().is_empty() {
-                    trace = Trace::from_rest(coordinate, *at);
-                }
-                trace.dwell(*duration);
-            }
-            Part::Move(step) => {
+            Part::Dwell { duration, .. } => trace.dwell(*duration),
+            Part::Kept(kept) => trace.then(kept.nodes()),
+            Part::Move(step) | Part::Passing(step, _) => {
                 let phases = moves.next().map_or(&[][..], |gentle| &gentle.phases);
                 trace.then(&nodes(step.from, phases));
             }

@@ -1,12 +1,14 @@
 //! Limited jerk.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use jred_motion::fastest::{
     Binding, Fastest, Limits, NoMotion, Task, ToolSpeed, ToolSpeeds, solve,
 };
 
 use jred_motion::trace::Node;
+use jred_motion::way::Actuator;
+use jred_sizing::cycle::form::Coefficients;
 
 use super::{close, motor, table, task};
 use crate::support::press_file;
@@ -15,7 +17,22 @@ use crate::support::press_file;
 pub(super) const NEAR: f64 = 1e-6;
 
 /// Limits hold between the nodes.
-const WITHIN: f64 = 1e-6;
+pub(super) const WITHIN: f64 = 1e-6;
+
+/// Last digits of two speeds in what the accelerations between them change by.
+pub(super) const ROUNDING: f64 = 12.0 * f64::EPSILON;
+
+/// Speed, acceleration and way at a share of a step: the speed is the cubic through both speeds and accelerations.
+pub(super) fn cubic(a: &Node, b: &Node, share: f64) -> [f64; 3] {
+    let (s, h) = (share, b.step);
+    let [rise, first, last] = [b.omega - a.omega, a.alpha[1] * h, b.alpha[0] * h];
+    let [square, cube] = [3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise];
+    [
+        a.omega + s * (first + s * (square + s * cube)),
+        (first + s * (2.0 * square + 3.0 * s * cube)) / h,
+        h * s * (a.omega + s * (first / 2.0 + s * (square / 3.0 + s * cube / 4.0))),
+    ]
+}
 
 /// The duration from rest to rest of seven segments: v = j·t₁·(t₁ + t₂), d = v·(2·t₁ + t₂ + t₃).
 pub(super) fn seven(distance: f64, speed: f64, acceleration: f64, jerk: f64) -> f64 {
@@ -46,7 +63,7 @@ fn limited(speed: f64, acceleration: f64, jerk: f64) -> Limits {
 
 pub(super) fn smooth(
     file: &jred_machine::model::machine::MachineFile,
-    motor: &jred_motion::way::Actuator,
+    motor: &Actuator,
     asked: &Task,
 ) -> Fastest {
     let found = solve(file, motor, asked).unwrap_or_else(|why| panic!("{why}"));
@@ -65,7 +82,7 @@ pub(super) fn smooth(
         "{} below {bound}",
         found.time
     );
-    // The acceleration has no jumps, and its mean slope is within the limit.
+    // The acceleration has no jumps, and its slope is within the limit at both ends of a step, between which it changes evenly.
     let jerk = asked.limits.jerk.unwrap_or(f64::INFINITY);
     for pair in nodes.windows(2) {
         let [a, b] = [pair[0], pair[1]];
@@ -73,12 +90,19 @@ pub(super) fn smooth(
             (a.alpha[1] - a.alpha[0]).abs() <= 1e-6 * asked_acceleration(&found),
             "{a:?}"
         );
-        let slope = (b.alpha[0] - a.alpha[1]) / b.step;
-        assert!(
-            slope.abs() <= jerk * (1.0 + 2.0 * WITHIN),
-            "{slope} at {}",
-            a.t
-        );
+        let rounding = ROUNDING * (a.omega.abs() + b.omega.abs()) / (b.step * b.step);
+        let [rise, first, last] = [b.omega - a.omega, a.alpha[1], b.alpha[0]].map(|x| x / b.step);
+        let mean = rise / b.step;
+        for slope in [
+            6.0 * mean - 4.0 * first - 2.0 * last,
+            2.0 * first + 4.0 * last - 6.0 * mean,
+        ] {
+            assert!(
+                slope.abs() <= jerk * (1.0 + WITHIN) + rounding,
+                "{slope} at {}",
+                a.t
+            );
+        }
     }
     found
 }
@@ -254,7 +278,7 @@ fn a_tool_speed_with_a_limited_jerk() {
     let slider = (mechanism.link_names().iter())
         .position(|name| name == "slider")
         .unwrap();
-    let between = [1.8 * std::f64::consts::PI, TAU];
+    let between = [1.8 * PI, TAU];
     let tool = ToolSpeed::new(mechanism, (slider, [0.0; 2]), 0.2, between);
     let tool = ToolSpeeds::from(tool.unwrap().unwrap());
     let motor = motor([300.0, 200.0], 90.0);
@@ -280,6 +304,61 @@ fn a_tool_speed_with_a_limited_jerk() {
     let share = |node: &Node| node.omega / limit(node.phi);
     let most = both.trace.nodes().iter().map(share).fold(0.0, f64::max);
     assert!((most - 1.0).abs() <= WITHIN, "{most}");
+}
+
+/// A press behind a gearbox, whose borders lie close together.
+#[test]
+fn the_jerk_is_kept_inside_the_steps() {
+    let file = jred_machine::read::read(&press_file()).unwrap();
+    let drive = Actuator {
+        coefficients: Coefficients([3.2e-3, 0.25 / 0.96, 0.25 * 0.96, 0.0, 0.0]),
+        ratio: 4.0,
+        ..motor([24.0, 10.0], 314.0)
+    };
+    for jerk in [2e4, 2e5] {
+        let asked = Task {
+            limits: Limits {
+                jerk: Some(jerk),
+                level_ends: true,
+                ..Limits::default()
+            },
+            ..task(PI, 3.0 * PI)
+        };
+        smooth(&file, &drive, &asked);
+    }
+}
+
+/// Where torque and acceleration have the same limit, the phase is one.
+#[test]
+fn a_phase_at_two_limits_is_one() {
+    let file = table(1.0, "");
+    let asked = Task {
+        limits: limited(5.0, 20.0, 200.0),
+        ..task(0.0, TAU)
+    };
+    let found = smooth(&file, &motor([20.0; 2], 1e3), &asked);
+    assert_eq!(found.phases.len(), 7, "{:?}", found.phases);
+}
+
+/// Where a torque is in the way of a limited jerk, the jerk is among the cures.
+#[test]
+fn the_cure_names_the_jerk() {
+    let path = press_file().with_file_name("eccentric-press.toml");
+    let file = jred_machine::read::read(&path).unwrap();
+    let asked = Task {
+        limits: Limits {
+            jerk: Some(500.0),
+            level_ends: true,
+            ..Limits::default()
+        },
+        ..task(0.0, 10.0 * TAU)
+    };
+    let refused = solve(&file, &motor([30.0; 2], 104.7), &asked).unwrap_err();
+    let cure = refused.cure();
+    assert!(
+        cure.contains("--max-jerk") && cure.contains("torque"),
+        "{cure}"
+    );
 }
 
 /// Too little way to slow down in: the message names the limit and the place.

@@ -1,11 +1,15 @@
 //! The RMS torque as a limit.
 
+use std::f64::consts::{PI, TAU};
+
 use jred_motion::fastest::cycle::{cycle, single};
 use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
+use jred_motion::gentlest::{Objective, Travel, gentlest};
 use jred_motion::moves::{Move, Part};
+use jred_motion::way::Way;
 
 use super::{close, motor, table, task};
-use crate::support::press_file;
+use crate::support::{edited_press, press_file};
 
 /// Of a constant inertia without friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls in a straight line.
 #[test]
@@ -181,6 +185,38 @@ fn a_held_weight_bears_a_limit_near_itself() {
         matches!(refused, Err(NoMotion::RmsTooLarge { .. })),
         "{refused:?}"
     );
+}
+
+/// A peak torque and a speed that are far away change nothing: a belt's bends are rounded over the loads that occur.
+#[test]
+fn a_torque_that_does_not_bind_changes_nothing() {
+    let text = edited_press("efficiency = \"97 %\"", "efficiency = \"60 %\"");
+    let file = super::machine(&text);
+    let times = [60.0, 200.0, 5e3].map(|torque| {
+        let asked = task(PI, 3.0 * PI);
+        let found = single(
+            &file,
+            &motor([torque; 2], 942.0),
+            asked,
+            Some(Rms::Torque(7.942)),
+        );
+        found.unwrap().trace.duration()
+    });
+    // The least RMS torque in that time, by the other search.
+    let way = Way::new(&file, motor([60.0; 2], 942.0), 1.0);
+    let travel = Travel {
+        start: PI,
+        distance: TAU,
+        duration: times[0],
+        speeds: [0.0; 2],
+        accelerations: [0.0; 2],
+        ramp: 0.0,
+        ring: false,
+    };
+    let least = gentlest(&way, &travel, Objective::Rms).unwrap();
+    close((least.cost / times[0]).sqrt(), 7.942, 1e-5);
+    close(times[1], times[0], 1e-6);
+    close(times[2], times[0], 1e-6);
 }
 
 /// A press with losses, friction and a falling torque: a tighter limit takes longer, and one that hardly acts takes as long as none.

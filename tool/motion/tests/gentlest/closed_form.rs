@@ -102,7 +102,7 @@ fn an_endless_turn_keeps_its_energy() {
     let file = crank("");
     let motion = Motion::constant_speed(0.0, TAU, TAU);
     let found = retime(&file, &motion, &request(Goal::Rms, 0.0)).unwrap();
-    assert!(found.endless);
+    assert!(found.chain.endless);
     assert!(found.best.rms < 1e-5 * found.own.rms, "{:?}", found.best);
     let even = &found.laws[1].figures;
     assert!(even.rms < 1e-6 * found.own.rms, "{even:?}");

@@ -153,3 +153,17 @@ fn no_law_has_a_lower_peak() {
         }
     }
 }
+
+/// Where the search for the lowest peak of a turn does not come to its end, there is the best that was found, at least as good as the classical motions, and
+/// it is not called global.
+#[test]
+fn a_search_that_does_not_end_gives_its_best() {
+    for name in ["shaper", "whitworth", "linkage-four-bar"] {
+        let found = retimed(&example(name, &[]), Goal::Peak, 0.0);
+        assert!(found.best.peak <= found.own.peak * (1.0 + 1e-9), "{name}");
+        for row in &found.laws {
+            assert!(found.best.peak <= row.figures.peak * (1.0 + 1e-9), "{name}");
+        }
+        assert_ne!(found.optimum(), Optimum::Global, "{name}");
+    }
+}

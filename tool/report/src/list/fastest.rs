@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value, json};
 
 use super::contact::of_fastest;
+use crate::list::kept;
 use crate::table::output::{Format, json_parts, parts};
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -19,6 +20,8 @@ use jred_motion::contact::Broken;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::Reached;
+use jred_motion::moves::Chain;
+use jred_motion::trace::Node;
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
@@ -48,6 +51,8 @@ pub struct Answer<'a> {
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
+    /// What the motion of the file is made of, if that was asked for.
+    pub chain: Option<&'a Chain>,
     /// Temperatures of the winding, where they are limited.
     pub warmth: Option<&'a Warmth>,
     /// The largest forces in the joints whose force is limited.
@@ -127,6 +132,10 @@ impl Answer<'_> {
         let moves = counted(cycle.moves.len(), "move", "moves");
         let moving: f64 = cycle.moves.iter().map(|made| made.fastest.time).sum();
         let mut says = format!("{} s: {moves} in {} s", short(whole), short(moving));
+        let kept: f64 = cycle.kept.iter().map(|part| part.kept.duration).sum();
+        if kept > 0.0 {
+            let _ = write!(says, ", {} s kept", short(kept));
+        }
         if cycle.dwells > 0.0 {
             let _ = write!(says, ", {} s at rest", short(cycle.dwells));
         }
@@ -142,6 +151,17 @@ impl Answer<'_> {
         line(&mut text, "duration", &says);
         if !self.asked.is_empty() {
             line(&mut text, "asked for", &self.asked.join("; "));
+        }
+        if let Some(chain) = self.chain {
+            for (name, says) in kept::lines(self.file, chain) {
+                line(&mut text, name, &says);
+            }
+            if let Some(says) = kept::limits(self.file, Some(&self.asked)) {
+                line(&mut text, "limits", &says);
+            }
+        }
+        for part in &self.cycle.kept {
+            self.exceeded(part, &mut text);
         }
         self.motor(&mut text);
         if let Some(warmth) = self.warmth {
@@ -194,9 +214,18 @@ impl Answer<'_> {
         text
     }
 
-    /// Whether the motion turns for ever.
+    /// Whether the motion turns for ever without rest.
     fn is_endless(&self) -> bool {
-        self.cycle.moves.iter().any(|made| made.task.endless)
+        let mut nodes = self.cycle.trace.nodes().iter();
+        self.chain.is_some() && nodes.all(|node| node.omega != 0.0)
+    }
+
+    /// Whether it is one move that ends in motion, and whether it is one that begins or ends so: such a move is not repeated.
+    fn passes(&self) -> [bool; 2] {
+        let nodes = self.cycle.trace.nodes();
+        let moves = |node: Option<&Node>| node.is_some_and(|node| node.omega != 0.0);
+        let [begins, ends] = [moves(nodes.first()), moves(nodes.last())];
+        [ends, begins || ends].map(|passes| passes && self.chain.is_none())
     }
 
     fn json(&self) -> Map<String, Value> {
@@ -257,6 +286,9 @@ impl Answer<'_> {
             .map(|made| move_json(made, &axis, self.file))
             .collect();
         map.insert("moves".into(), moves.into());
+        if let Some(chain) = self.chain {
+            map.insert("kept".into(), kept::json(self.file, chain));
+        }
         map
     }
 }

@@ -8,6 +8,7 @@ pub mod contact;
 pub mod fastest;
 pub mod front;
 pub mod inspection;
+pub mod kept;
 pub mod listing;
 pub mod plan;
 pub mod ratio;

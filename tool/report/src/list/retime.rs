@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value, json};
 
 use super::contact::of_retime;
+use crate::list::kept;
 use crate::table::output::Format;
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
@@ -13,7 +14,7 @@ use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
 use jred_motion::contact::Broken;
 use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
-use jred_motion::retime::{Figures, Goal, Request, Retimed};
+use jred_motion::retime::{Figures, Goal, LAWS, Request, Retimed};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
@@ -159,16 +160,16 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     } = shown;
     let best = retimed.best.of(request.goal);
     let mut says = format!(
-        "{} {}: {} as in the file",
+        "{} {}: {} in the file",
         short(best),
         unit(request.goal, words),
         less(best, retimed.own.of(request.goal))
     );
     if let Some(law) = retimed.best_law(request.goal) {
-        let of = if retimed.endless {
-            "as with"
+        let of = if retimed.laws.len() == LAWS.len() {
+            "with the best law,"
         } else {
-            "as with the best law,"
+            "with"
         };
         let _ = write!(
             says,
@@ -179,6 +180,12 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     }
     line(text, "least", &says);
     line(text, "optimum", &optimum(shown, words));
+    for (name, says) in kept::lines(shown.file, &retimed.chain) {
+        line(text, name, &says);
+    }
+    if let Some(says) = kept::limits(shown.file, None) {
+        line(text, "limits", &says);
+    }
     for (k, gentle) in retimed.moves.iter().enumerate() {
         line(
             text,
@@ -267,10 +274,12 @@ fn optimum(shown: &Shown, words: &Vocabulary) -> String {
             format!("global: the problem is convex, no motion of these moves{of} takes less")
         }
         (Optimum::Local(reason), bound) => {
-            let mut says = format!(
-                "local: no motion near it takes less; of others this is not proved because {}",
-                why(reason)
-            );
+            let near = if reason == Reason::Ended {
+                "local: the best motion that was found; that none takes less is not proved because"
+            } else {
+                "local: no motion near it takes less; of others this is not proved because"
+            };
+            let mut says = format!("{near} {}", why(reason));
             if let Some((bound, _)) = bound {
                 let _ = write!(says, "; none takes less than {bound} {unit}");
             }
@@ -286,6 +295,7 @@ const fn why(reason: Reason) -> &'static str {
         }
         Reason::Viscous => "viscous friction makes the problem non-convex",
         Reason::Losses => "the losses of gears make the problem non-convex",
+        Reason::Ended => "the search did not come to its end",
         Reason::Bound => "the lower bound is not close enough",
         Reason::Written => "the motion takes more than the search counted",
     }
@@ -301,7 +311,12 @@ fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
         short(travel.duration)
     );
     if let Some(law) = gentle.law {
-        let _ = write!(says, ": the law {law}");
+        let kind = if LAWS.iter().any(|(name, _)| *name == law) {
+            "the law "
+        } else {
+            ""
+        };
+        let _ = write!(says, ": {kind}{law}");
     }
     let waits = travel.duration - gentle.moving;
     if waits > 0.0 {
@@ -413,6 +428,7 @@ fn json(shown: &Shown) -> Value {
         })
     });
     map.insert("moves".into(), moves.collect());
+    map.insert("kept".into(), kept::json(shown.file, &retimed.chain));
     let trace = retimed.trace.of_axis(&axis);
     let nodes = trace.nodes().iter();
     let nodes =

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::table::output::{Format, json_parts, parts};
-use jred_machine::analysis::simulate::{Simulated, Together, beside_name};
+use jred_machine::analysis::simulate::{Effort, Rest, Simulated, Stop, Together, beside_name};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -21,6 +21,8 @@ pub struct Shown<'s> {
     pub simulation: &'s Simulation,
     /// The motion.
     pub found: &'s Simulated,
+    /// Stops at instants over a cycle.
+    pub stops: Option<&'s [Stop]>,
     /// The drive of the catalogue: its name, and what it bears.
     pub drive: Option<(&'s str, &'s Loads)>,
 }
@@ -59,6 +61,11 @@ impl<'s> Shown<'s> {
         );
         let beside = self.machines.beside_in_words();
         format!("{} with {motor}{beside}", self.kind())
+    }
+
+    /// A title, and below it what happened.
+    pub(crate) fn summary(&self) -> String {
+        [self.title(), self.sentences().join("\n")].join("\n\n")
     }
 
     fn title(&self) -> String {
@@ -107,7 +114,43 @@ impl<'s> Shown<'s> {
         }
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
+        lines.extend(self.worst_stop(&axis));
         lines
+    }
+
+    /// The longest of the stops over a cycle.
+    fn worst_stop(&self, axis: &Axis) -> Option<String> {
+        let stops = self.stops?;
+        let count = stops.len();
+        let unit = axis.coordinate.unit();
+        let from = |stop: &Stop| {
+            format!(
+                "switched off at {} s, {}",
+                short(stop.time),
+                axis.place(stop.position)
+            )
+        };
+        if let Some(moving) = stops.iter().find(|stop| stop.rest.is_none()) {
+            return Some(format!(
+                "warning: of {count} instants over the cycle before, {} the machine has not come to rest by the end",
+                from(moving)
+            ));
+        }
+        let longest = |of: fn(&Rest) -> f64| {
+            let rests = stops.iter().filter_map(|stop| Some((stop, stop.rest?)));
+            rests.max_by(|a, b| of(&a.1).total_cmp(&of(&b.1)))
+        };
+        let (far, way) = longest(|rest| rest.way.abs())?;
+        let (slow, time) = longest(|rest| rest.time)?;
+        Some(format!(
+            "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
+            self.way(axis, way.way),
+            short(way.time),
+            from(far),
+            short(time.time),
+            self.way(axis, time.way),
+            from(slow)
+        ))
     }
 
     /// What acts, is carried and moves by the clock of `[motion]`, of each machine.
@@ -232,6 +275,18 @@ impl<'s> Shown<'s> {
             );
             add("rest", json!(rest));
         }
+        if let Some(stops) = self.stops {
+            let stop = |stop: &Stop| {
+                json!({
+                    "time [s]": stop.time,
+                    &position: axis.shown(stop.position),
+                    "to rest [s]": stop.rest.map(|rest| rest.time),
+                    way.as_str(): stop.rest.map(|rest| axis.shown_way(rest.way)),
+                })
+            };
+            let all: Vec<Value> = stops.iter().map(stop).collect();
+            add("stops_over_the_cycle", all.into());
+        }
         if let Some(held) = self.found.held {
             let held = json!({ "time [s]": held.time, way.as_str(): axis.shown_way(held.way) });
             add("held", held);
@@ -243,20 +298,7 @@ impl<'s> Shown<'s> {
             add("reached", json!(reached));
         }
         if let Some(effort) = self.found.effort {
-            let unit = self.effort_unit();
-            let most = |[value, time]: [f64; 2], scale: f64, unit: &str| json!({ format!("largest [{unit}]"): value * scale, "time [s]": time });
-            let (scale, speed) = if self.slides() {
-                (1.0, "m/s")
-            } else {
-                (1.0 / RPM, "rpm")
-            };
-            let motor = json!({
-                "effort": most(effort.torque, 1.0, unit),
-                format!("RMS [{unit}]"): effort.rms,
-                "power": most(effort.power, 1.0, "W"),
-                "speed": most(effort.speed, scale, speed),
-            });
-            add("motor", motor);
+            add("motor", self.motor(&effort));
         }
         if let Some(stuck) = self.found.missing {
             let effort = self.effort_unit();
@@ -288,39 +330,62 @@ impl<'s> Shown<'s> {
             );
         }
         if let Some((name, loads)) = self.drive {
-            let peak = |peak: &Peak, scale: f64, unit: &str| {
-                json!({
-                    "time [s]": peak.time,
-                    &position: axis.shown(peak.phi),
-                    format!("largest [{unit}]"): peak.value * scale,
-                    format!("allowed [{unit}]"): peak.allowed.map(|allowed| allowed * scale),
-                })
-            };
-            let (scale, unit) = if self.slides() {
-                (1.0, "m/s")
-            } else {
-                (1.0 / RPM, "rpm")
-            };
-            let mut drive = Map::new();
-            drive.insert("name".into(), name.into());
-            drive.insert("motor_speed".into(), peak(&loads.motor_speed, scale, unit));
-            if let Some(torque) = &loads.gearbox_torque {
-                drive.insert("gearbox_torque".into(), peak(torque, 1.0, "N m"));
-            }
-            if let Some(heat) = &loads.heat {
-                let (scale, unit) = if heat.relative {
-                    (100.0, "% of the rated rise")
-                } else {
-                    (1.0, "K")
-                };
-                drive.insert("rise".into(), peak(&heat.hottest, scale, unit));
-            }
-            add("drive", drive.into());
+            add("drive", self.drive_figures(&axis, name, loads));
         }
         if let Some(error) = &self.found.ended {
             add("ended", error.to_string().into());
         }
         after
+    }
+
+    /// What the motor gives, for JSON.
+    fn motor(&self, effort: &Effort) -> Value {
+        let unit = self.effort_unit();
+        let most = |[value, time]: [f64; 2], scale: f64, unit: &str| json!({ format!("largest [{unit}]"): value * scale, "time [s]": time });
+        let (scale, speed) = if self.slides() {
+            (1.0, "m/s")
+        } else {
+            (1.0 / RPM, "rpm")
+        };
+        json!({
+            "effort": most(effort.torque, 1.0, unit),
+            format!("RMS [{unit}]"): effort.rms,
+            "power": most(effort.power, 1.0, "W"),
+            "speed": most(effort.speed, scale, speed),
+        })
+    }
+
+    /// What the drive bears, for JSON.
+    fn drive_figures(&self, axis: &Axis, name: &str, loads: &Loads) -> Value {
+        let position = format!("position [{}]", axis.coordinate.unit());
+        let peak = |peak: &Peak, scale: f64, unit: &str| {
+            json!({
+                "time [s]": peak.time,
+                &position: axis.shown(peak.phi),
+                format!("largest [{unit}]"): peak.value * scale,
+                format!("allowed [{unit}]"): peak.allowed.map(|allowed| allowed * scale),
+            })
+        };
+        let (scale, unit) = if self.slides() {
+            (1.0, "m/s")
+        } else {
+            (1.0 / RPM, "rpm")
+        };
+        let mut drive = Map::new();
+        drive.insert("name".into(), name.into());
+        drive.insert("motor_speed".into(), peak(&loads.motor_speed, scale, unit));
+        if let Some(torque) = &loads.gearbox_torque {
+            drive.insert("gearbox_torque".into(), peak(torque, 1.0, "N m"));
+        }
+        if let Some(heat) = &loads.heat {
+            let (scale, unit) = if heat.relative {
+                (100.0, "% of the rated rise")
+            } else {
+                (1.0, "K")
+            };
+            drive.insert("rise".into(), peak(&heat.hottest, scale, unit));
+        }
+        drive.into()
     }
 
     /// The sentence about end stops.

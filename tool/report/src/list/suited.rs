@@ -1,15 +1,19 @@
 //! Drives with the motions that suit them, for reading: what stands before the list of `jred size --motion best`.
 
+use std::fmt::Write as _;
+
+use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
 use jred_motion::suited::{Suited, Tried};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 
+use crate::list::kept;
 use crate::table::sheet::Reading;
 
 /// Which motion the list below is made with, and what the best drive was before.
-pub fn words(suited: &Suited) -> String {
+pub fn words(file: &MachineFile, suited: &Suited) -> String {
     let Some(best) = suited.best() else {
         return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
     };
@@ -35,7 +39,11 @@ pub fn words(suited: &Suited) -> String {
             named(ahead)
         )
     });
-    format!("{says}\n{saved}{ahead}")
+    let mut kept = String::new();
+    for (name, says) in kept::lines(file, &suited.chain) {
+        let _ = write!(kept, "\n  {name}: {says}");
+    }
+    format!("{says}{kept}\n{saved}{ahead}")
 }
 
 /// The drives that were tried, each with its own motion, and what that saves.

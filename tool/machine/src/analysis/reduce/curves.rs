@@ -19,12 +19,16 @@ pub(super) struct Curves {
 /// Speed and acceleration alone.
 pub(super) struct Motion;
 
-/// The parts of the drive torque of the motion and their sum, drive train and flywheel included, without the losses of the drive train.
-pub(super) struct Torques;
+/// The parts of the drive torque of the motion, drive train and flywheel included, without the losses of the drive train.
+pub(super) struct Torques {
+    /// Their sum, which the forces have as well.
+    pub(super) sum: bool,
+}
 
 impl Set for Torques {
     fn heads(&self, source: &Source) -> Vec<Column> {
-        terms(source.coordinate).collect()
+        let sum = self.sum.then(|| source.coordinate.drive_effort());
+        terms(source.coordinate).chain(sum).collect()
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
@@ -32,20 +36,19 @@ impl Set for Torques {
         let point = machine.reduction(place.phi)?;
         let terms = place.state.map(|s| point.torque(s.omega, s.alpha));
         let values = (0..TorqueTerms::NAMES.len()).map(|k| Some(terms?.values()[k]));
-        let total = terms.map(|terms| terms.total());
-        Ok(values.chain([total]).collect())
+        let sum = self.sum.then(|| terms.map(|terms| terms.total()));
+        Ok(values.chain(sum).collect())
     }
 }
 
-/// The columns of the parts of the drive torque and of their sum.
+/// The columns of the parts of the drive torque.
 fn terms(coordinate: Coordinate) -> impl Iterator<Item = Column> {
     let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
     let term = move |term: &str| Column {
         part: term.to_owned(),
         ..Column::new(Quantity::EffortTerm, format!("{effort}_drive {term}"), unit)
     };
-    let all = TorqueTerms::NAMES.into_iter().map(term);
-    all.chain([coordinate.drive_effort()])
+    TorqueTerms::NAMES.into_iter().map(term)
 }
 
 impl Set for Motion {
@@ -102,6 +105,7 @@ impl Set for Curves {
             let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
             heads.extend(coordinate.rates());
             heads.extend(terms(coordinate));
+            heads.push(coordinate.drive_effort());
             heads.push(Column::other(format!("{effort}_input"), unit));
         }
         heads

@@ -28,6 +28,18 @@ pub enum SimulationError {
         /// How to do without it.
         cure: String,
     },
+    /// Stops are asked for and the file has none.
+    #[error("[simulation] has no `stop` whose instant could be moved")]
+    #[diagnostic(help(
+        "add stop = {{ time = \"3 s\", brake_torque = \"80 N m\", brake_delay = \"40 ms\" }}"
+    ))]
+    NoStop,
+    /// There is no whole cycle before the stop.
+    #[error("there is no whole cycle before the `stop`")]
+    #[diagnostic(help(
+        "give the stop a later time, after a turn of the drive link or a cycle of [motion] under a controller"
+    ))]
+    NoCycle,
     /// A machine cannot run on one shaft with others.
     #[error("the machine \"{title}\" cannot run on one shaft with others: {why}")]
     #[diagnostic(help(
@@ -56,7 +68,8 @@ pub enum SimulationError {
     /// The integrator gave up.
     #[error("the integrator stopped at t = {t} s: {reason}")]
     #[diagnostic(help(
-        "increase `tolerance` in [simulation], or look for a torque that grows without limit"
+        "look for what is stiff or grows without limit: viscous friction that is large for the inertia, a steep characteristic of the motor, \
+         a controller's gain, a winding's L/R; soften it, or shorten `duration`. A larger `tolerance` in [simulation] may help"
     ))]
     Integrator {
         /// Time reached (s).

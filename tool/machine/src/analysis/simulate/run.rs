@@ -1,14 +1,19 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
+mod edges;
 mod look;
 mod plant;
 mod rows;
+mod setup;
 mod start;
 mod stops;
 mod stretch;
 
+use edges::Edges;
 pub(in crate::analysis) use plant::Plant;
 pub(in crate::analysis) use rows::{Row, Terms, Works, cells, heads};
+
+use std::cell::Cell;
 
 use jred::Error;
 
@@ -26,8 +31,14 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
 
+/// The most steps in all, beside some for each row: some ten seconds.
+const MOST_IN_ALL: u64 = 1_000_000;
+
+/// How often the drive link may turn round within one output step.
+const MOST_TURNS: u32 = 10_000;
+
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
-pub(super) const HAIR: f64 = 1e-12;
+pub(in crate::analysis) const HAIR: f64 = 1e-12;
 
 /// Runs a simulation.
 ///
@@ -39,42 +50,9 @@ pub(super) fn run<const N: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Simulated, SimulationError> {
     let machines = plant.machines();
-    let file = machines.first;
     let corners = plant.corners();
     let [has_payloads, has_carriages] = machines.guests();
-    let mut run = Run {
-        plant,
-        file,
-        accuracy: Accuracy {
-            tolerance: simulation.tolerance,
-            most_steps: MOST_STEPS,
-        },
-        watch: Watch::new(&machines),
-        stops: simulation.end_stops,
-        ends: simulation.ends(file).map(|[from, to]| {
-            // The end of a stroke may be passed by a rounding.
-            let slack = if simulation.end_stops.is_some() {
-                0.0
-            } else {
-                1e-9 * (to - from)
-            };
-            [from - slack, to + slack]
-        }),
-        impacts: None,
-        direction: 0.0,
-        inside: [f64::NEG_INFINITY, f64::INFINITY],
-        halt: None,
-        driven: None,
-        rest: None,
-        stuck: None,
-        controlling: Controlling::default(),
-        has_payloads,
-        giving: Giving::default(),
-        to_speed: simulation.to_speed,
-        reached: None,
-        held: None,
-        observer,
-    };
+    let mut run = Run::new(plant, &machines, simulation, observer);
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
     let [begin, speed] = plant.link(0.0, &y)?;
@@ -134,6 +112,7 @@ pub(super) fn run<const N: usize>(
     };
     Ok(Simulated {
         columns,
+        halted_at: run.halt.map(|[_, phi]| phi),
         held: (run.held).filter(|_| run.halt.is_none()).map(since_start),
         effort: run.giving.effort(),
         reached: run.reached.map(since_start),
@@ -162,6 +141,11 @@ struct Run<'a, P> {
     direction: f64,
     /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
     inside: [f64; 2],
+    edges: Edges<'a>,
+    /// The next one ahead.
+    edge: f64,
+    /// How many steps the integrator has taken.
+    steps: Cell<u64>,
     /// When and where the motor was switched off.
     halt: Option<[f64; 2]>,
     /// Work of the motor until then (J).
@@ -267,26 +251,42 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        // Enough for a machine that reverses many times within one output step.
-        for _ in 0..10_000 {
+        let mut turned = 0;
+        while turned < MOST_TURNS {
             if t >= end {
                 return Ok(y);
             }
-            let steps = self.integrate(t, end, &y)?;
-            let over = match steps.split_last() {
-                Some(((last, state), [_, ..])) => self.is_over(*last, state)?,
-                _ => false,
+            let [phi, _] = self.plant.link(t, &y)?;
+            self.edge = if self.direction == 0.0 {
+                f64::INFINITY
+            } else {
+                self.edges.ahead(phi, self.direction)
             };
-            let before = steps.len() - usize::from(over);
-            for pair in steps[..before].windows(2) {
+            let steps = self.integrate(t, end, &y)?;
+            let [over, passed] = match steps.split_last() {
+                Some(((last, state), [_, ..])) => {
+                    let [phi, _] = self.plant.link(*last, state)?;
+                    [self.is_over(*last, state)?, self.has_passed(phi)]
+                }
+                _ => [false; 2],
+            };
+            let whole = steps.len() - usize::from(over || passed);
+            for pair in steps[..whole].windows(2) {
                 let [from, to] = pair else { continue };
                 self.check(from, to)?;
             }
-            let Some(&last) = steps.last().filter(|_| over) else {
+            let Some(&last) = steps.last().filter(|_| over || passed) else {
                 return Ok(steps.last().map_or(y, |last| last.1));
             };
+            let start = steps.get(whole - 1).copied().unwrap_or((t, y));
+            if !over {
+                let edge = self.on_edge(start, last)?;
+                self.check(&start, &edge)?;
+                (t, y) = edge;
+                continue;
+            }
+            turned += 1;
             // Friction changes within the last step: halve it down to that instant.
-            let start = steps.get(before - 1).copied().unwrap_or((t, y));
             let (mut before, mut after) = (start, last);
             while after.0 - before.0 > 1e-12 * (1.0 + end.abs()) {
                 let middle = before.0.midpoint(after.0);
@@ -328,12 +328,27 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// The integrator's steps from `t` to `end`, up to the one in which friction changes.
+    /// The integrator's steps from `t` to `end`, up to the one in which friction changes or an edge is passed.
     fn integrate<const N: usize>(
         &self,
         t: f64,
         end: f64,
         y: &[f64; N],
+    ) -> Result<Vec<Point<N>>, SimulationError>
+    where
+        P: Plant<N>,
+    {
+        self.integrate_until(t, end, y, |t, y| {
+            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?[0]))
+        })
+    }
+
+    fn integrate_until<const N: usize>(
+        &self,
+        t: f64,
+        end: f64,
+        y: &[f64; N],
+        enough: impl Fn(f64, &[f64; N]) -> Result<bool, Error>,
     ) -> Result<Vec<Point<N>>, SimulationError>
     where
         P: Plant<N>,
@@ -346,11 +361,18 @@ impl<P> Run<'_, P> {
             |x, y| self.plant.slope(&self.moment(t + x), y),
             *y,
             end - t,
-            |x, y| self.is_over(t + x, y),
+            |x, y| enough(t + x, y),
         );
         let mut steps = steps.map_err(|error| stopped(t, error))?;
         for (x, _) in &mut steps {
             *x += t;
+        }
+        self.steps.set(self.steps.get() + steps.len() as u64);
+        if self.steps.get() > MOST_IN_ALL {
+            return Err(SimulationError::Integrator {
+                t,
+                reason: "too many steps would be needed",
+            });
         }
         Ok(steps)
     }

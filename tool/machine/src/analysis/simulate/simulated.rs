@@ -13,6 +13,8 @@ pub struct Simulated {
     pub columns: Columns,
     /// Where the drive link came to rest first after the motor was switched off.
     pub rest: Option<Rest>,
+    /// Where it was when the motor was switched off (rad, or m).
+    pub halted_at: Option<f64>,
     /// Where the drive link came to rest first and friction holds it, if the motor was not switched off; since the start.
     pub held: Option<Rest>,
     /// What the motor gave until it was switched off, or to the end; not behind a variator.
@@ -123,6 +125,17 @@ impl Simulated {
             (moment.now(machine, state[1]), state)
         })
         .collect()
+    }
+
+    /// φ, ω, α in each row of a motion that came to its end.
+    ///
+    /// # Errors
+    /// Why it did not.
+    pub fn whole_states(self) -> Result<Vec<[f64; 3]>, SimulationError> {
+        match self.ended {
+            None => Ok(self.states),
+            Some(error) => Err(error),
+        }
     }
 
     /// The columns of a motion that came to its end.

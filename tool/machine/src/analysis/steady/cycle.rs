@@ -6,6 +6,7 @@ use super::figures::Figures;
 use super::start::Start;
 use super::turn::{Reached, Turning};
 use super::{SteadyError, speed, torque};
+use crate::analysis::simulate::run::HAIR;
 use crate::number::numerics;
 use crate::number::rounding::short;
 
@@ -19,8 +20,8 @@ const STEP: f64 = 1.25;
 /// The most turns in which a machine is followed to its standstill.
 const MOST_TURNS: u32 = 2000;
 
-/// A hair of speed (rad/s), on the side of the motion.
-const HAIR: f64 = 1e-12;
+/// A small change of speed or energy, as a share.
+const BIT: f64 = 1e-3;
 
 /// The motion that repeats with every turn.
 #[derive(Debug)]
@@ -40,9 +41,12 @@ pub struct Cycle {
 impl Cycle {
     /// The cycle with the highest speed, if there are several: it is the stable one.
     pub(super) fn of(turning: &Turning, positions: usize) -> Result<Self, SteadyError> {
-        match search(turning)? {
-            Found::Cycle(begin) => Self::at(turning, begin, positions),
-            Found::Loses(from) => Err(standstill(turning, from)?),
+        match search(turning) {
+            Ok(Found::Cycle(begin)) => Self::at(turning, begin, positions),
+            Ok(Found::Loses(from)) => Err(standstill(turning, from)?),
+            // Loads that are far too large end each motion within a tiny way.
+            Err(SteadyError::Integrator) => Err(held(turning)?.unwrap_or(SteadyError::Integrator)),
+            Err(error) => Err(error),
         }
     }
 
@@ -54,9 +58,8 @@ impl Cycle {
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
-        let bit = 1e-3;
         Ok(Self {
-            left_over: (energy(1.0 + bit)? - energy(1.0 - bit)?) / (2.0 * bit),
+            left_over: (energy(1.0 + BIT)? - energy(1.0 - BIT)?) / (2.0 * BIT),
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
@@ -139,9 +142,13 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
     Ok(Found::Loses(comes_round))
 }
 
-/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one.
+/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one, or neither.
 fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
     if gains[1] == 0.0 {
+        // The cycle itself, if a turn that begins faster loses energy.
+        if turning.gain(ends[1] * (1.0 + BIT))? < 0.0 {
+            return Ok(ends[1]);
+        }
         return Err(SteadyError::Indifferent {
             speed: speed(turning.direction * ends[1]),
         });
@@ -206,15 +213,32 @@ pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, St
     })
 }
 
+/// What is missing at the place where the motor is the weakest at rest; `None`: it can start the machine everywhere.
+fn held(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
+    let side = turning.plant.ratio().signum() * turning.direction;
+    let mut worst: Option<Missing> = None;
+    for (x, _) in turning.places(360) {
+        let here = Missing::at(turning, x)?;
+        let lacking = |missing: &Missing| (missing.needed - missing.given) * side;
+        if lacking(&here) > worst.as_ref().map_or(0.0, lacking) {
+            worst = Some(here);
+        }
+    }
+    Ok(worst.map(lacks))
+}
+
 /// What is missing at the place where the machine stopped.
 fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
-    let missing = Missing::at(turning, x)?;
-    Ok(SteadyError::Stuck {
+    Ok(lacks(Missing::at(turning, x)?))
+}
+
+fn lacks(missing: Missing) -> SteadyError {
+    SteadyError::Stuck {
         place: missing.place,
         given: torque(missing.given),
         needed: torque(missing.needed),
         missing: torque((missing.needed - missing.given).abs()),
-    })
+    }
 }
 
 /// A place where the motor is too weak to start or keep the machine moving.

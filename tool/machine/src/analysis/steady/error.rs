@@ -120,8 +120,10 @@ pub enum SteadyError {
         speed: String,
     },
     /// No flywheel smooths the motion as asked.
-    #[error("no flywheel up to {inertia} kg m^2 makes the fluctuation δ = {delta}: {why}")]
-    #[diagnostic(help("use a motor that covers the work of a turn, or another --delta"))]
+    #[error(
+        "no flywheel up to {inertia} kg m^2 makes the fluctuation δ = {delta}: {why}; a slow turn asks for {torque} N m of the motor on average"
+    )]
+    #[diagnostic(help("use a motor that gives more than this at its speed, or another --delta"))]
     NoFlywheel {
         /// The fluctuation asked for.
         delta: String,
@@ -129,11 +131,14 @@ pub enum SteadyError {
         inertia: String,
         /// What happens with it.
         why: String,
+        /// Mean motor torque of a slow turn (N·m).
+        torque: String,
     },
     /// The integrator gave up.
     #[error("one turn of the machine needs too many integration steps")]
     #[diagnostic(help(
-        "the machine follows its motor almost at once: give rotor_inertia in [simulation], or a characteristic that is less steep"
+        "the machine follows its motor or its friction almost at once, against its inertia: check rotor_inertia in [simulation], the masses, \
+         viscous friction and how steep the characteristic is, and how near the mechanism comes to a dead point (jred check)"
     ))]
     Integrator,
     /// A contact separates in the steady cycle.

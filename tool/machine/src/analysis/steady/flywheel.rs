@@ -9,6 +9,7 @@ use super::SteadyError;
 use super::cycle::{self, Cycle, Found};
 use super::figures::Figures;
 use super::turn::Turning;
+use crate::analysis::simulate::run::HAIR;
 use crate::model::machine::{MachineFile, OverRange};
 use crate::model::simulation::{Shaft, Simulation};
 use crate::number::numerics;
@@ -255,11 +256,30 @@ impl Task<'_> {
                     delta: short(self.delta),
                     inertia: short(high),
                     why,
+                    torque: short(self.mean_torque()?),
                 });
             }
             (low, at_low) = (high, at_high);
             high = (high * 30.0).min(LARGEST);
         }
+    }
+}
+
+impl Task<'_> {
+    /// The motor torque at which a slow turn gains and loses nothing.
+    fn mean_torque(&self) -> Result<f64, SteadyError> {
+        let turning = self.turning;
+        let needed = |x: f64| {
+            let state = [turning.at(x), turning.direction * HAIR];
+            turning.plant.keeping(&turning.moment(), state)
+        };
+        let places = turning.places(90);
+        let size = turning.effort(HAIR);
+        let mut work = 0.0;
+        for pair in places.windows(2) {
+            work += numerics::integral(needed, [pair[0].0, pair[1].0], 1, 1e-9 * size)?;
+        }
+        Ok((work / TAU).abs())
     }
 }
 

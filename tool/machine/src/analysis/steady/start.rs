@@ -4,6 +4,7 @@ use super::SteadyError;
 use super::cycle::Missing;
 use super::figures::Figures;
 use super::turn::{self, Reached, Turning};
+use crate::analysis::simulate::run::HAIR;
 
 /// Parts of a turn after which the speed is compared with that of the cycle.
 const PARTS: usize = 24;
@@ -13,9 +14,6 @@ const NEAR: f64 = 0.01;
 
 /// The most turns that are followed.
 const MOST_TURNS: u32 = 300;
-
-/// A hair of speed (rad/s), on the side of the motion to come.
-const HAIR: f64 = 1e-12;
 
 /// How the machine starts from rest.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,6 +2,8 @@
 
 use jred::machine::motion::{Law, Polynomial};
 
+use super::Limits;
+
 /// One segment of a segmented motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
@@ -12,6 +14,8 @@ pub struct Segment {
     pub distance: f64,
     /// How it is covered.
     pub course: Course,
+    /// The limits that the file gives, of which the course is the fastest.
+    pub limits: Option<Limits>,
 }
 
 /// How a segment goes from one end to the other.
@@ -50,6 +54,7 @@ impl Segment {
             from: None,
             distance,
             course,
+            limits: None,
         }
     }
 
@@ -60,6 +65,7 @@ impl Segment {
             from: None,
             distance,
             course,
+            limits: None,
         }
     }
 
@@ -70,6 +76,13 @@ impl Segment {
             polynomial,
         };
         Self::phases(distance, vec![phase])
+    }
+
+    /// The same, made for limits.
+    #[must_use]
+    pub fn within(self, limits: Limits) -> Self {
+        let limits = Some(limits);
+        Self { limits, ..self }
     }
 
     /// The same from a position of the drive link on, which is then prescribed.

@@ -77,7 +77,12 @@ impl Accuracy {
             if last {
                 h = end - x;
             }
-            let step = Step::new(&f, x, h, &y, slope)?;
+            let Some(step) = Step::new(&f, x, h, &y, slope)? else {
+                // So far out that numbers end: stiff friction in a long step.
+                h *= SHRINKAGE;
+                growth = 1.0;
+                continue;
+            };
             let error = step.error(&y, self.tolerance);
             let shrink = error.powf(0.125) / SAFETY;
             if error <= 1.0 {
@@ -145,28 +150,29 @@ struct Step<const N: usize> {
 }
 
 impl<const N: usize> Step<N> {
+    /// `None`: a value on the way is no number.
     fn new<E>(
         f: impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
         x: f64,
         h: f64,
         y: &[f64; N],
         slope: [f64; N],
-    ) -> Result<Self, E> {
+    ) -> Result<Option<Self>, E> {
         let mut k = [slope; STAGES];
         for (s, (row, c)) in A.iter().zip(C).enumerate().skip(1) {
             let mut at = *y;
             for (a, k) in row.iter().zip(&k) {
                 at = std::array::from_fn(|i| at[i] + k[i] * (h * a));
             }
+            if at.iter().any(|value| !value.is_finite()) {
+                return Ok(None);
+            }
             k[s] = f(x + h * c, &at)?;
         }
         let mean = sum(&B, &k);
-        Ok(Self {
-            h,
-            k,
-            mean,
-            y: std::array::from_fn(|i| y[i] + mean[i] * h),
-        })
+        let y: [f64; N] = std::array::from_fn(|i| y[i] + mean[i] * h);
+        let numbers = y.iter().all(|value| value.is_finite());
+        Ok(numbers.then_some(Self { h, k, mean, y }))
     }
 
     /// The estimated error as a share of the tolerance.
@@ -212,7 +218,7 @@ mod tests {
         let f = |x: f64, y: &[f64; N]| Ok::<_, Infallible>(f(x, y));
         let Ok(slope) = f(x, &y);
         let Ok(step) = Step::new(f, x, h, &y, slope);
-        step
+        step.unwrap()
     }
 
     /// Each stage lies where its shares say.
@@ -297,6 +303,16 @@ mod tests {
             );
             assert!(found.is_err(), "{found:?}");
         }
+        // A step in which numbers end is none.
+        let stiff = |_: f64, y: &[f64; 1]| Ok::<_, ()>([-1e100 * y[0].powi(5)]);
+        assert!(
+            Step::new(stiff, 0.0, 1e-98, &[1.0], [-1e100])
+                .unwrap()
+                .is_none()
+        );
+        let steps = FINE.steps(stiff, [1.0], 1e-98, |_, _| Ok(false)).unwrap();
+        let (_, [y]) = steps[steps.len() - 1];
+        assert!((y / 401f64.powf(-0.25) - 1.0).abs() < 1e-10, "{y}");
         // 1/(1 − x) has no value at 1.
         let found = FINE.steps(
             |_, y: &[f64; 1]| Ok::<_, ()>([y[0] * y[0]]),

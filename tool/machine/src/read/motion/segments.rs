@@ -142,14 +142,14 @@ impl Chain<'_> {
                     Some(match distance {
                         None => {
                             let (distance, phases) = change(speeds, limits);
-                            Segment::phases(distance, phases)
+                            Segment::phases(distance, phases).within(*limits)
                         }
                         Some(distance) => {
                             let phases = fastest(distance.si, speeds, limits);
                             let phases = phases.map_err(|short| {
                                 self.too_short(index, distance, speeds, short.least)
                             })?;
-                            Segment::phases(distance.si, phases)
+                            Segment::phases(distance.si, phases).within(*limits)
                         }
                     })
                 }

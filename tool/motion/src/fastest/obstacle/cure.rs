@@ -61,6 +61,9 @@ impl NoMotion {
             Self::LoadJumps { .. } => {
                 "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
             }
+            Self::RmsTooLarge { stopped: true, .. } => {
+                "allow slightly more, give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
+            }
             Self::RmsTooLarge { .. } => {
                 "give the cycle more time at rest, or take a motor with more continuous torque".to_owned()
             }
@@ -73,10 +76,27 @@ impl NoMotion {
             Self::WindingUnknown => {
                 "fill in the thermal figures of the motor in the catalogue, or limit the RMS torque (--max-rms)".to_owned()
             }
-            Self::NotFound { limit, .. } => match limit {
-                Some(limit) => format!("allow a larger {}, or give a longer way", limit.name()),
-                None => "give another limit: a slightly larger or smaller one may be found".to_owned(),
-            },
+            Self::NotFound {
+                limit: Some(limit),
+                rates,
+                ..
+            } => {
+                // Without a limit of a rate there is a motion, whatever other limit is in the way.
+                let options = [
+                    (Binding::Jerk, "a larger jerk (--max-jerk)"),
+                    (Binding::TorqueRate, "a larger torque rate (--max-torque-rate)"),
+                ];
+                let asked = options.into_iter().zip(rates).filter(|(_, asked)| **asked);
+                let mut cures: Vec<String> =
+                    asked.map(|((_, words), _)| words.to_owned()).collect();
+                if options.iter().all(|(rate, _)| rate != limit) {
+                    cures.push(format!("a larger {}", limit.name()));
+                }
+                format!("allow {}, or give a longer way", cures.join(" or "))
+            }
+            Self::NotFound { limit: None, .. } => {
+                "give another limit: a slightly larger or smaller one may be found".to_owned()
+            }
             Self::JointForce { .. } => LARGER_FORCE.to_owned(),
             Self::JointForceAlone => {
                 "leave one of them out: without --max-jerk, --max-torque-rate, --max-rms and --max-winding-temperature the forces in joints are limited".to_owned()

@@ -98,11 +98,21 @@ impl NoMotion {
     /// What a search came to that did not find one.
     fn not_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::RmsTooLarge { rms, allowed, unit } => write!(
+            Self::RmsTooLarge {
+                rms,
+                allowed,
+                stopped,
+                unit,
+            } => write!(
                 f,
-                "no motion with an RMS {effort} of {} {u} or less was found: the least one met was {} {u}. A slower motion may have less, and weight and friction may keep it above the limit",
+                "no motion with an RMS {effort} of {} {u} or less was found: the least one met was {} {u}. {}",
                 short(*allowed),
                 short(*rms),
+                if *stopped {
+                    "The search for slower motions, which may have less, did not come to its end"
+                } else {
+                    "A slower motion may have less, and weight and friction may keep it above the limit"
+                },
                 effort = unit.vocabulary().torque.word,
                 u = unit.effort_unit()
             ),
@@ -130,6 +140,7 @@ impl NoMotion {
                 phi,
                 missed,
                 axis,
+                ..
             } => {
                 match limit {
                     Some(limit) => write!(

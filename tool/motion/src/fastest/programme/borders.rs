@@ -23,32 +23,63 @@ const STEEP: f64 = 0.1;
 /// the length. What a larger limit of the rates leaves of them is less.
 const SHORTEST: f64 = 6e-4;
 
+/// A limit that is met at a station: which of its rows, how hard it pushes, and how far away it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub(super) limit: Binding,
+    row: usize,
+    force: f64,
+    pub(super) value: f64,
+}
+
+/// The one that pushes hardest.
+pub(super) fn strongest(met: &[Met]) -> Option<Met> {
+    let each = met.iter().copied().filter(|met| met.force > 0.0);
+    each.max_by(|a, b| a.force.total_cmp(&b.force))
+}
+
 impl Asked<'_> {
-    /// The limit that is met at each station, and which of its rows: driving and braking are two.
-    pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
+    /// The limits that are met at each station.
+    pub(super) fn all_met(&self, found: &Found) -> Vec<Vec<Met>> {
         let mesh = &found.mesh;
-        let mut met = vec![(0.0, None); mesh.stations.len()];
+        let mut met = vec![Vec::new(); mesh.stations.len()];
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let problem = self.problem(mesh, &margins);
+        let problem = self.problem(mesh, &margins, found.range);
         let Some([_, rows]) = problem.at(&found.point.x) else {
-            return vec![None; mesh.stations.len()];
+            return met;
         };
         let mut number = 0;
-        let mut station = 0;
+        let mut before = 0;
         for (row, multiplier) in rows.iter().zip(&found.point.multipliers) {
-            number = if row.station == station {
-                number + 1
+            number = if row.station == before { number + 1 } else { 0 };
+            before = row.station;
+            let Some(limit) = row.limit.filter(|_| row.value > -MET) else {
+                continue;
+            };
+            // Where power flows another way the torque bends, and with it the jerk jumps: those of the torque rate are others there.
+            let flow = if limit == Binding::TorqueRate {
+                let station = &mesh.stations[row.station];
+                let state = problem.state(station, &mesh.values(&found.point.x, station.element));
+                let way = self.field.way;
+                way.flow(&station.place, state.speed, state.acceleration)
             } else {
                 0
             };
-            station = row.station;
-            let force = multiplier / row.weight;
-            let at = &mut met[row.station];
-            if row.value > -MET && force > at.0 {
-                *at = (force, row.limit.map(|limit| (limit, number % 2)));
-            }
+            met[row.station].push(Met {
+                limit,
+                row: number % 2 + 2 * flow,
+                force: multiplier / row.weight,
+                value: row.value,
+            });
         }
-        met.into_iter().map(|(_, limit)| limit).collect()
+        met
+    }
+
+    /// The limit that is met at each station, and which of its rows: driving and braking are two.
+    pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
+        let met = self.all_met(found).into_iter();
+        met.map(|met| strongest(&met).map(|met| (met.limit, met.row)))
+            .collect()
     }
 
     /// Of each piece: whether the limit that is met changes in it or at its borders, and whether it changes in it.

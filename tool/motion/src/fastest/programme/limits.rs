@@ -10,6 +10,7 @@
 use super::effort::{Effort, State, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
+use super::rate::{Rate, smooth_slopes};
 use crate::fastest::field::{Binding, Field};
 use crate::gentlest::mesh::Value;
 use crate::gentlest::mesh::dot;
@@ -61,6 +62,8 @@ pub(super) struct Problem<'a> {
     pub(super) price: Price,
     /// Load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
+    /// Factor of the limits of rates.
+    pub(super) ease: f64,
     /// The motor's torque limits as straight lines, braking and driving.
     pub(super) lines: [Option<Vec<[f64; 2]>>; 2],
     /// Of each piece.
@@ -85,10 +88,15 @@ impl Problem<'_> {
         }
     }
 
+    /// What the motor's torque rises with the speed itself.
+    fn friction(&self) -> f64 {
+        let way = self.field.way;
+        way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
+    }
+
     fn motor(&self, station: &Station, state: &State) -> Effort {
         let way = self.field.way;
-        let rate = way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs();
-        Effort::of(station, state, rate, self.range, |place| {
+        Effort::of(station, state, self.friction(), self.range, |place| {
             way.demand(place, state.speed, state.acceleration)
         })
     }
@@ -213,62 +221,43 @@ impl Problem<'_> {
                 ));
             }
         }
-        if let Some(limit) = limits.jerk {
-            let [slope, bend, third] = station.path;
-            let [own, change, curve] = &station.basis;
-            let scale = (1.0 + margins.jerk) / (limit * self.unit.powi(3));
-            let mut by = mix((third * scale, own), (1.5 * bend * scale, change));
-            for (by, curve) in by.iter_mut().zip(curve) {
-                *by += 0.5 * slope * scale * curve;
-            }
+        let rates = [
+            (limits.jerk, Binding::Jerk, margins.jerk),
+            (limits.torque_rate, Binding::TorqueRate, margins.rate),
+        ];
+        for (limit, which, margin) in rates {
+            let Some(limit) = limit else { continue };
+            let scale = (1.0 + margin) / (limit * self.ease * self.unit);
+            let rate = if which == Binding::Jerk {
+                Rate::of_acceleration(station, values, self.unit)
+            } else {
+                let way = self.field.way;
+                let torque =
+                    smooth_slopes(&station.place, state.acceleration, self.range, |place| {
+                        way.demand(place, state.speed, state.acceleration)
+                    });
+                Rate::of_torque(station, values, state, &torque, self.friction(), self.unit)
+            };
+            let own = &station.basis[0];
             let root = state.w.sqrt();
             let rise = 0.5 / (state.w * root);
             for sign in [1.0, -1.0] {
+                let size = sign * scale;
+                let [(more, one), (less, other)] = rate.turn;
                 rows.push(Term {
-                    bends: [(-1.5 * rise / state.w, *own), NONE, NONE, NONE],
+                    bends: [
+                        (size * rate.bend - 1.5 * rise / state.w, *own),
+                        (size * more, one),
+                        (size * less, other),
+                        NONE,
+                    ],
                     ..straight(
-                        Binding::Jerk,
-                        sign * dot(&by, values) - 1.0 / root,
-                        mix((sign, &by), (rise, own)),
+                        which,
+                        size * rate.value - 1.0 / root,
+                        mix((size, &rate.gradient), (rise, own)),
                     )
                 });
             }
-        }
-    }
-
-    /// How fast the torque changes from one station of a piece to the next.
-    fn rates(&self, pair: [(&Station, &State, &Effort); 2], limit: f64, rows: &mut Vec<Term>) {
-        let [(a, state_a, torque_a), (b, state_b, torque_b)] = pair;
-        let weight = a.weight.max(b.weight);
-        let half = 0.5 * (b.u - a.u) * self.unit;
-        let scale = (1.0 + self.margins[a.element].rate) / (limit * (b.u - a.u) * self.unit);
-        let time = half / ((b.u - a.u) * self.unit);
-        let roots = [state_a, state_b].map(|state| state.w.sqrt());
-        for sign in [1.0, -1.0] {
-            let size = sign * scale;
-            let each = |torque: &Effort, station: &Station, w: f64, root: f64, size: f64| {
-                let by = mix(
-                    (size, &torque.gradient),
-                    (0.5 * time / (w * root), &station.basis[0]),
-                );
-                let bend = size * torque.bend - 0.75 * time / (w * w * root);
-                (by, (bend, station.basis[0]))
-            };
-            let (by_a, bend_a) = each(torque_a, a, state_a.w, roots[0], -size);
-            let (by_b, bend_b) = each(torque_b, b, state_b.w, roots[1], size);
-            rows.push(Term {
-                limit: Some(Binding::TorqueRate),
-                value: size * (torque_b.value - torque_a.value)
-                    - time * (1.0 / roots[0] + 1.0 / roots[1]),
-                gradient: mix((1.0, &by_a), (1.0, &by_b)),
-                bends: [
-                    bend_a,
-                    bend_b,
-                    torque_a.turned(-size),
-                    torque_b.turned(size),
-                ],
-                ..Term::straight(a.element, weight)
-            });
         }
     }
 
@@ -311,6 +300,23 @@ impl Problem<'_> {
         self.at(x).is_some_and(|[_, rows]| rows.iter().all(is_kept))
     }
 
+    /// With bends of the torque, if it has any, rounded over a share of the largest load of a motion.
+    pub(super) fn ranged(self, x: &[f64], share: f64) -> Self {
+        let load = |station: &Station| {
+            let state = self.state(station, &self.mesh.values(x, station.element));
+            let place = &station.place;
+            let carried = 0.5 * place.inertia_slope * state.speed * state.speed;
+            let resisting = carried + place.load + place.viscous * state.speed + place.coulomb;
+            (place.inertia * state.acceleration + resisting).abs()
+        };
+        let range = if self.field.way.bends() {
+            share * self.mesh.stations.iter().map(load).fold(0.0, f64::max)
+        } else {
+            0.0
+        };
+        Self { range, ..self }
+    }
+
     /// What a motion costs.
     pub(super) fn whole_cost(&self, x: &[f64]) -> f64 {
         let costs = self.at(x).map(|[costs, _]| costs);
@@ -329,7 +335,6 @@ impl Programme for Problem<'_> {
         let stations = &self.mesh.stations;
         let mut costs = Vec::with_capacity(stations.len());
         let mut rows = Vec::with_capacity(stations.len() * 8);
-        let mut before: Option<(&Station, State, Effort)> = None;
         for (index, station) in stations.iter().enumerate() {
             let values = self.mesh.values(x, station.element);
             let state = self.state(station, &values);
@@ -343,15 +348,6 @@ impl Programme for Problem<'_> {
             costs.push(self.cost(station, &state, &torque));
             let first = rows.len();
             self.limits(station, &values, &state, &torque, &mut rows);
-            if let Some(limit) = self.field.limits.torque_rate {
-                if let Some((a, state_a, torque_a)) = &before
-                    && a.element == station.element
-                {
-                    let pair = [(*a, state_a, torque_a), (station, &state, &torque)];
-                    self.rates(pair, limit, &mut rows);
-                }
-                before = Some((station, state, torque));
-            }
             for row in &mut rows[first..] {
                 row.station = index;
             }

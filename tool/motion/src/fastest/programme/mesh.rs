@@ -69,6 +69,18 @@ pub(super) struct Station {
     pub(super) path: [f64; 3],
     /// What the values of the piece give to w, w′, w″.
     pub(super) basis: [Local; 3],
+    /// How the machine changes by u.
+    pub(super) change: Change,
+}
+
+/// Slopes of the machine by u.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Change {
+    pub(super) inertia: f64,
+    pub(super) inertia_slope: f64,
+    /// Of the load with Coulomb friction.
+    pub(super) load: f64,
+    pub(super) viscous: f64,
 }
 
 /// Shares of a piece at which its stations lie, and their weights: Lobatto's seven points, which include both ends. Exact to degree 11.
@@ -81,6 +93,28 @@ pub(super) const SHARES: [[f64; 2]; 7] = [
     [0.915_111_948_139_283_5, 0.138_413_023_680_782_97],
     [1.0, 1.0 / 42.0],
 ];
+
+/// Slopes at the stations of a piece of length h: those of the polynomial through the values at all of them.
+fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
+    let at = move |k: usize, value: fn(&Place) -> f64| {
+        let each = (0..SHARES.len()).filter(|j| *j != k).map(|j| {
+            let [zk, zj] = [SHARES[k][0], SHARES[j][0]];
+            // Lagrange's polynomial of the station j has this slope at k; all of them add up to none.
+            let others = (0..SHARES.len()).filter(|i| *i != j && *i != k);
+            let slope = others.fold(1.0 / (zj - zk), |slope, i| {
+                slope * (zk - SHARES[i][0]) / (zj - SHARES[i][0])
+            });
+            slope * (value(&places[j]) - value(&places[k]))
+        });
+        each.sum::<f64>() / h
+    };
+    (0..places.len()).map(move |k| Change {
+        inertia: at(k, |place| place.inertia),
+        inertia_slope: at(k, |place| place.inertia_slope),
+        load: at(k, |place| place.load + place.coulomb),
+        viscous: at(k, |place| place.viscous),
+    })
+}
 
 /// The pieces of a way.
 #[derive(Clone, Debug)]
@@ -145,7 +179,15 @@ impl Mesh {
                     tool: field.tool_speed(place.phi)?,
                     path: [slope, bend, jerk].map(|derivative| derivative * distance.abs()),
                     basis: basis(z, h),
+                    change: Change::default(),
                 });
+            }
+            if form.smooth {
+                let own = &mut stations[index * SHARES.len()..];
+                let places: Vec<Place> = own.iter().map(|station| station.place).collect();
+                for (station, change) in own.iter_mut().zip(changes(&places, h)) {
+                    station.change = change;
+                }
             }
         }
         Ok(Self {

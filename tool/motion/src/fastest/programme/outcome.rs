@@ -1,14 +1,30 @@
 //! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
 
+use jred::Error;
+
+use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
-use crate::fastest::between::{LOOKS, ROUNDED, within_step};
+use crate::fastest::between::{LOOKS, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
 use crate::gentlest::mesh::GAUSS;
 use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
+use crate::way::Place;
+
+/// Last digits of a speed that make another acceleration in a step, and of a torque.
+const ROUNDINGS: f64 = 4.0;
+
+/// Share of a step over which the rate of the torque is taken.
+const NEAR: f64 = 0.02;
+
+/// Parts of a step in which the torque bends in which its rate is looked at.
+const PARTS: u32 = 32;
+
+/// Shares of themselves by which two limits that are met together may differ.
+const TIED: f64 = 1e-6;
 
 /// The limit that is exceeded most between the nodes, by which share of itself, and where.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +57,32 @@ pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: boo
     }
 }
 
+/// What rounding of the speeds makes of the jerk in a step.
+fn rounded_jerk([a, b]: [&Node; 2]) -> f64 {
+    ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step)
+}
+
+/// The greatest magnitude of the parabola through values at the start, in the middle and at the end.
+fn greatest([first, middle, last]: [f64; 3]) -> f64 {
+    let slope = 4.0 * middle - 3.0 * first - last;
+    let bend = 2.0 * (first + last) - 4.0 * middle;
+    let share = -0.5 * slope / bend;
+    let peak = if share > 0.0 && share < 1.0 {
+        first + share * (slope + share * bend)
+    } else {
+        middle
+    };
+    [first, peak, last]
+        .into_iter()
+        .map(f64::abs)
+        .fold(0.0, f64::max)
+}
+
 impl Asked<'_> {
     /// The motion over the time.
     pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
         let direction = self.field.way.direction;
-        let problem = self.problem(&found.mesh, &[]);
+        let problem = self.problem(&found.mesh, &[], found.range);
         let mut nodes: Vec<Node> = Vec::new();
         let mut t = 0.0;
         let count = SHARES.len();
@@ -150,39 +187,62 @@ impl Asked<'_> {
                 look(0, excess, limit);
             }
             if let Some(limit) = limits.torque_rate {
-                // Up to each end on the step's own side of it, where the acceleration of the trace may jump.
-                let torque = |share: f64| -> Result<f64, NoMotion> {
-                    let state = within_step(a, b, share);
-                    let place = place(state.phi)?;
-                    let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                    Ok(way.demand(&place, v, alpha).torque)
-                };
-                let torques = [torque(0.0)?, torque(0.5)?, torque(1.0)?];
-                for pair in torques.windows(2) {
-                    let rate = (pair[1] - pair[0]).abs() / (0.5 * b.step);
-                    look(2, rate / limit - 1.0, Binding::TorqueRate);
-                }
+                let rate = self.torque_rate([a, b], place)?;
+                look(2, rate / limit - 1.0, Binding::TorqueRate);
             }
             if let Some(limit) = limits.jerk {
-                // Of a step so short that rounding of the speeds makes another jerk, that of its accelerations counts.
-                let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step);
-                let mean = (b.alpha[0] - a.alpha[1]) / b.step;
-                for share in [0.0, 0.5, 1.0] {
-                    let jerk = if rounding > ROUNDED * WITHIN * limit {
-                        mean
-                    } else {
-                        b.jerk_after(a, share)
-                    };
-                    look(1, jerk.abs() / limit - 1.0, Binding::Jerk);
+                for share in [0.0, 1.0] {
+                    let jerk = b.jerk_after(a, share).abs() - rounded_jerk([a, b]);
+                    look(1, jerk / limit - 1.0, Binding::Jerk);
                 }
             }
         }
         Ok((worst, own))
     }
 
+    /// The greatest rate (N·m/s) of the torque in a step, less what rounding may make of it.
+    fn torque_rate(
+        &self,
+        [a, b]: [&Node; 2],
+        place: impl Fn(f64) -> Result<Place, Error>,
+    ) -> Result<f64, NoMotion> {
+        let way = self.field.way;
+        let slope = |share: f64| -> Result<(f64, [usize; 2]), NoMotion> {
+            let ends = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+            let mut torques = [0.0; 2];
+            let mut flows = [0; 2];
+            let mut rounding = 0.0_f64;
+            for (k, share) in ends.into_iter().enumerate() {
+                let state = b.after(a, share);
+                let place = place(state.phi)?;
+                let [v, alpha] = [state.omega, state.alpha].map(|x| x * way.direction);
+                let demand = way.demand(&place, v, alpha);
+                (torques[k], flows[k]) = (demand.torque, way.flow(&place, v, alpha));
+                let parts = demand.torque.abs() + demand.per_acceleration * alpha.abs();
+                let own = ROUNDINGS * f64::EPSILON * parts / (NEAR * b.step)
+                    + rounded_jerk([a, b]) * demand.per_acceleration;
+                rounding = rounding.max(own);
+            }
+            let slope = (torques[1] - torques[0]) / ((ends[1] - ends[0]) * b.step);
+            Ok((slope.signum() * (slope.abs() - rounding).max(0.0), flows))
+        };
+        let [first, middle, last] = [slope(0.0)?, slope(0.5)?, slope(1.0)?];
+        let flow = first.1[0];
+        let flows = [first.1, middle.1, last.1];
+        if flows.iter().flatten().all(|own| *own == flow) {
+            return Ok(greatest([first.0, middle.0, last.0]));
+        }
+        // The torque bends in the step.
+        let mut most = 0.0_f64;
+        for k in 0..=PARTS {
+            most = most.max(slope(f64::from(k) / f64::from(PARTS))?.0.abs());
+        }
+        Ok(most)
+    }
+
     /// Which limit is met, from where to where.
     pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
-        let met = self.met(found);
+        let met = self.all_met(found);
         let count = SHARES.len();
         let mut phases: Vec<Phase> = Vec::new();
         let nodes = trace.nodes();
@@ -195,8 +255,17 @@ impl Asked<'_> {
             let [a, b] = [&pair[0], &pair[1]];
             let piece = index / (count - 1);
             let first = piece * count + index % (count - 1);
-            let limit = [1, 0].into_iter().find_map(|k| met[first + k]);
-            let limit = limit.map(|(limit, _)| limit).or(idle);
+            let mut at = [1, 0].into_iter().map(|k| &met[first + k]);
+            let limit = at.find_map(|at| strongest(at).map(|own| (at, own)));
+            // Of two limits that are met together the one before goes on.
+            let limit = limit.map(|(at, own)| {
+                let before = phases.last().map(|phase| phase.limit);
+                let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;
+                at.iter()
+                    .find(|met| goes_on(met))
+                    .map_or(own.limit, |met| met.limit)
+            });
+            let limit = limit.or(idle);
             let end = |node: &Node| (node.phi, node.t, node.omega.abs());
             let (phi, t, speed) = end(b);
             let limit = limit.or(phases.last().map(|phase| phase.limit));

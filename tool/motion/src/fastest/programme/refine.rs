@@ -2,7 +2,8 @@
 
 use super::limits::Margins;
 use super::mesh::Border;
-use super::{Asked, FINER, PIECES, Warm, inner};
+use super::starts::SAME;
+use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm, inner};
 use crate::fastest::NoMotion;
 use crate::gentlest::shape::Shape;
 
@@ -11,6 +12,12 @@ const ROUNDS: u32 = 24;
 
 /// Change of the time, as a share, at which finer pieces gain nothing.
 const SETTLED: f64 = 2e-9;
+
+/// Factor of the range over which bends of the torque are rounded, from one round to the next.
+const NARROWER: f64 = 0.5;
+
+/// How often the first pieces are halved where they have no motion.
+const FINER_STARTS: u32 = 2;
 
 /// How often borders are moved to where the limit changes.
 const MOVES: u32 = 3;
@@ -29,6 +36,13 @@ fn with(borders: &[Border], more: Vec<Border>) -> Option<Vec<Border>> {
     Some(all)
 }
 
+/// Every piece halved.
+pub(super) fn halved(borders: &[Border]) -> Vec<Border> {
+    let middles = borders.windows(2);
+    let middles = middles.map(|piece| inner(piece[0].u.midpoint(piece[1].u)));
+    with(borders, middles.collect()).unwrap_or_default()
+}
+
 /// The middles of long pieces.
 fn longest_halved(borders: &[Border]) -> Vec<Border> {
     let longer = |piece: &&[Border]| piece[1].u - piece[0].u > LONGEST;
@@ -39,17 +53,68 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
 }
 
 impl Asked<'_> {
+    /// Load over which bends of the torque are rounded beside a motion, and the share of its largest load that it is.
+    fn range(&self, found: &Found, share: f64) -> [f64; 2] {
+        let problem = self.problem(&found.mesh, &[], found.range);
+        [problem.ranged(&found.point.x, share).range, share]
+    }
+
     /// On the pieces of another motion; `None`: it is too far away.
     pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
-        let next = self.next(shape, &warm.borders, &warm.found, &warm.margins, FINER)?;
+        let Warm {
+            borders,
+            found,
+            margins,
+            ..
+        } = warm;
+        let range = [found.range, found.share];
+        let next = self.next(shape, borders, found, margins, FINER, range)?;
         Ok(next.ok().map(|found| Warm {
             found,
             ..warm.clone()
         }))
     }
 
+    /// On other borders, with the torque rounded over a share of the loads where it bends, or over more if no motion is found.
+    fn narrowed(
+        &self,
+        shape: &Shape,
+        borders: &[Border],
+        found: &Found,
+        share: f64,
+    ) -> Result<Option<Found>, NoMotion> {
+        let wider = WIDER.map(|factor| factor * found.share);
+        for share in [share].into_iter().chain(wider) {
+            let range = self.range(found, share);
+            let next = self.next(shape, borders, found, &[], FINER, range)?;
+            if next.is_ok() || found.range == 0.0 {
+                return Ok(next.ok());
+            }
+        }
+        Ok(None)
+    }
+
+    /// From nothing. Coarse pieces may have no motion that finer ones have.
+    fn first_of_all(&self, shape: &Shape, eased: bool) -> Result<(Vec<Border>, Found), NoMotion> {
+        let mut borders = self.first_borders(shape);
+        let mut first = self.first(shape, borders.clone(), eased);
+        for _ in 0..FINER_STARTS {
+            if !matches!(first, Err(NoMotion::NotFound { .. })) {
+                break;
+            }
+            borders = halved(&borders);
+            first = self.first(shape, borders.clone(), eased).or(first);
+        }
+        first
+    }
+
     /// On pieces that are made finer until the time is settled.
-    pub(super) fn refined(&self, shape: &Shape, warm: Option<&Warm>) -> Result<Warm, NoMotion> {
+    pub(super) fn refined(
+        &self,
+        shape: &Shape,
+        warm: Option<&Warm>,
+        eased: bool,
+    ) -> Result<Warm, NoMotion> {
         let started = match warm {
             Some(warm) => {
                 let plain = |border: &Border| Border {
@@ -57,38 +122,42 @@ impl Asked<'_> {
                     ..*border
                 };
                 let borders: Vec<Border> = warm.borders.iter().map(plain).collect();
-                let found = self.next(shape, &borders, &warm.found, &[], FINER)?;
-                found.ok().map(|found| (borders, found))
+                let found = self.narrowed(shape, &borders, &warm.found, warm.found.share)?;
+                found.map(|found| (borders, found))
             }
             None => None,
         };
         let (mut borders, mut found) = if let Some(started) = started {
             started
         } else {
-            let borders = self.first_borders(shape);
-            let found = self.first(shape, &borders)?;
-            (borders, found)
+            self.first_of_all(shape, eased)?
         };
         let mut change = warm.map_or(f64::INFINITY, |warm| warm.change);
         let mut rounds = [ROUNDS, MOVES, HALVED];
         while let Some(round) = rounds.iter().position(|left| *left > 0) {
             rounds[round] -= 1;
+            let share = if round == 0 && found.range > 0.0 {
+                (NARROWER * found.share).max(RANGES[1])
+            } else {
+                found.share
+            };
             let next = match round {
-                0 => with(&borders, self.finer(&found)),
+                0 => with(&borders, self.finer(&found))
+                    .or_else(|| (share < found.share).then(|| borders.clone())),
                 1 => self.moved(&borders, &found, &self.trace(shape, &found)),
                 _ => with(&borders, longest_halved(&borders)),
             };
             let next = next.filter(|next| next.len() <= PIECES[1]);
             let solved = match next {
-                Some(next) => {
-                    let solved = match self.next(shape, &next, &found, &[], FINER)? {
-                        Ok(solved) => Some(solved),
-                        // Between the places at which coarse pieces are looked at their motion may be none.
-                        Err(_) if round == 0 => self.first(shape, &next).ok(),
-                        Err(_) => None,
-                    };
-                    solved.map(|solved| (next, solved))
-                }
+                Some(next) => match self.narrowed(shape, &next, &found, share)? {
+                    Some(solved) => Some((next, solved)),
+                    // Between the places at which coarse pieces are looked at their motion may be none.
+                    None if round == 0 => {
+                        let first = self.first(shape, next, eased).ok();
+                        first.filter(|(_, first)| first.time < SAME * found.time)
+                    }
+                    None => None,
+                },
                 None => None,
             };
             let Some((next, solved)) = solved else {
@@ -96,8 +165,9 @@ impl Asked<'_> {
                 continue;
             };
             change = (solved.time - found.time).abs() / solved.time;
+            let is_narrower = solved.share < found.share;
             (borders, found) = (next, solved);
-            if round == 0 && change < SETTLED {
+            if round == 0 && change < SETTLED && !is_narrower {
                 rounds[round] = 0;
             }
         }

@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::units::Vocabulary;
-use jred_motion::fastest::Reserve;
 use jred_motion::fastest::joint_force::Reached;
 use jred_motion::fastest::winding::Temperatures;
+use jred_motion::fastest::{KeptPart, Reserve};
 
 use super::{Answer, line};
 
@@ -51,11 +51,17 @@ impl Answer<'_> {
         } else {
             String::new()
         };
-        let holding = if self.is_endless() {
+        let [ends_in_motion, passes] = self.passes();
+        let holding = if self.is_endless() || ends_in_motion {
             String::new()
         } else {
             let holding = shown(load.holding, load.peaks[0]);
-            format!("; {holding} {effort} to hold the end")
+            let nodes = self.cycle.trace.nodes();
+            let place = match nodes.last() {
+                Some(node) if node.omega != 0.0 => "it where it rests",
+                _ => "the end",
+            };
+            format!("; {holding} {effort} to hold {place}")
         };
         line(
             text,
@@ -86,6 +92,7 @@ impl Answer<'_> {
         };
         match load.pause {
             Some(0.0) => {}
+            _ if passes => {}
             _ if self.is_endless() => line(
                 text,
                 "warning",
@@ -108,6 +115,20 @@ impl Answer<'_> {
                     "the RMS {torque} exceeds {what}, and no pause helps: holding the machine alone takes more than that"
                 ),
             ),
+        }
+    }
+
+    /// What a kept part exceeds.
+    pub(super) fn exceeded(&self, part: &KeptPart, text: &mut String) {
+        let (share, limit) = part.excess;
+        if part.exceeds() {
+            let says = format!(
+                "what segment {} prescribes exceeds the limit of the {} by {}",
+                part.kept.segment + 1,
+                limit.name_in(self.file),
+                percent(share)
+            );
+            line(text, "warning", &says);
         }
     }
 
@@ -163,7 +184,7 @@ impl Answer<'_> {
             Some([free, rms]) => {
                 let whole = self.cycle.trace.duration();
                 format!(
-                    "binds: it comes to an RMS of {} {effort}; without it {} s, {} less",
+                    "binds: it comes to an RMS of {} {effort}; without it the whole motion takes {} s, {} less",
                     short(*rms),
                     short(*free),
                     percent(1.0 - free / whole)

@@ -18,6 +18,9 @@ use super::Answer;
 /// Share of the largest speed that is a rounding error: speeds are roots of energies.
 const STANDS: f64 = 1e-8;
 
+/// Share by which a speed must fall within a phase for that to be shown.
+const DIP: f64 = 5e-4;
+
 /// Share of a move's time below which a phase is none.
 const LEAST_PHASE: f64 = 1e-9;
 
@@ -38,7 +41,14 @@ impl Answer<'_> {
             let _ = write!(text, " ({} s in the file)", short(before));
         }
         text.push('\n');
-        let columns = [
+        // Where a turn closes a phase may have no length.
+        let least = LEAST_PHASE * made.fastest.time;
+        let phases = made.fastest.phases.iter();
+        let phases: Vec<&Phase> = phases
+            .filter(|phase| phase.t[1] - phase.t[0] > least)
+            .collect();
+        let dips = phases.iter().any(|phase| dip(made, phase).is_some());
+        let mut columns = vec![
             "at its limit".to_owned(),
             format!("from {} [{unit}]", axis.symbol()),
             "to".to_owned(),
@@ -48,6 +58,7 @@ impl Answer<'_> {
             "to".to_owned(),
             "greatest".to_owned(),
         ];
+        columns.extend(dips.then(|| "least".to_owned()));
         let speeds = made.fastest.phases.iter().flat_map(|phase| phase.speed);
         let fastest = axis.rate(speeds.fold(0.0, f64::max));
         let file = self.file;
@@ -56,29 +67,36 @@ impl Answer<'_> {
             let positions = phase.phi.map(&position);
             let times = phase.t.map(|t| shown(t, made.fastest.time));
             let [from, to] = phase.speed;
-            let speeds = [from, to, greatest(made, phase)].map(|v| {
+            let speed = |v: f64| {
                 let speed = axis.rate(v);
                 short(if speed <= STANDS * fastest {
                     0.0
                 } else {
                     speed
                 })
-            });
+            };
+            let speeds = [from, to, greatest(made, phase)].map(speed);
             let texts = positions.into_iter().chain(times).chain(speeds);
             cells.extend(texts.map(|text| Cell::from(text.as_str())));
+            if dips {
+                let least = dip(made, phase).map_or_else(String::new, speed);
+                cells.push(Cell::from(least.as_str()));
+            }
             cells
         };
-        // Where a turn closes a phase may have no length.
-        let least = LEAST_PHASE * made.fastest.time;
-        let phases = made.fastest.phases.iter();
-        let phases = phases.filter(|phase| phase.t[1] - phase.t[0] > least);
-        let rows: Vec<Vec<Cell>> = phases.map(row).collect();
-        text += &Reading::table(&columns, &rows, 8);
+        let rows: Vec<Vec<Cell>> = phases.iter().map(|phase| row(phase)).collect();
+        text += &Reading::table(&columns, &rows, columns.len());
+        text += &unlimited(made, &phases);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;
+            // These are limits of the whole motion, whose own time stands above.
+            let alone = match cost.limit {
+                Binding::RmsTorque | Binding::WindingTemperature => "this move alone takes ",
+                _ => "",
+            };
             let _ = writeln!(
                 text,
-                "{}: {} s, {} s less",
+                "{}: {alone}{} s, {} s less",
                 eased(cost, file),
                 short(cost.time),
                 short(saved.max(0.0))
@@ -114,6 +132,36 @@ fn greatest(made: &Made, phase: &Phase) -> f64 {
     let inside = nodes.filter(|node| node.t > from && node.t < to);
     let speeds = inside.map(|node| node.omega.abs());
     phase.speed.into_iter().chain(speeds).fold(0.0, f64::max)
+}
+
+/// The least speed (rad/s, or m/s) in a phase, where it is lower than at both ends.
+fn dip(made: &Made, phase: &Phase) -> Option<f64> {
+    let [from, to] = phase.t;
+    let nodes = made.fastest.trace.nodes().iter();
+    let inside = nodes.filter(|node| node.t > from && node.t < to);
+    let least = inside
+        .map(|node| node.omega.abs())
+        .fold(f64::INFINITY, f64::min);
+    let ends = phase.speed[0].min(phase.speed[1]);
+    (least < ends * (1.0 - DIP)).then_some(least)
+}
+
+/// What the times before the first phase and behind the last one are.
+fn unlimited(made: &Made, phases: &[&Phase]) -> String {
+    let whole = made.fastest.time;
+    let mut text = String::new();
+    for (time, place) in [
+        (phases.first().map_or(0.0, |phase| phase.t[0]), "first"),
+        (
+            phases.last().map_or(0.0, |phase| whole - phase.t[1]),
+            "last",
+        ),
+    ] {
+        if time > LEAST_PHASE * whole {
+            let _ = writeln!(text, "in the {place} {} s no limit is met", short(time));
+        }
+    }
+    text
 }
 
 pub(super) fn move_json(made: &Made, axis: &Axis, file: &MachineFile) -> Value {

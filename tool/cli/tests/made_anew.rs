@@ -1,0 +1,116 @@
+//! What `retime`, `fastest` and `size --motion best` keep of the file's motion, and what they say about it.
+
+use crate::support::{Run, jred_with};
+
+fn machine(name: &str) -> String {
+    format!("{}/../../machines/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn jred(command: &str, name: &str, options: &[&str]) -> Run {
+    let file = machine(name);
+    jred_with(&[&[command, file.as_str()][..], options].concat())
+}
+
+/// The process of a machine is never lost without a word.
+#[test]
+fn the_process_of_a_machine_is_kept() {
+    for (name, speed, drive) in [
+        (
+            "flying-shear",
+            "2 m/s of x of drive",
+            "sgm7a-20a+tp050ma-27p5",
+        ),
+        (
+            "drawing-press",
+            "0.08 m/s of x of slider",
+            "sgm7j-06a+npt035ma-16",
+        ),
+        ("winder", "4 m/s of x of web", "1ft7108-5af7+sp140mf-3"),
+    ] {
+        for (command, options) in [
+            ("retime", &[][..]),
+            ("retime", &["--ends", "zero"]),
+            ("fastest", &["--drive", drive]),
+        ] {
+            let run = jred(command, name, options);
+            assert!(
+                run.out.contains("  kept "),
+                "{name}: {}{}",
+                run.out,
+                run.err
+            );
+            assert!(run.out.contains(speed), "{name}: {}", run.out);
+        }
+    }
+    let run = jred("size", "flying-shear", &["--motion", "best"]);
+    assert!(run.out.contains("kept: 2 m/s of x of drive"), "{}", run.out);
+    let run = jred("retime", "shaper", &[]);
+    assert!(run.out.contains("  not kept "), "{}", run.out);
+}
+
+/// Limits of the segments that are not kept are named, with the options that do.
+#[test]
+fn limits_of_segments_are_not_dropped_without_a_word() {
+    let drive = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
+    let run = jred("fastest", "belt-axis", &drive);
+    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept; --max-speed, --max-acceleration, --max-jerk keep them";
+    assert!(run.out.contains(says), "{}", run.out);
+    let limits = [
+        &drive[..],
+        &["--max-speed", "1.6 m/s", "--max-acceleration", "10 m/s^2"],
+    ]
+    .concat();
+    let run = jred("fastest", "belt-axis", &limits);
+    assert!(
+        run.out.contains("limits        max_jerk 400 m/s^3 of"),
+        "{}",
+        run.out
+    );
+    let run = jred("retime", "belt-axis", &[]);
+    assert!(run.out.contains("max_speed 1.6 m/s"), "{}", run.out);
+}
+
+/// A move that passes on neither repeats nor stands; too fast an end is answered in the unit it was given in.
+#[test]
+fn a_passing_move_neither_repeats_nor_stands() {
+    let passing = [
+        "--torque",
+        "20 N m",
+        "--motor-speed",
+        "300 rpm",
+        "--from",
+        "0 deg",
+        "--to",
+        "360 deg",
+    ];
+    let speeds = ["--from-speed", "20 rpm", "--to-speed", "10 rpm"];
+    let run = jred("fastest", "rotary-table", &[&passing[..], &speeds].concat());
+    assert!(run.out.contains("move 1"), "{}{}", run.out, run.err);
+    for line in ["more at rest each time", "to hold the end"] {
+        assert!(!run.out.contains(line), "{}", run.out);
+    }
+    let fast = ["--from-speed", "6000 rpm"];
+    let run = jred("fastest", "rotary-table", &[&passing[..], &fast].concat());
+    assert!(run.err.contains("rpm at the most"), "{}", run.err);
+    assert!(
+        run.err.contains("a longer way does not help"),
+        "{}",
+        run.err
+    );
+}
+
+/// Sentences about what is the same, and cures that help.
+#[test]
+fn sentences_say_what_they_mean() {
+    let run = jred("retime", "rotary-table", &["--objective", "peak"]);
+    assert!(
+        !run.out.contains("as as") && !run.out.contains("than as"),
+        "{}",
+        run.out
+    );
+    let run = jred("simulate", "belt-axis", &["--drive", "sgm7g-03a"]);
+    assert!(run.err.contains("no [simulation]"), "{}", run.err);
+    assert!(!run.err.contains("and torque"), "{}", run.err);
+    let run = jred("retime", "belt-axis", &["--drive", "sgm7g-45a"]);
+    assert!(run.err.contains("did you mean \"sgm7g-"), "{}", run.err);
+}

@@ -1,0 +1,61 @@
+//! Parts of the motion that are kept as they are, beside the limits.
+
+use jred::Error;
+use jred_machine::model::machine::MachineFile;
+
+use super::field::{Binding, Field, Limits};
+use crate::moves::Kept;
+use crate::way::{Actuator, Way};
+
+/// Share by which a kept part may exceed a limit: rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Shares of a step at which limits are looked at.
+const LOOKS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// A part of the motion that was kept as it is.
+#[derive(Clone, Debug)]
+pub struct KeptPart {
+    /// The part.
+    pub kept: Kept,
+    /// The largest share by which it exceeds a limit, and which; negative: none. Of a torque, as a share of the motor's at rest.
+    pub excess: (f64, Binding),
+}
+
+impl KeptPart {
+    /// A part that is kept, looked at with the machine itself.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub(super) fn new(
+        file: &MachineFile,
+        actuator: &Actuator,
+        limits: &Limits,
+        kept: &Kept,
+    ) -> Result<Self, Error> {
+        let way = &Way::new(file, actuator.clone(), (kept.to - kept.from).signum());
+        let limits = *limits;
+        let field = Field { way, limits };
+        let mut excess = (f64::NEG_INFINITY, Binding::Driving);
+        for pair in kept.nodes().windows(2) {
+            let [a, b] = [&pair[0], &pair[1]];
+            for share in LOOKS {
+                let state = b.after(a, share);
+                let (v, alpha) = (state.omega.abs(), state.alpha * way.direction);
+                let own = field.excess_by(&way.place(state.phi)?, v, alpha)?;
+                if own.0 > excess.0 {
+                    excess = own;
+                }
+            }
+        }
+        Ok(Self {
+            kept: kept.clone(),
+            excess,
+        })
+    }
+
+    /// Whether it exceeds a limit.
+    pub fn exceeds(&self) -> bool {
+        self.excess.0 > ROUNDING
+    }
+}

@@ -1,0 +1,137 @@
+//! From where the motion is sought: even paces, and motions under limits of rates that are eased.
+
+use super::interior::{Point, Stuck, minimise};
+use super::limits::{Margins, Problem};
+use super::mesh::{Border, Mesh};
+use super::refine::halved;
+use super::{Asked, FEASIBLE, Found, PIECES, RANGES, ROUGH, STARTS};
+use crate::fastest::NoMotion;
+use crate::gentlest::shape::Shape;
+
+/// Most that limits of rates are eased by at the start, and the factors from one to the next: the first, and what is too near to 1.
+const MOST_EASE: f64 = 1e4;
+const EASES: [f64; 2] = [0.1, 0.97];
+
+/// Power of a factor that was not too near, and the most factors.
+const LONGER: f64 = 1.2;
+const MOST_EASES: u32 = 40;
+
+/// How much longer a motion of one family may take than the one before, and the μ of both.
+pub(super) const SAME: f64 = 1.2;
+const EASED: [f64; 2] = [1e-2, 1e-5];
+
+/// Borders with which that is not tried on finer pieces.
+const MOST_EASED: usize = 3 * PIECES[0];
+
+/// Share by which the time of another family differs.
+const CLEARLY: f64 = 1e-3;
+
+/// How often a motion is sought anew because its own loads are less than half of those that it was sought with.
+const RANGED: u32 = 8;
+
+impl Asked<'_> {
+    /// From a point, with bends rounded over a range that suits the loads of the motion itself.
+    fn from(
+        &self,
+        mesh: &Mesh,
+        start: &[f64],
+        ease: f64,
+        barrier: [f64; 2],
+    ) -> Result<(Point, f64), Stuck> {
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let ranged = |x: &[f64]| Problem {
+            ease,
+            ..self.problem(mesh, &margins, 0.0).ranged(x, RANGES[0])
+        };
+        let mut problem = ranged(start);
+        let mut point = minimise(&problem, start, barrier)?;
+        for _ in 0..RANGED {
+            let next = ranged(&point.x);
+            if next.range >= 0.5 * problem.range {
+                break;
+            }
+            problem = next;
+            point = minimise(&problem, &point.x, barrier)?;
+        }
+        Ok((point, problem.range))
+    }
+
+    /// From limits of rates that hardly bind down to those that are asked for: a machine that goes fast bears its loads with its inertia, which no
+    /// slow start may find. A motion that is much slower than the one before is none of theirs.
+    fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
+        let fast = self.unit / self.bound;
+        let mut ease = fast.powi(3).min(MOST_EASE);
+        if ease <= 1.0 {
+            return None;
+        }
+        let even = |pace: f64| mesh.even((pace * fast).powi(2));
+        let mut starts = STARTS.into_iter();
+        let mut found = starts.find_map(|pace| self.from(mesh, &even(pace), ease, ROUGH).ok())?;
+        let mut time = self.time(mesh, &found.0.x);
+        let mut factor = EASES[0];
+        for _ in 0..MOST_EASES {
+            if ease <= 1.0 {
+                return Some(found);
+            }
+            let next = (ease * factor).max(1.0);
+            let solved = self.from(mesh, &found.0.x, next, EASED).ok();
+            let solved = solved.map(|solved| (self.time(mesh, &solved.0.x), solved));
+            match solved {
+                Some((own, solved)) if own < SAME * time => {
+                    (found, ease, time) = (solved, next, own);
+                    factor = factor.powf(LONGER).max(EASES[0]);
+                }
+                _ if factor < EASES[1] => factor = factor.sqrt(),
+                _ => return None,
+            }
+        }
+        None
+    }
+
+    /// From nothing, with the borders of its pieces: the fastest of the motions to which several starts lead.
+    pub(super) fn first(
+        &self,
+        shape: &Shape,
+        borders: Vec<Border>,
+        from_eased: bool,
+    ) -> Result<(Vec<Border>, Found), NoMotion> {
+        let mesh = self.mesh(shape, &borders)?;
+        let mut stuck = None;
+        // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
+        let fast = self.unit / self.bound;
+        let paces = STARTS.into_iter().flat_map(|pace| [pace * fast, pace]);
+        let even = paces.filter_map(|pace| {
+            let found = self.from(&mesh, &mesh.even(pace * pace), 1.0, ROUGH);
+            found.map_err(|why| stuck = stuck.or(Some(why))).ok()
+        });
+        let margins = vec![Margins::default(); mesh.elements.len()];
+        let cost = |(point, range): &(Point, f64)| {
+            self.problem(&mesh, &margins, *range).whole_cost(&point.x)
+        };
+        let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best, RANGES[0])));
+        // Coarse pieces leave the faster family no motion.
+        let mut eased = None;
+        let mut finer = borders;
+        let rates = self.limits().has_rates();
+        while from_eased && rates && eased.is_none() && finer.len() < MOST_EASED {
+            finer = halved(&finer);
+            let mesh = self.mesh(shape, &finer)?;
+            let found = self.eased(&mesh);
+            eased = found.map(|best| (finer.clone(), self.found(mesh, best, RANGES[0])));
+        }
+        let faster = |(_, eased): &(_, Found)| {
+            best.as_ref()
+                .is_none_or(|(_, best)| eased.time < (1.0 - CLEARLY) * best.time)
+        };
+        if let Some(best) = eased.filter(faster).or(best) {
+            return Ok(best);
+        }
+        let stuck = stuck.filter(|stuck: &Stuck| stuck.missed > FEASIBLE);
+        let phi = stuck.map_or(self.ends.from, |stuck| {
+            mesh.stations[stuck.station].place.phi
+        });
+        let missed = stuck.map_or(0.0, |stuck| stuck.missed);
+        Err(self.not_found(stuck.and_then(|stuck| stuck.limit), phi, missed))
+    }
+}

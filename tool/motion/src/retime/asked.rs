@@ -1,0 +1,232 @@
+//! The machine with what is asked of its motion: the same parts with other moves, and what they take.
+
+use jred::Error;
+use jred::machine::motion::{End, Law, Polynomial};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::{Motion, Phase, Segment};
+use jred_sizing::cycle::Cycle;
+
+use super::even::constant_energy;
+use super::{Figures, Goal, LAWS, Request, Row, law};
+use crate::moves::{Kept, Move, Part, Passing};
+use crate::way::{Actuator, BothWays, Way};
+
+/// The turn at constant kinetic energy.
+const EVEN_ENERGY: &str = "constant kinetic energy";
+
+/// Gauss and Legendre's rule with three points on 0 to 1.
+const GAUSS: [[f64; 2]; 3] = [
+    [0.112_701_665_379_258_3, 5.0 / 18.0],
+    [0.5, 8.0 / 18.0],
+    [0.887_298_334_620_741_7, 5.0 / 18.0],
+];
+
+/// The machine with what is asked.
+pub(super) struct Asked<'a> {
+    pub(super) file: &'a MachineFile,
+    pub(super) request: &'a Request,
+    pub(super) cyclic: bool,
+    pub(super) parts: &'a [Part],
+}
+
+impl Asked<'_> {
+    /// What the pauses and the kept parts cost, in the unit of the moves' costs: of the peak nothing.
+    pub(super) fn held(&self) -> Result<f64, Error> {
+        let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
+        let mut cost = 0.0;
+        for part in self.parts {
+            cost += match part {
+                Part::Dwell { at, duration } => {
+                    let torque = way.holding(&way.place_at_rest(*at)?);
+                    self.heat() * torque * torque * duration
+                }
+                Part::Kept(kept) => self.of_kept(kept)?[0],
+                Part::Move(_) | Part::Passing(..) => 0.0,
+            };
+        }
+        Ok(cost)
+    }
+
+    /// Cost of a square of the torque and a second.
+    fn heat(&self) -> f64 {
+        match self.request.goal {
+            Goal::Energy => self.request.copper.unwrap_or(0.0),
+            _ => 1.0,
+        }
+    }
+
+    /// What a kept part costs, and its peak torque.
+    fn of_kept(&self, kept: &Kept) -> Result<[f64; 2], Error> {
+        let ways = BothWays::new(self.file, &self.request.actuator);
+        let [mut cost, mut peak] = [0.0_f64; 2];
+        for pair in kept.nodes().windows(2) {
+            let [a, b] = [&pair[0], &pair[1]];
+            for [share, weight] in GAUSS {
+                let state = b.after(a, share);
+                let torque = ways.torque(&state, b.phi - a.phi)?;
+                let mut power = self.heat() * torque * torque;
+                if self.request.goal == Goal::Energy {
+                    power += (torque * ways.forwards().motor_speed(state.omega)).max(0.0);
+                }
+                cost += weight * b.step * power;
+                peak = peak.max(torque.abs());
+            }
+        }
+        Ok([cost, peak])
+    }
+
+    /// The largest torque of the kept parts.
+    pub(super) fn kept_peak(&self) -> Result<f64, Error> {
+        let mut peak = 0.0_f64;
+        for part in self.parts {
+            if let Part::Kept(kept) = part {
+                peak = peak.max(self.of_kept(kept)?[1]);
+            }
+        }
+        Ok(peak)
+    }
+
+    pub(super) fn way(&self, step: &Move) -> Way<'_> {
+        let direction = (step.to - step.from).signum();
+        Way::new(self.file, self.request.actuator.clone(), direction)
+    }
+
+    /// The same parts with other moves.
+    pub(super) fn motion(
+        &self,
+        mut with: impl FnMut(&Move, &Passing) -> Segment,
+    ) -> Result<Motion, Error> {
+        let segment = |part: &Part| match part {
+            Part::Move(step) => with(step, &Passing::default()),
+            Part::Passing(step, ends) => with(step, ends),
+            Part::Kept(kept) => Segment::phases(kept.to - kept.from, kept.phases()),
+            Part::Dwell { duration, .. } => Segment::dwell(*duration),
+        };
+        let segments: Vec<Segment> = self.parts.iter().map(segment).collect();
+        let start = self.parts.first().map_or(0.0, Part::from);
+        let motion = Motion::segments(start, &segments, self.cyclic);
+        motion.map_err(|(_, error)| error.into())
+    }
+
+    pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, Error> {
+        let duty = Duty::new(self.file, motion, self.request.steps)?;
+        let cycle = Cycle::new(&duty);
+        let Actuator {
+            coefficients,
+            ratio,
+            envelope,
+        } = &self.request.actuator;
+        let rms = cycle.rms_torque(coefficients);
+        let [drawn, _] = cycle.energies(coefficients, *ratio);
+        let copper = (self.request.copper).map(|copper| copper * rms * rms * cycle.duration());
+        let speed = cycle.peak_speed() * ratio;
+        let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
+        Ok(Figures {
+            rms_used: rms / continuous,
+            speed_used: speed / envelope.max_speed(),
+            rms,
+            peak: cycle.peak_torque(coefficients),
+            drawn,
+            copper,
+            speed,
+            used: cycle.peak(coefficients, *ratio, envelope).used,
+        })
+    }
+
+    /// The motion of the list with the lowest peak, if that is below this one and it has the form of the ends that is asked for.
+    pub(super) fn better_law(&self, laws: &[Row], peak: f64) -> Option<&'static str> {
+        // No law begins or ends with a speed.
+        if self.passes() {
+            return None;
+        }
+        let starts_level = |name: &str| {
+            let law = LAWS.iter().find(|(own, _)| *own == name);
+            law.is_none_or(|(_, law)| law.at(0.0)[2] == 0.0)
+        };
+        let rows = laws.iter().filter(|row| row.figures.peak < peak);
+        let rows = rows.filter(|row| self.request.ramp == 0.0 || starts_level(row.name));
+        let best = rows.min_by(|a, b| a.figures.peak.total_cmp(&b.figures.peak))?;
+        Some(best.name)
+    }
+
+    /// A move as the motion of the list with this name makes it.
+    pub(super) fn by_law(&self, name: &str, step: &Move) -> Result<Vec<Phase>, Error> {
+        let distance = step.to - step.from;
+        if let Some((_, law)) = LAWS.iter().find(|(own, _)| *own == name) {
+            return Ok(law::phases(*law, distance, step.duration));
+        }
+        if name == EVEN_ENERGY {
+            return constant_energy(&self.way(step), step);
+        }
+        Ok(vec![Phase {
+            duration: step.duration,
+            polynomial: Polynomial::constant_jerk([distance / step.duration, 0.0, 0.0]),
+        }])
+    }
+
+    /// Whether a move begins or ends with a speed.
+    fn passes(&self) -> bool {
+        let mut parts = self.parts.iter();
+        parts.any(|part| matches!(part, Part::Passing(..)))
+    }
+
+    /// The laws; of a rotation without rest the classical motions. Between speeds there is no law: there it is the polynomial of fifth degree.
+    pub(super) fn beside(&self, endless: bool) -> Result<Vec<Row>, Error> {
+        if endless {
+            return self.classical();
+        }
+        let row = |name: &'static str, law: Law| {
+            let motion = self.motion(|step, ends| {
+                if *ends == Passing::default() {
+                    Segment::law(step.to - step.from, step.duration, law)
+                } else {
+                    between(step, ends)
+                }
+            })?;
+            let figures = self.figures(&motion)?;
+            Ok(Row {
+                name,
+                figures,
+                motion,
+            })
+        };
+        if self.parts.iter().any(|part| matches!(part, Part::Move(_))) {
+            return LAWS.into_iter().map(|(name, law)| row(name, law)).collect();
+        }
+        Ok(vec![row("polynomial-5", Law::default())?])
+    }
+
+    /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
+    fn classical(&self) -> Result<Vec<Row>, Error> {
+        let mut rows = Vec::new();
+        for name in ["constant speed", EVEN_ENERGY] {
+            let mut phases = Vec::new();
+            for (step, _) in self.parts.iter().filter_map(Part::step) {
+                phases = self.by_law(name, &step)?;
+            }
+            let motion =
+                self.motion(|step, _| Segment::phases(step.to - step.from, phases.clone()))?;
+            rows.push(Row {
+                name,
+                figures: self.figures(&motion)?,
+                motion,
+            });
+        }
+        Ok(rows)
+    }
+}
+
+/// From one speed to another, with the accelerations of the kept parts, as a segment of fifth degree goes.
+fn between(step: &Move, ends: &Passing) -> Segment {
+    let distance = step.to - step.from;
+    let direction = distance.signum();
+    let end = |k: usize| {
+        End::new(
+            direction * ends.speeds[k],
+            direction * ends.accelerations[k],
+        )
+    };
+    let course = Polynomial::between(distance, step.duration, end(0), end(1));
+    Segment::polynomial(distance, step.duration, course)
+}
