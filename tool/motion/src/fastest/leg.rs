@@ -70,9 +70,17 @@ impl Step {
     }
 }
 
-/// The motion comes to rest at this share of the cell.
+/// Why a leg goes no further than this share of its cell.
 #[derive(Clone, Copy, Debug)]
-pub struct Stalled(pub f64);
+pub enum Stalled {
+    /// The motion comes to rest.
+    AtRest(f64),
+    /// It takes more steps than are made.
+    Stiff(f64),
+}
+
+/// The most steps of a motion, some seconds: more are those of a machine that follows its friction at once.
+pub const MOST_STEPS: usize = 1_500_000;
 
 /// A point of a leg: share of the cell, z, slope.
 #[derive(Clone, Copy, Debug)]
@@ -153,7 +161,7 @@ impl Leg<'_> {
     /// From a point to a share of the cell, forwards or backwards; the steps are added to `steps` in the order in which they are made.
     ///
     /// # Errors
-    /// The motion comes to rest before.
+    /// The motion comes to rest before, or takes too many steps.
     pub fn go(&self, from: Point, to: f64, steps: &mut Vec<Step>) -> Result<Point, Stalled> {
         self.halved(from, to, 0, steps)
     }
@@ -165,6 +173,9 @@ impl Leg<'_> {
         depth: u32,
         steps: &mut Vec<Step>,
     ) -> Result<Point, Stalled> {
+        if steps.len() > MOST_STEPS {
+            return Err(Stalled::Stiff(from.u));
+        }
         if let Some((step, error)) = self.one(from, to) {
             let end = step.end(to);
             if error <= TOLERANCE * from.z.max(end.z) || depth >= DEEPEST {
@@ -179,7 +190,7 @@ impl Leg<'_> {
                 return Ok(end);
             }
         } else if depth >= STOPPED {
-            return Err(Stalled(from.u));
+            return Err(Stalled::AtRest(from.u));
         }
         let middle = from.u.midpoint(to);
         let between = self.halved(from, middle, depth + 1, steps)?;

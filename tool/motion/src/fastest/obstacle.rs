@@ -46,6 +46,13 @@ pub enum NoMotion {
         /// In whose words it is said.
         axis: Axis,
     },
+    /// The machine follows its friction, or the motor's curve, so closely that too many steps would be needed.
+    Stiff {
+        /// Position up to which the motion was followed (rad, or m).
+        phi: f64,
+        /// In whose words it is said.
+        axis: Axis,
+    },
     /// Even with the largest deceleration the machine is too fast.
     RunsAway {
         /// Position (rad, or m).
@@ -263,6 +270,10 @@ impl NoMotion {
                     axis,
                 }
             }
+            Obstacle::Stiff(index, u) => Self::Stiff {
+                phi: place(index, u).phi,
+                axis,
+            },
             Obstacle::StartTooFast(z) => Self::StartTooFast {
                 most: speed(z),
                 axis,

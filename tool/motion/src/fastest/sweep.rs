@@ -14,7 +14,7 @@ use std::convert::Infallible;
 use jred_machine::number::numerics::zero;
 
 use super::field::Field;
-use super::leg::{Leg, Point, Stalled, Step};
+use super::leg::{Leg, MOST_STEPS, Point, Stalled, Step};
 use super::track::{Cell, Track};
 
 /// Share of z within which a curve lies on another.
@@ -62,6 +62,8 @@ pub enum Obstacle {
     Stops(usize, f64),
     /// Even the least acceleration is too large here for the end, or the limit of the speed, to be met.
     RunsAway(usize, f64),
+    /// The machine follows its friction so closely from here on that too many steps would be needed.
+    Stiff(usize, f64),
     /// The speed at the start is larger than this z.
     StartTooFast(f64),
     /// The end is reached with this z at most.
@@ -191,10 +193,16 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
                 continue;
             }
             let Ok(point) = reached else {
-                let Err(Stalled(at)) = reached else { continue };
-                return Err(Obstacle::RunsAway(index, at));
+                let Err(why) = reached else { continue };
+                return Err(match why {
+                    Stalled::AtRest(at) => Obstacle::RunsAway(index, at),
+                    Stalled::Stiff(at) => Obstacle::Stiff(index, at),
+                });
             };
             push(&mut pieces, index, steps.drain(..), leg.side);
+            if pieces.len() > MOST_STEPS {
+                return Err(Obstacle::Stiff(index, 0.0));
+            }
             (u, z) = (0.0, point.z);
             border = Some(Point { u: 1.0, ..point }).filter(|_| cell.goes_on);
         }
@@ -288,10 +296,16 @@ fn forwards(
                 continue;
             }
             let Ok(point) = reached else {
-                let Err(Stalled(at)) = reached else { continue };
-                return Err(Obstacle::Stops(index, at));
+                let Err(why) = reached else { continue };
+                return Err(match why {
+                    Stalled::AtRest(at) => Obstacle::Stops(index, at),
+                    Stalled::Stiff(at) => Obstacle::Stiff(index, at),
+                });
             };
             push(&mut pieces, index, steps.drain(..), leg.side);
+            if pieces.len() > MOST_STEPS {
+                return Err(Obstacle::Stiff(index, 1.0));
+            }
             (u, z) = (1.0, point.z);
             let next = track.cells.get(index + 1);
             border = next

@@ -195,3 +195,15 @@ fn a_motor_without_a_known_peak_is_refused() {
     let found = solve(&table(2.0, ""), &unknown, &task(0.0, 1.0));
     assert!(matches!(found, Err(NoMotion::NoTorqueLimit)), "{found:?}");
 }
+
+/// Viscous friction that is very large for the inertia: its time is a 10⁷th of the motion's, and the motion is refused after some steps, not sought for minutes.
+#[test]
+fn a_stiff_machine_is_refused() {
+    let file = table(
+        1.0,
+        "[[load]]\non = \"table\"\nviscous_moment = \"1e7 N m s/rad\"\n",
+    );
+    let why = solve(&file, &motor([60.0; 2], 100.0), &task(0.0, 6.0)).unwrap_err();
+    assert!(matches!(why, NoMotion::Stiff { .. }), "{why}");
+    assert!(why.cure().contains("viscous loads"), "{}", why.cure());
+}

@@ -50,6 +50,9 @@ impl NoMotion {
                 _ => "take a motor with more torque where it brakes, a larger gear ratio, or balance the weight"
                     .to_owned(),
             },
+            Self::Stiff { .. } => {
+                "check viscous loads, which are very large for the inertia of the machine, and its masses and rotor_inertia".to_owned()
+            }
             Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
             Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
             Self::NotAccurate { endless: true, .. } => {

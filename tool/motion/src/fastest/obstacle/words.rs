@@ -1,5 +1,6 @@
 //! The same in words.
 
+use crate::fastest::leg::MOST_STEPS;
 use std::fmt;
 
 use jred_machine::number::rounding::short;
@@ -219,6 +220,11 @@ impl fmt::Display for NoMotion {
                     ),
                 }
             }
+            Self::Stiff { phi, axis } => write!(
+                f,
+                "the machine follows its friction so closely that the motion would take more than {MOST_STEPS} steps: it was followed to {}",
+                axis.place(*phi)
+            ),
             Self::RunsAway {
                 phi,
                 at_end,
