@@ -141,7 +141,7 @@ fn a_press_keeps_the_forces_of_its_joints() {
     let drive = motor([260.0; 2], 30.0);
     let ways = [[180.0, 540.0], [500.0, 270.0]];
     for [from, to] in ways.map(|way| way.map(f64::to_radians)) {
-        let free = jred_motion::fastest::solve(&file, &drive, &task(from, to)).unwrap();
+        let free = solve(&file, &drive, &task(from, to)).unwrap();
         // The load sets in within steps of 1e-7 s, in which rounding of the speeds is so much of the torque.
         assert!(free.excess <= 1e-8, "{:e}", free.excess);
         let mut before = f64::INFINITY;
