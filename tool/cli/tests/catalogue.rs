@@ -247,7 +247,7 @@ fn remarks_go_to_the_standard_error() {
     ]);
     assert!(run.code < 2, "{}", run.err);
     assert!(
-        run.err.contains("less than for any known motor"),
+        run.message().contains("less than for any known motor"),
         "{}",
         run.err
     );

@@ -31,7 +31,7 @@ fn run(arguments: &[&str]) -> Run {
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     };
-    assert!(!run.err.contains("panicked"), "{}", run.err);
+    assert!(!run.message().contains("panicked"), "{}", run.err);
     run
 }
 

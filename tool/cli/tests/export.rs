@@ -60,7 +60,7 @@ fn export_of(file: &Path, more: &[&str], out: Option<&Path>) -> Run {
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     };
-    assert!(!run.err.contains("panicked"), "{}", run.err);
+    assert!(!run.message().contains("panicked"), "{}", run.err);
     run
 }
 

@@ -103,7 +103,7 @@ fn hidden_characters_are_refused_where_they_are_read() {
         let run = jred([&"size", &press, &"--motors", &table]).ends(2);
         run.says(&["the title of column 1 contains", code, "motors.csv:1:"]);
         // Nothing of it reaches the terminal.
-        assert!(!run.err.contains(c));
+        assert!(!run.message().contains(c));
     }
 }
 
@@ -125,7 +125,7 @@ fn a_raw_control_character_is_named() {
             "remove it",
             "m.toml:1:11",
         ]);
-        assert!(!run.err.contains(c));
+        assert!(!run.message().contains(c));
     }
 }
 
@@ -184,7 +184,9 @@ fn hidden_characters_of_arguments_are_escaped() {
         &["vary", machine.to_str().unwrap(), "--vary", evil],
     ] {
         let run = jred_with(arguments).ends(2);
-        let bad = run.err.contains(['\u{1b}', '\u{202e}', '\u{e0041}', '\r']);
+        let bad = run
+            .message()
+            .contains(['\u{1b}', '\u{202e}', '\u{e0041}', '\r']);
         assert!(!bad, "{arguments:?}\n{}", run.err);
     }
 }

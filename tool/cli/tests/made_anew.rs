@@ -91,9 +91,9 @@ fn a_passing_move_neither_repeats_nor_stands() {
     }
     let fast = ["--from-speed", "6000 rpm"];
     let run = jred("fastest", "rotary-table", &[&passing[..], &fast].concat());
-    assert!(run.err.contains("rpm at the most"), "{}", run.err);
+    assert!(run.message().contains("rpm at the most"), "{}", run.err);
     assert!(
-        run.err.contains("a longer way does not help"),
+        run.message().contains("a longer way does not help"),
         "{}",
         run.err
     );
@@ -109,8 +109,12 @@ fn sentences_say_what_they_mean() {
         run.out
     );
     let run = jred("simulate", "belt-axis", &["--drive", "sgm7g-03a"]);
-    assert!(run.err.contains("no [simulation]"), "{}", run.err);
-    assert!(!run.err.contains("and torque"), "{}", run.err);
+    assert!(run.message().contains("no [simulation]"), "{}", run.err);
+    assert!(!run.message().contains("and torque"), "{}", run.err);
     let run = jred("retime", "belt-axis", &["--drive", "sgm7g-45a"]);
-    assert!(run.err.contains("did you mean \"sgm7g-"), "{}", run.err);
+    assert!(
+        run.message().contains("did you mean \"sgm7g-"),
+        "{}",
+        run.err
+    );
 }

@@ -28,7 +28,7 @@ fn each_with_its_place() {
         assert!(run.err.contains(&place), "{place} is not in\n{}", run.err);
     }
     assert!(
-        !run.err.contains("m.csv:13:"),
+        !run.message().contains("m.csv:13:"),
         "more than ten are shown: {}",
         run.err
     );
@@ -44,7 +44,8 @@ fn each_with_its_place() {
         &"16",
     ]);
     assert!(
-        run.err.contains("13 broken rows of the catalogue skipped"),
+        run.message()
+            .contains("13 broken rows of the catalogue skipped"),
         "{}",
         run.err
     );
@@ -122,5 +123,9 @@ fn files_and_folders_that_hold_nothing() {
         &"--steps",
         &"16",
     ]);
-    assert!(run.err.contains("drives.csv was ignored"), "{}", run.err);
+    assert!(
+        run.message().contains("drives.csv was ignored"),
+        "{}",
+        run.err
+    );
 }

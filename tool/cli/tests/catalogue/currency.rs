@@ -36,7 +36,7 @@ fn prices_in_two_currencies_are_not_compared() {
         ["--pareto", "price,power"],
     ] {
         let run = size(&path, more);
-        assert!(!run.err.contains("prices in EUR"), "{}", run.err);
+        assert!(!run.message().contains("prices in EUR"), "{}", run.err);
     }
     for (file, second, named) in [
         ("b-motors.csv", priced("price [USD]", "300", "m2"), "USD ("),

@@ -32,7 +32,11 @@ fn every_fault_of_a_row() {
     ]);
     for column in [8, 25, 28] {
         let place = format!("g.csv:2:{column}]");
-        assert!(run.err.contains(&place), "{place} is not in {}", run.err);
+        assert!(
+            run.message().contains(&place),
+            "{place} is not in {}",
+            run.err
+        );
     }
     // What two cells say together is looked at once each can be read.
     let file = folder.file(
@@ -120,7 +124,8 @@ fn keys_that_clash_are_found_beside_broken_rows() {
         &"16",
     ]);
     assert!(
-        run.err.contains("1 broken row of the catalogue skipped"),
+        run.message()
+            .contains("1 broken row of the catalogue skipped"),
         "{}",
         run.err
     );
@@ -157,7 +162,7 @@ fn given_twice() {
     ] {
         let run = size(a, b).ends(2);
         run.says(&["is given twice", "name every folder and every file once"]);
-        assert!(!run.err.contains("duplicate key"), "{}", run.err);
+        assert!(!run.message().contains("duplicate key"), "{}", run.err);
     }
     let built_in = std::path::Path::new("built-in");
     size(built_in, built_in)
@@ -191,7 +196,7 @@ fn paths_that_lead_nowhere() {
     let near = folder.path("motor.csv");
     let run = |option: &str, path: &std::path::Path| {
         let run = jred([&"size", &press_file(), &option, &path]).ends(2);
-        assert!(!run.err.contains("os error"), "{}", run.err);
+        assert!(!run.message().contains("os error"), "{}", run.err);
         run
     };
     for option in ["--catalogue", "--motors", "--gearboxes"] {

@@ -53,7 +53,7 @@ fn what_is_not_proven_is_named_and_ends_with_1() {
     let run = run.ends(1);
     let why = "not proven: the motion that joint \"";
     assert!(
-        run.out.contains(why) && run.err.contains(why),
+        run.out.contains(why) && run.message().contains(why),
         "{} {}",
         run.out,
         run.err
@@ -77,6 +77,10 @@ fn a_proven_error_above_the_one_allowed_ends_with_1() {
     export_of(&press_file(), &asked, None).ends(0);
     let run = export_of(&press_file(), &[&asked[..], &["--prove"]].concat(), None);
     let run = run.ends(1);
-    assert!(run.err.contains("the proven torque error, "), "{}", run.err);
-    assert!(run.err.contains(" deg, is above the "), "{}", run.err);
+    assert!(
+        run.message().contains("the proven torque error, "),
+        "{}",
+        run.err
+    );
+    assert!(run.message().contains(" deg, is above the "), "{}", run.err);
 }

@@ -28,7 +28,6 @@ pub(crate) fn jred<const N: usize>(arguments: [&dyn AsRef<std::ffi::OsStr>; N]) 
 /// The same with any number of arguments.
 pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"));
-    // A wide page: messages are compared word by word and must not be broken into lines.
     command
         .env("NO_COLOR", "1")
         .env_remove("CLICOLOR_FORCE")
@@ -44,7 +43,7 @@ pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
         out: String::from_utf8(stdout).unwrap(),
         err: String::from_utf8(stderr).unwrap(),
     };
-    assert!(!run.err.contains("panicked"), "{}", run.err);
+    assert!(!run.message().contains("panicked"), "{}", run.err);
     run
 }
 
