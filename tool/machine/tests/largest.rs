@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::support::machines::braked_rotor;
 use crate::support::{budget, near};
+use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::reduce::{Over, Request, Sets, largest};
 use jred_machine::read;
 
@@ -53,4 +54,38 @@ fn a_peak_at_a_jump() {
     let expected = 3.0 + 0.11 * speed + 0.02 * speed / (0.237 * TIME);
     near("torque", value, expected, budget::LARGEST_AT_JUMP);
     near("time", at, 0.237 * TIME, budget::LARGEST_AT_JUMP);
+}
+
+/// Of peaks that are nearly as high as each other, the highest is found, wherever the steps lie.
+#[test]
+fn the_highest_of_many_peaks() {
+    use std::f64::consts::TAU;
+    let times = [0.5, 0.37, 0.613, 0.4441, 0.531];
+    for highest in 0..times.len() {
+        // By the formula of a_peak_between_rows, the way that gives the wanted peak.
+        let peak = |k: usize| if k == highest { 20.0 + 1e-6 } else { 20.0 };
+        let moves = times.iter().enumerate().map(|(k, time)| {
+            let way = (peak(k) - 3.0)
+                / (0.11 / time + (TAU * 0.02 / (time * time)).hypot(0.11 / time));
+            format!(
+                "[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"{way} rad\"\nduration = \"{time} s\"\n"
+            )
+        });
+        let text = braked_rotor(r#"law = "cycloidal""#);
+        let (machine, _) = text.split_once("[[motion.segment]]").unwrap();
+        let text = machine.to_owned() + &moves.collect::<String>();
+        let file = read::parse("rotor.toml", &text, Path::new("")).unwrap();
+        let found = largest(&file, &request(Over::Time)).unwrap();
+        near(
+            "force",
+            found[0].value,
+            peak(highest),
+            budget::LARGEST_FORCE,
+        );
+        for steps in [50, 250, 2000] {
+            let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
+            let most = duty.figures(|i| i.input_torque).max;
+            near("torque", most, peak(highest), budget::LARGEST_FORCE);
+        }
+    }
 }

@@ -1,5 +1,8 @@
 //! The parabola through three points of a curve, and the peak of the curve by it.
 
+/// Most places of a curve that are looked at more closely for its peak.
+const MOST_SUMMITS: usize = 8;
+
 /// Steps to a peak, each to the vertex of the parabola through three places around it.
 const CLOSER: u32 = 6;
 
@@ -84,4 +87,41 @@ pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Re
     }
     let most = three.iter().max_by(|a, b| a.1.total_cmp(&b.1));
     Ok(most.map_or(b, |most| most.0))
+}
+
+/// Where the peak of a curve may lie between its places, of which `count` values are known: the three places around each, the most
+/// promising first. Two summits may be nearly as high as each other, and the places may lie nearer to the top of the lower one.
+///
+/// `around` gives the place `k` and two others, in order, all in one smooth part of the curve.
+pub fn summits(
+    count: usize,
+    value: impl Fn(usize) -> f64,
+    around: impl Fn(usize) -> Option<[usize; 3]>,
+) -> Vec<[usize; 3]> {
+    // The first of those that are equal.
+    let by = |j: &usize, k: &usize| value(*j).total_cmp(&value(*k));
+    let Some(most) = (0..count).rev().max_by(by) else {
+        return Vec::new();
+    };
+    let top = value(most);
+    let mut found = Vec::new();
+    for k in 0..count {
+        let not_above = |j: usize| j >= count || value(j) <= value(k);
+        if k != most && !((k == 0 || not_above(k - 1)) && not_above(k + 1)) {
+            continue;
+        }
+        let Some(around) = around(k) else {
+            continue;
+        };
+        // A parabola rises above the middle one of three places by less than the others lie below it, together.
+        let [a, b, c] = around.map(&value);
+        let may_be = value(k) + (2.0 * b - a - c).max(0.0);
+        if k == most || may_be > top {
+            found.push((may_be, around));
+        }
+    }
+    found.sort_by(|a: &(f64, _), b| b.0.total_cmp(&a.0));
+    found.dedup_by_key(|(_, around)| *around);
+    found.truncate(MOST_SUMMITS);
+    found.into_iter().map(|(_, around)| around).collect()
 }

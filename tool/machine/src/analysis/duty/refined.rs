@@ -68,21 +68,25 @@ pub(super) fn insert_extremes(
     for quantity in quantities {
         for sign in [-1.0, 1.0] {
             let value = |instant: &Instant| sign * quantity(instant);
-            let by = |a: &usize, b: &usize| value(&instants[*a]).total_cmp(&value(&instants[*b]));
-            let Some(most) = (0..instants.len()).max_by(by) else {
-                continue;
-            };
-            let Some(around) = smooth.around(most, instants.len()) else {
-                continue;
-            };
-            let mut at = |t: f64| Instant::new(moving, t, 0.0);
-            let t = parabola::peak(
-                |t| Ok::<_, Error>(value(&at(t)?)),
-                around.map(|k| instants[k].t),
-            )?;
-            let peak = at(t)?;
-            if value(&peak) > value(&instants[most]) {
-                let place = instants.partition_point(|i| i.t < t);
+            let most = instants.iter().map(value).max_by(f64::total_cmp);
+            let mut best = most.unwrap_or(f64::INFINITY);
+            let mut peak = None;
+            let count = instants.len();
+            let around = |k: usize| smooth.around(k, count);
+            for around in parabola::summits(count, |k| value(&instants[k]), around) {
+                let mut at = |t: f64| Instant::new(moving, t, 0.0);
+                let t = parabola::peak(
+                    |t| Ok::<_, Error>(value(&at(t)?)),
+                    around.map(|k| instants[k].t),
+                )?;
+                let instant = at(t)?;
+                if value(&instant) > best {
+                    best = value(&instant);
+                    peak = Some(instant);
+                }
+            }
+            if let Some(peak) = peak {
+                let place = instants.partition_point(|i| i.t < peak.t);
                 smooth.insert(place);
                 instants.insert(place, peak);
             }

@@ -12,7 +12,7 @@ use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 use crate::number::columns::{Column, Quantity};
-use crate::number::parabola::peak;
+use crate::number::parabola;
 use crate::number::rounding::short;
 
 /// Positions that are searched at least: the quarter degrees of a turn.
@@ -82,32 +82,51 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
     let judged: Vec<bool> = (heads.iter().enumerate())
         .map(|(k, head)| judged.contains(&head.quantity) && !(guided && joints.contains(&k)))
         .collect();
-    let mut most: Vec<Option<(f64, usize, usize)>> = vec![None; heads.len()];
+    // The places of all stretches one after the other, and the magnitude of each judged quantity there.
+    let mut places = Vec::new();
+    let mut sizes = vec![Vec::new(); heads.len()];
     let mut scale = 0.0f64;
     for (number, stretch) in stretches.iter().enumerate() {
         for step in 0..=stretch.steps {
+            places.push((number, step));
             let row = search.at(stretch.place(step))?;
             for (k, value) in row.into_iter().enumerate() {
                 scale = scale.max(value.abs());
-                if judged[k] && most[k].is_none_or(|(size, ..)| value.abs() > size) {
-                    most[k] = Some((value.abs(), number, step));
+                if judged[k] {
+                    sizes[k].push(value.abs());
                 }
             }
         }
     }
+    let around = |place: usize| {
+        let (number, step) = places[place];
+        let last = stretches[number].steps - 2;
+        let first = place - step + step.saturating_sub(1).min(last);
+        Some([first, first + 1, first + 2])
+    };
     let mut found = Vec::new();
-    for (k, (head, most)) in heads.iter().zip(most).enumerate() {
+    for (k, (head, sizes)) in heads.iter().zip(&sizes).enumerate() {
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
         // A guide through the centre of mass of its slider has no moment but roundings.
-        let Some((_, number, step)) = most.filter(|(size, ..)| *size > 1e-12 * scale) else {
+        if largest <= 1e-12 * scale {
+            continue;
+        }
+        let mut best = None;
+        for around in parabola::summits(sizes.len(), |place| sizes[place], around) {
+            let stretch = &stretches[places[around[0]].0];
+            let around = around.map(|place| stretch.place(places[place].1));
+            let x = parabola::peak(|x| Ok::<_, Error>(search.at(x)?[k].abs()), around)?;
+            let value = search.at(x)?[k];
+            if best.is_none_or(|(most, ..): (f64, _, _)| value.abs() > most.abs()) {
+                best = Some((value, stretch, x));
+            }
+        }
+        let Some((value, stretch, x)) = best else {
             continue;
         };
-        let stretch = &stretches[number];
-        let first = step.saturating_sub(1).min(stretch.steps - 2);
-        let around = [0, 1, 2].map(|next| stretch.place(first + next));
-        let x = peak(|x| Ok::<_, Error>(search.at(x)?[k].abs()), around)?;
         found.push(Largest {
             quantity: head.clone(),
-            value: search.at(x)?[k],
+            value,
             over: match request.over {
                 Over::Time => super::time_column(),
                 Over::Angle => source.coordinate.column(),
