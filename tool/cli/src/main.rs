@@ -18,7 +18,7 @@ fn main() -> ExitCode {
         Err(error)
             if error.use_stderr() && (plainly || !words.iter().all(|w| plain::is_short(w))) =>
         {
-            output::say(&cut(error.render().to_string(), &words));
+            output::say(cut(error.render().to_string(), &words).trim_end());
             return ExitCode::from(2);
         }
         // It ends with 2 on a wrong command line, with 0 after a help text.
