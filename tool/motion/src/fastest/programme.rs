@@ -18,9 +18,9 @@ mod rate;
 mod refine;
 mod starts;
 
-use crate::gentlest::mesh::dot;
-use crate::gentlest::shape::Shape;
-use crate::gentlest::{self};
+use crate::collocation;
+use crate::collocation::pieces::dot;
+use crate::collocation::shape::Shape;
 
 use super::field::{Binding, Field, Limits};
 use super::obstacle::input;
@@ -225,8 +225,8 @@ impl Asked<'_> {
         self.rise.clamp(RAMP[0], RAMP[1])
     }
 
-    fn form_of_ends(&self) -> gentlest::Ends {
-        gentlest::Ends {
+    fn form_of_ends(&self) -> collocation::Ends {
+        collocation::Ends {
             rest: self.ends.speeds.map(|speed| speed == 0.0),
             ramp: if self.limits().level_ends {
                 self.ramp()

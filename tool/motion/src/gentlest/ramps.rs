@@ -1,11 +1,13 @@
 //! Ramps: the acceleration rises from zero at rest to its first peak in the share of the time that is asked for.
 //!
-//! In the pieces at the ends that rest the pace is even, so that the acceleration rises there as the path bends ([`mesh`]), over exactly that share of the
+//! In the pieces at the ends that rest the pace is even, so that the acceleration rises there as the path bends ([`super::mesh`]), over exactly that share of the
 //! time. What is left to choose is how high it rises: it goes with the length of the piece along the path, which is sought. At an end that moves the piece
 //! is as long as it takes so much time.
 
+use jred_machine::number::quadrature::GAUSS_5;
+
 use super::task::{Solved, Task};
-use super::{FIRST, Fault, mesh, solve};
+use super::{FIRST, Fault, solve};
 
 /// Lengths of the pieces: the longest, and how often that of an end that moves is corrected.
 const LONGEST: f64 = 0.45;
@@ -132,7 +134,7 @@ impl Solved<'_> {
     fn time_of_end(&self, end: usize) -> f64 {
         let element = end * (self.mesh.elements.len() - 1);
         let [from, to] = self.mesh.elements[element].span;
-        let part = mesh::GAUSS.map(|[z, weight]| {
+        let part = GAUSS_5.map(|[z, weight]| {
             let [w, ..] =
                 solve::pace_at(&self.mesh, &self.found.x, element, from + z * (to - from));
             weight / w.sqrt()

@@ -5,8 +5,8 @@ use jred::{Domain, Reducible as _};
 use super::cost::Cost;
 use super::mesh::Mesh;
 use super::solve::{self, Minimum, Problem};
-use super::torque::Torque;
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
+use crate::collocation::torque::Torque;
 use crate::way::{Place, Way};
 
 /// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.

@@ -11,9 +11,8 @@ use super::effort::{Effort, State, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
 use super::rate::{Rate, smooth_slopes};
+use crate::collocation::pieces::{Value, dot};
 use crate::fastest::field::{Binding, Field};
-use crate::gentlest::mesh::Value;
-use crate::gentlest::mesh::dot;
 
 /// Share of the mean speed over which the slope of a torque-speed curve is taken.
 const NEAR: f64 = 1e-6;

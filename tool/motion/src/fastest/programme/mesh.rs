@@ -6,9 +6,9 @@
 
 use jred::Error;
 
+use crate::collocation::pieces::{Value, dot, first_columns, hermite};
+use crate::collocation::shape::Shape;
 use crate::fastest::field::Field;
-use crate::gentlest::mesh::{Value, dot, first_columns, hermite};
-use crate::gentlest::shape::Shape;
 use crate::skyline::Skyline;
 use crate::way::Place;
 

@@ -2,7 +2,7 @@
 
 use super::interior::{Iterate, Term};
 use super::mesh::{Local, Mesh, VALUES};
-use crate::gentlest::mesh::Value;
+use crate::collocation::pieces::Value;
 
 /// A step of the unknowns, slacks and multipliers.
 pub(super) struct Steps {

@@ -1,16 +1,16 @@
 //! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
 
 use jred::Error;
+use jred_machine::number::quadrature::GAUSS_5;
 
 use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
 use super::{Asked, Found, WITHIN};
+use crate::collocation::shape::Shape;
 use crate::fastest::between::{LOOKS, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
-use crate::gentlest::mesh::GAUSS;
-use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
 use crate::way::Place;
 
@@ -128,7 +128,7 @@ impl Asked<'_> {
     pub(super) fn step(&self, found: &Found, element: usize, stations: [usize; 2]) -> f64 {
         let [from, to] = stations.map(|k| SHARES[k][0]);
         let [start, end] = found.mesh.elements[element].span;
-        let each = GAUSS.into_iter().map(|[z, weight]| {
+        let each = GAUSS_5.into_iter().map(|[z, weight]| {
             let [w, ..] = found
                 .mesh
                 .pace(&found.point.x, element, from + z * (to - from));

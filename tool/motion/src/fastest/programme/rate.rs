@@ -9,8 +9,8 @@
 
 use super::effort::{State, mix};
 use super::mesh::{Local, Station, VALUES};
-use crate::gentlest::mesh::dot;
-use crate::gentlest::torque::Torque;
+use crate::collocation::pieces::dot;
+use crate::collocation::torque::Torque;
 use crate::way::{Demand, Place};
 
 /// Shares of the slopes that differ by less are one.

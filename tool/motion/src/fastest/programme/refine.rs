@@ -4,8 +4,8 @@ use super::limits::Margins;
 use super::mesh::Border;
 use super::starts::SAME;
 use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm, inner};
+use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
-use crate::gentlest::shape::Shape;
 
 /// Rounds of finer pieces.
 const ROUNDS: u32 = 24;

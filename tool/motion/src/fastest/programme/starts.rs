@@ -5,8 +5,8 @@ use super::limits::{Margins, Problem};
 use super::mesh::{Border, Mesh};
 use super::refine::halved;
 use super::{Asked, FEASIBLE, Found, PIECES, RANGES, ROUGH, STARTS};
+use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
-use crate::gentlest::shape::Shape;
 
 /// Most that limits of rates are eased by at the start, and the factors from one to the next: the first, and what is too near to 1.
 const MOST_EASE: f64 = 1e4;
