@@ -5,6 +5,7 @@ mod timeline;
 
 use jred_machine::model::motion::{Motion, Steady};
 
+pub(crate) use kept::INSIDE;
 pub use kept::Kept;
 use timeline::Timeline;
 

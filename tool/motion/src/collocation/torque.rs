@@ -21,7 +21,7 @@ pub(crate) struct Torque {
 }
 
 /// Shares of the slopes that differ by less are one.
-const STRAIGHT: f64 = 1e-9;
+pub(crate) const STRAIGHT: f64 = 1e-9;
 
 /// Most bends in one range: of loads so large that their last digits are more than the range there would be any number.
 const MOST_BENDS: u32 = 8;

@@ -66,7 +66,7 @@ const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 const APART: f64 = 1e-9;
 
 /// Share by which a limit may be exceeded between the nodes of the motion, and how often margins are widened for it.
-const WITHIN: f64 = 2e-7;
+const PROGRAMME_EXCESS: f64 = 2e-7;
 const WIDENED: u32 = 24;
 
 /// What is asked.
@@ -179,7 +179,7 @@ impl Asked<'_> {
             trace = self.trace(&shape, &warm.found);
             let each;
             (worst, each) = self.exceeded(&trace, warm.margins.len())?;
-            if worst.excess <= WITHIN {
+            if worst.excess <= PROGRAMME_EXCESS {
                 break;
             }
             if !self.divide(&mut warm, &each) {

@@ -20,7 +20,7 @@ const CHANGES: [f64; 2] = [0.4, 0.01];
 /// behind the ramp at which that is looked at.
 const REACHED: f64 = 0.9;
 const PENALTY: f64 = 10.0;
-const LOOKS: u32 = 32;
+const PLACES_BEHIND: u32 = 32;
 
 impl<'a> Task<'a> {
     /// The same with the best pieces for the ramp that is asked for, for a motion that moves for so long (s).
@@ -118,7 +118,7 @@ impl Solved<'_> {
         let element = if end == 0 { 1 } else { last - 1 };
         let [from, to] = self.mesh.elements[element].span;
         let size = |k: u32| {
-            let share = f64::from(k) / f64::from(LOOKS);
+            let share = f64::from(k) / f64::from(PLACES_BEHIND);
             let place = if end == 0 { share } else { 1.0 - share };
             let u = from + place * (to - from);
             let [w, change, _] = solve::pace_at(&self.mesh, &self.found.x, element, u);
@@ -126,7 +126,7 @@ impl Solved<'_> {
             (bend * w + 0.5 * slope * change).abs()
         };
         let border = size(0);
-        let most = (1..=LOOKS).map(size).fold(border, f64::max);
+        let most = (1..=PLACES_BEHIND).map(size).fold(border, f64::max);
         (REACHED * most / border - 1.0).max(0.0)
     }
 

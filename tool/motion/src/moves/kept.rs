@@ -4,7 +4,7 @@ use jred::machine::motion::{End, Polynomial, State};
 use jred_machine::model::motion::{Motion, Node, Phase, Steady};
 
 /// Share of a part by which its ends are looked at from inside: where the acceleration jumps it has the value of its own side.
-const INSIDE: f64 = 1e-9;
+pub(crate) const INSIDE: f64 = 1e-9;
 
 /// Steps of a kept part, and how often each is halved at most.
 const STEPS: u32 = 16;

@@ -9,6 +9,7 @@ use jred::Error;
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Shape;
 use crate::fastest::field::Field;
+use crate::fastest::track::INSIDE;
 use crate::skyline::Skyline;
 use crate::way::Place;
 
@@ -18,10 +19,7 @@ pub(super) const VALUES: usize = 6;
 /// Coefficients of the values of one piece.
 pub(super) type Local = [f64; VALUES];
 
-/// Share of a piece by which a place at its end lies inside it: what jumps there has the value of its own side.
-const INSIDE: f64 = 1e-9;
-
-/// The same as a share of u, whose last digits must not step out of a short piece.
+/// [`INSIDE`] as a share of u, whose last digits must not step out of a short piece.
 const NEAR: f64 = 1e-13;
 
 /// How the ends of the motion are, and what may jump on the way.

@@ -6,9 +6,9 @@ use jred_machine::number::quadrature::GAUSS_5;
 use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
-use super::{Asked, Found, WITHIN};
+use super::{Asked, Found, PROGRAMME_EXCESS};
 use crate::collocation::shape::Shape;
-use crate::fastest::between::{LOOKS, within_step};
+use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
 use crate::trace::{Node, Trace};
@@ -49,7 +49,7 @@ pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: boo
     for (margins, own) in margins.iter_mut().zip(exceeded) {
         let each = [&mut margins.state, &mut margins.jerk, &mut margins.rate];
         for (margin, excess) in each.into_iter().zip(own) {
-            if *excess > 0.5 * WITHIN {
+            if *excess > 0.5 * PROGRAMME_EXCESS {
                 let more = if is_late { *margin } else { 0.0 };
                 *margin += 1.1 * excess + 1e-9 + more;
             }
@@ -179,7 +179,7 @@ impl Asked<'_> {
                     .min((last - near).max(middle));
                 way.place(self.ends.from + direction * x)
             };
-            for share in LOOKS {
+            for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
                 let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
