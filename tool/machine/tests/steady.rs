@@ -1,6 +1,8 @@
 //! Steady cycles and flywheels against closed forms, simulations and a search by hand.
 
+mod flywheel;
 mod refusals;
+mod simulated;
 mod together;
 
 use std::f64::consts::TAU;
@@ -10,8 +12,7 @@ use jred_machine::analysis::steady::{Request, Start, Steady, SteadyError, steady
 use jred_machine::model::machine::MachineFile;
 
 use crate::reading::{parse, parse_in, rendered};
-use crate::simulate::simulate;
-use crate::support::{Folder, budget, edited, near, press_text, within};
+use crate::support::{Folder, budget, near, within};
 
 /// The steady motion of a machine text, or why there is none.
 pub(crate) fn try_of(text: &str, delta: Option<f64>) -> Result<Steady, SteadyError> {
@@ -61,6 +62,16 @@ pub(crate) fn rotor(loads: &str, simulation: &str) -> String {
         "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"gear-train\"\n[[mechanism.stage]]\n\
          driver = {{ teeth = 20, inertia = \"0.4 kg m^2\" }}\ndriven = {{ teeth = 20, inertia = \"0 kg m^2\" }}\n{loads}\n\
          [simulation]\nstart_angle = \"0 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\n{simulation}"
+    )
+}
+
+/// A rotor on the drive link whose centre of mass, 20 kg, is 100 mm beside its axle.
+fn unbalanced_rotor(inertia: &str, loads: &str, motor: &str) -> String {
+    format!(
+        "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
+         body = [{{ name = \"rotor\", mass = \"20 kg\", inertia = \"{inertia}\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }}]\n\
+         joint = [{{ name = \"axle\", between = [\"ground\", \"rotor\"] }}]\n{loads}\n\
+         [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\n{motor}"
     )
 }
 
@@ -191,11 +202,12 @@ fn a_load_made_for_a_motion() {
 /// speed, however unbalanced the rotor is.
 #[test]
 fn an_unbalanced_rotor_turns_at_no_load_speed() {
-    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
-        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.5 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
-        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
-        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\nat = \"crank\"\n\
-        dc_motor = { no_load_speed = \"20 rad/s\", stall_torque = \"30 N m\" }";
+    let text = &unbalanced_rotor(
+        "0.5 kg m^2",
+        "",
+        "at = \"crank\"\n\
+        dc_motor = { no_load_speed = \"20 rad/s\", stall_torque = \"30 N m\" }",
+    );
     let found = of(text);
     let cycle = found.cycle.unwrap();
     let figures = cycle.figures;
@@ -210,279 +222,6 @@ fn an_unbalanced_rotor_turns_at_no_load_speed() {
         "{}",
         figures.delta
     );
-}
-
-fn with_start(text: &str, [phi, omega]: [f64; 2], duration: f64, steps: u32) -> String {
-    let (before, _) = text.split_once("[simulation]").unwrap();
-    let (_, motor) = text.split_once("torque_speed").unwrap();
-    format!(
-        "{before}[simulation]\nstart_angle = \"{phi:?} rad\"\nstart_speed = \"{omega:?} rad/s\"\nduration = \"{duration:?} s\"\n\
-         output_step = \"{:?} s\"\ntolerance = 1e-12\ntorque_speed{motor}",
-        duration / f64::from(steps)
-    )
-}
-
-/// `jred simulate`, over the time and with a method of its own for friction: started on the cycle, it is back after a period; started
-/// from rest, it comes to the same cycle.
-#[test]
-fn simulations_come_to_the_same_cycle() {
-    let press = press_text();
-    let figures = of(&press).cycle.unwrap().figures;
-    let phi = 180f64.to_radians();
-    let turn = simulate(&with_start(
-        &press,
-        [phi, figures.begin],
-        figures.period,
-        50,
-    ));
-    let omega = turn.get("omega [rad/s]");
-    let tight = budget::STEADY_SIMULATED;
-    near("back", *omega.last().unwrap(), figures.begin, tight);
-    near(
-        "a turn",
-        turn.get("phi [deg]")[50] - turn.get("phi [deg]")[0],
-        360.0,
-        tight,
-    );
-    near(
-        "work",
-        turn.get("motor work [J]")[50],
-        figures.works[0],
-        tight,
-    );
-    near(
-        "losses",
-        turn.get("losses [J]")[50],
-        figures.works[2],
-        tight,
-    );
-    let torques = turn.get("motor torque [N m]");
-    assert!(
-        torques
-            .iter()
-            .all(|t| *t <= figures.torque[2] * (1.0 + tight))
-    );
-
-    let long = simulate(&with_start(&press, [phi, 0.0], 20.0, 100));
-    let last = long.get("phi [deg]")[100].to_radians().rem_euclid(TAU);
-    let there = of(&with_start(&press, [last, 0.0], 1.0, 1)).cycle.unwrap();
-    near(
-        "from rest",
-        long.get("omega [rad/s]")[100],
-        there.figures.begin,
-        budget::STEADY_FROM_REST,
-    );
-}
-
-/// The list has equal positions and the end of the turn, wherever the edges of the loads are: here on one of them.
-#[test]
-fn the_list_has_equal_positions() {
-    let course = of(&press_text()).cycle.unwrap().figures.course;
-    let at = course
-        .names()
-        .iter()
-        .position(|name| name == "phi [deg]")
-        .unwrap();
-    assert_eq!(course.rows().len(), 37);
-    for (k, row) in course.rows().iter().enumerate() {
-        within("phi", row[at].unwrap(), 180.0 + 10.0 * k as f64, 1e-6);
-    }
-}
-
-/// The time from rest to within 1 %: `simulate` from rest, compared with the cycle at the same angle.
-#[test]
-fn the_press_starts_in_the_time_that_a_simulation_takes() {
-    let press = press_text();
-    let cycle = of(&press).cycle.unwrap();
-    let Start::Reached { time, turns } = cycle.start else {
-        panic!("{:?}", cycle.start);
-    };
-    let run = simulate(&with_start(&press, [180f64.to_radians(), 0.0], time, 1));
-    near("turns", run.get("phi [deg]")[1] / 360.0 - 0.5, turns, 1e-6);
-    // There, the speed is within 1 %; a 20th of a turn before it was not, or had not been for a turn.
-    let phi = run.get("phi [deg]")[1].to_radians().rem_euclid(TAU);
-    let there = of(&with_start(&press, [phi, 0.0], 1.0, 1)).cycle.unwrap();
-    let share = run.get("omega [rad/s]")[1] / there.figures.begin;
-    assert!((share - 1.0).abs() <= 0.01 + 1e-6, "{share}");
-}
-
-/// The flywheel for δ against bisection over files with a flywheel written into them.
-#[test]
-fn the_flywheel_is_that_of_a_search_by_hand() {
-    let press = press_text();
-    let wanted = 0.02;
-    let found = checked(try_of(&press, Some(wanted)));
-    let flywheel = found.flywheel.unwrap();
-    near(
-        "delta",
-        flywheel.cycle.figures.delta,
-        wanted,
-        budget::STEADY_FLYWHEEL,
-    );
-    let own = found.cycle.unwrap().figures.delta;
-    assert!(own > 2.0 * wanted, "{own}");
-    let with = |inertia: f64| {
-        edited(
-            &press,
-            "\"0.05 kg m^2\"",
-            &format!("\"{:?} kg m^2\"", 0.05 + inertia),
-        )
-    };
-    let delta = |inertia: f64| of(&with(inertia)).cycle.unwrap().figures.delta;
-    let (mut low, mut high) = (0.0, 100.0);
-    for _ in 0..24 {
-        let middle = 0.5 * (low + high);
-        if delta(middle) > wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    near("inertia", flywheel.inertia, 0.5 * (low + high), 1e-5);
-    // The classical value is of the same size, and not the same.
-    let ratio = flywheel.classical.inertia / flywheel.inertia;
-    assert!(
-        (0.5..2.0).contains(&ratio) && (ratio - 1.0).abs() > 1e-3,
-        "{ratio}"
-    );
-}
-
-/// Each shaft of the press's drive train needs the flywheel that a search by hand finds there: with the losses of a stage in between it is not that on the drive
-/// link by the squared ratio, and without losses it is.
-#[test]
-fn a_flywheel_on_each_shaft() {
-    let press = press_text();
-    let wanted = 0.02;
-    let driver = "driver = { radius = \"40 mm\", inertia = \"0.0006 kg m^2\" }";
-    let with = |text: &str, inertia: f64| {
-        let there = driver.replace("0.0006", &format!("{:?}", 0.0006 + inertia));
-        of(&edited(text, driver, &there)).cycle.unwrap().figures
-    };
-    let lossless = edited(&press, "efficiency = \"97 %\"", "efficiency = \"100 %\"");
-    for (text, by_ratio) in [(&lossless, true), (&press, false)] {
-        let found = checked(try_of(text, Some(wanted))).flywheel.unwrap();
-        let [motor, link] = found.places.as_slice() else {
-            panic!("{:?}", found.places);
-        };
-        assert_eq!([motor.shaft, link.shaft], [0, 1]);
-        let [motor, link] = [motor, link].map(|place| place.wheel.as_ref().unwrap());
-        let there = with(text, motor.inertia);
-        near("delta", there.delta, wanted, budget::STEADY_FLYWHEEL);
-        near("RMS", motor.torque[0], there.torque[1], 1e-9);
-        near("losses", motor.losses, there.works[2], 1e-9);
-        near("speed", motor.speed, 3.0 * there.mean_speed, 1e-9);
-        near(
-            "energy",
-            motor.stored,
-            0.5 * motor.inertia * motor.speed.powi(2),
-            1e-12,
-        );
-        let share = 9.0 * motor.inertia / link.inertia;
-        assert_eq!((share - 1.0).abs() < 1e-7, by_ratio, "{share}");
-        assert!((share - 1.0).abs() < 0.1, "{share}");
-        near("drive link", link.inertia, found.inertia, 1e-15);
-        near("motor", found.at_motor().unwrap(), motor.inertia, 1e-15);
-        // In front of the belt the flywheel leaves the peaks to it; behind it, it takes them.
-        assert!(
-            motor.delivered[0] > 2.0 * link.delivered[0],
-            "{motor:?} {link:?}"
-        );
-    }
-}
-
-/// Two stages: without losses each shaft needs the same flywheel by its squared ratio, and what a stage delivers is the torque of the motor less what the shafts
-/// in front of it take, by the ratio.
-#[test]
-fn a_flywheel_between_two_stages() {
-    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
-        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.01 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
-        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
-        [[load]]\non = \"rotor\"\nopposing_moment = \"5 N m\"\n\
-        [[drive_train]]\ntype = \"gear-train\"\nstage = [\n\
-        { driver = { teeth = 20, inertia = \"0 kg m^2\" }, driven = { teeth = 40, inertia = \"0 kg m^2\" } },\n\
-        { driver = { teeth = 20, inertia = \"0 kg m^2\" }, driven = { teeth = 60, inertia = \"0 kg m^2\" } }]\n\
-        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\n\
-        dc_motor = { no_load_speed = \"240 rad/s\", stall_torque = \"4 N m\" }";
-    let flywheel = checked(try_of(text, Some(0.02))).flywheel.unwrap();
-    let places = flywheel.places.iter();
-    let places: Vec<_> = places.map(|place| place.wheel.as_ref().unwrap()).collect();
-    let ratios = [6.0, 3.0, 1.0];
-    assert_eq!(places.len(), 3);
-    for (place, ratio) in places.iter().zip(ratios) {
-        near(
-            "inertia",
-            place.inertia * ratio * ratio,
-            flywheel.inertia,
-            1e-7,
-        );
-        near("stored", place.stored, places[2].stored, 1e-7);
-    }
-    // On the drive link the motor alone drives both stages, without inertia in between.
-    let [_, peak] = places[2].torque;
-    near("stage 1", places[2].delivered[0], 2.0 * peak, 1e-4);
-    near("stage 2", places[2].delivered[1], 6.0 * peak, 1e-4);
-    // Between them, the first stage alone.
-    near(
-        "stage 1",
-        places[1].delivered[0],
-        2.0 * places[1].torque[1],
-        1e-4,
-    );
-    assert!(
-        places[1].delivered[1] > 1.5 * places[2].delivered[1],
-        "{places:?}"
-    );
-}
-
-/// Where a motor hardly reacts to the speed and δ is small, the classical method is right: the exact inertia approaches it.
-#[test]
-fn the_classical_flywheel_is_the_limit_of_a_soft_motor() {
-    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
-        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.01 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
-        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
-        [[load]]\non = \"rotor\"\nopposing_moment = \"5 N m\"\n\
-        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\nat = \"crank\"\n\
-        dc_motor = { no_load_speed = \"4000 rad/s\", stall_torque = \"5.05 N m\" }";
-    let found = checked(try_of(text, Some(0.001)));
-    let flywheel = found.flywheel.unwrap();
-    // ΔW = 2·m·g·r, ω = 4000·(1 − 5/5.05)
-    let classical = flywheel.classical;
-    near("work", classical.work, 2.0 * 20.0 * 9.81 * 0.1, 1e-9);
-    near("speed", classical.speed, 4000.0 * (1.0 - 5.0 / 5.05), 1e-4);
-    near("own", classical.own, 0.01 + 0.2, 1e-12);
-    near(
-        "inertia",
-        flywheel.inertia + classical.own,
-        classical.total,
-        1e-5,
-    );
-}
-
-/// So it is behind a drive train with losses: the motor feeds them all the time, and no flywheel stores them.
-#[test]
-fn losses_of_a_drive_train_are_in_no_flywheel() {
-    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
-        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.01 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
-        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
-        [[load]]\non = \"rotor\"\nopposing_moment = \"5 N m\"\n\
-        [[drive_train]]\ntype = \"belt\"\ndriver = { radius = \"40 mm\", inertia = \"0 kg m^2\" }\n\
-        driven = { radius = \"80 mm\", inertia = \"0 kg m^2\" }\nefficiency = \"80 %\"\n\
-        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\nat = \"motor\"\n\
-        dc_motor = { no_load_speed = \"8000 rad/s\", stall_torque = \"3.15625 N m\" }";
-    let flywheel = checked(try_of(text, Some(0.001))).flywheel.unwrap();
-    let classical = flywheel.classical;
-    near("work", classical.work, 2.0 * 20.0 * 9.81 * 0.1, 1e-9);
-    near(
-        "speed",
-        classical.speed,
-        4000.0 * (1.0 - 3.125 / 3.15625),
-        1e-4,
-    );
-    let exact = flywheel.inertia + classical.own;
-    near("inertia", exact, classical.total, 1e-4);
-    // In front of the belt a flywheel gives and takes its energy through it, each time with losses, which this motor does not cover.
-    let why = flywheel.places[0].wheel.as_ref().unwrap_err().to_string();
-    assert!(why.contains("the machine stops"), "{why}");
 }
 
 /// An induction motor has two speeds at which its torque is that of a constant load: the cycle is the higher one, and the lower one is

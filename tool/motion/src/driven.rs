@@ -168,8 +168,8 @@ impl Motor for DriveMotor<'_> {
     }
 }
 
-/// Looks at what the drive bears.
-struct Watch<'a> {
+/// Observes what the drive bears.
+struct LoadObserver<'a> {
     drive: Drive<'a>,
     prepared: &'a Prepared,
     loads: Loads,
@@ -187,7 +187,7 @@ struct Warming {
     housing: bool,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> LoadObserver<'a> {
     fn new(drive: Drive<'a>, prepared: &'a Prepared, file: &MachineFile, duration: f64) -> Self {
         let surroundings = &file.site.surroundings;
         let model = Model::of(drive.motor, prepared, surroundings, duration).ok();
@@ -244,7 +244,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for LoadObserver<'_> {
     fn columns(&self) -> Vec<Column> {
         let (unit, whole) = match self.drive.motor.kind {
             MotorKind::Rotary => ("rpm", "motor speed"),
@@ -360,11 +360,11 @@ pub fn driven(
         at: Shaft::Motor,
         ..simulation.clone()
     };
-    let mut watch = Watch::new(drive, &prepared, file, simulation.duration);
-    let simulated = simulate_under(machines, &at_motor, &motor, &mut watch);
+    let mut observer = LoadObserver::new(drive, &prepared, file, simulation.duration);
+    let simulated = simulate_under(machines, &at_motor, &motor, &mut observer);
     Ok(simulated.map(|simulated| Driven {
         simulated,
-        loads: watch.loads,
+        loads: observer.loads,
     }))
 }
 

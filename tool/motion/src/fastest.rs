@@ -58,7 +58,7 @@ const CELLS: [usize; 2] = [128, 131_072];
 const SETTLED: f64 = 1e-9;
 
 /// Share by which a torque, speed or acceleration may exceed its limit between the nodes of the motion.
-const WITHIN: f64 = 1e-9;
+const SWEEP_EXCESS: f64 = 1e-9;
 
 /// Rounds of finer cells.
 const ROUNDS: u32 = 24;
@@ -120,7 +120,7 @@ pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fas
     if task.limits.has_rates() {
         return priced(file, actuator, task, Price::TIME, Start::Nothing).map(|(found, _)| found);
     }
-    refine(file, actuator, task, WITHIN)
+    refine(file, actuator, task, SWEEP_EXCESS)
 }
 
 /// The motion with the least price.
@@ -267,7 +267,7 @@ fn refine(
         let (pieces, times) = slivers::without(&track, pieces, &times);
         let trace = trace(&way, &ends, &track, &pieces, &times);
         let (worst, places) = if within.is_finite() {
-            between::excess(&field, &ends, (&track, &pieces), &trace, within)?
+            between::largest_excess(&field, &ends, (&track, &pieces), &trace, within)?
         } else {
             ((0.0, task.from), Vec::new())
         };

@@ -9,8 +9,7 @@
 //! direction), and a time longer than the motion would take of itself (the multiplier of the time is negative, as where a weight must be
 //! held). Whatever holds, [`bound`](self) gives a lower bound for all motions from a verification function, and the gap to it.
 //!
-//! - [`shape`](self): the path over a parameter along which w, the square of the pace, is smooth up to rest.
-//! - [`mesh`](self): w in cubic pieces, the machine at Gauss points.
+//! - [`mesh`](self): w, the square of the pace along the path, in cubic pieces, the machine at Gauss points.
 //! - [`solve`](self): Newton's method.
 //! - [`bound`](self): the lower bound;
 //! - [`task`](self): mesh after mesh, and the time that is better waited;
@@ -25,17 +24,16 @@ use jred_sizing::motor::envelope::Envelope;
 
 use self::outcome::Waits;
 use self::task::{Task, edges};
+use crate::collocation::Ends;
 use crate::way::{Actuator, Way};
 
 mod bound;
 mod cost;
-pub(crate) mod mesh;
+mod mesh;
 mod outcome;
 mod ramps;
-pub(crate) mod shape;
 mod solve;
 mod task;
-pub(crate) mod torque;
 mod waiting;
 
 /// What is to be least.
@@ -73,14 +71,6 @@ pub struct Travel {
     pub ramp: f64,
     /// Whether it goes on for ever: the end is the start, at a speed that is sought.
     pub ring: bool,
-}
-
-/// The form of the ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Ends {
-    pub(crate) rest: [bool; 2],
-    pub(crate) ramp: f64,
-    pub(crate) ring: bool,
 }
 
 impl Travel {

@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+mod collocation;
 pub mod contact;
 pub mod driven;
 pub mod fastest;

@@ -1,29 +1,31 @@
-//! What a prescribed motion is made of: moves one way, the pauses between them, and the parts that are kept as they are because the machine does its work there.
+//! A prescribed motion as a chain of moves in one direction, the pauses between them, and the parts that are kept as they are because the
+//! machine does its work there.
 
 mod kept;
 mod timeline;
 
 use jred_machine::model::motion::{Motion, Steady};
 
+pub(crate) use kept::INSIDE;
 pub use kept::Kept;
 use timeline::Timeline;
 
-/// Share of the whole motion below which a pause is a point of rest only.
+/// A pause that is shorter than this share of the whole motion counts as an instant of rest, not as a pause.
 const POINT: f64 = 1e-9;
 
-/// Share of the speed by which start and end of an endless motion may differ.
+/// Share by which the speeds at the start and at the end of an endless motion may differ.
 const CLOSED: f64 = 1e-6;
 
 /// One part of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
-    /// From rest to rest in one direction.
+    /// A move in one direction, from rest to rest.
     Move(Move),
-    /// In one direction, from a kept part or to one.
+    /// A move in one direction that begins at the end of a kept part, or ends at the start of one, and passes there without rest.
     Passing(Move, Passing),
-    /// Kept as it is.
+    /// A part that is kept as it is.
     Kept(Kept),
-    /// At rest.
+    /// A pause: the drive link is at rest.
     Dwell {
         /// Position of the drive link (rad, or m).
         at: f64,
@@ -53,7 +55,7 @@ impl Part {
         }
     }
 
-    /// The move that it is, if it is one, and how it begins and ends.
+    /// The move, and how it begins and ends; `None` for a pause or a kept part.
     pub fn step(&self) -> Option<(Move, Passing)> {
         match self {
             Self::Move(step) => Some((*step, Passing::default())),
@@ -74,25 +76,25 @@ pub struct Move {
     pub duration: f64,
 }
 
-/// How a move begins and ends, both counted in its direction; at rest where nothing is kept.
+/// Speed and acceleration at the start and at the end of a move, positive in its direction; zero where no kept part is next to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Passing {
     /// Speeds (rad/s, or m/s), not negative.
     pub speeds: [f64; 2],
-    /// Accelerations (rad/s², or m/s²) of the kept parts there.
+    /// Accelerations (rad/s², or m/s²), those of the kept parts there.
     pub accelerations: [f64; 2],
 }
 
-/// The parts of a motion, one after another, as long as the motion.
+/// The parts of a motion, one after another. Together they take as long as the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     /// The parts.
     pub parts: Vec<Part>,
-    /// Whether it turns for ever without rest and nothing of it is kept: one move, which comes round with the speed that it began with.
+    /// Whether the motion never rests and no part of it is kept. Then it is one move, which ends with the speed with which it began.
     pub endless: bool,
-    /// When it begins in the motion (s): a motion that turns for ever begins where something is kept, or rests.
+    /// Time (s) of the motion at which the first part begins. An endless motion is cut where a kept part or a pause begins, or where it turns back.
     pub begins: f64,
-    /// The constant speed of a motion that is nothing else: it is not kept, because nothing would be left to seek.
+    /// The constant speed, where the motion consists of nothing else. It is not kept, because then no move would be left to optimise.
     pub given_up: Option<Steady>,
 }
 
@@ -109,7 +111,7 @@ impl Chain {
 /// Why a motion is not made of moves and pauses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoMoves {
-    /// It begins or ends in motion, at this speed (rad/s, or m/s).
+    /// The motion begins or ends at this speed (rad/s, or m/s), not at rest.
     NotAtRest {
         /// Speed at the start or at the end.
         speed: f64,
@@ -118,14 +120,14 @@ pub enum NoMoves {
     },
     /// Nothing moves.
     Still,
-    /// All of it is kept.
+    /// Every part is kept.
     AllKept,
 }
 
-/// The moves, pauses and kept parts of the drive link. `process` is what is kept.
+/// The moves, pauses and kept parts of the drive link. `process` has the stretches that are kept.
 ///
 /// # Errors
-/// A motion that begins or ends in motion and does not turn for ever, or in which nothing moves, or nothing that is not kept.
+/// See [`NoMoves`].
 pub fn chain(motion: &Motion, process: &[Steady]) -> Result<Chain, NoMoves> {
     let duration = motion.duration();
     let kept: f64 = process.iter().map(Steady::duration).sum();

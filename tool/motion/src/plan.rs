@@ -108,7 +108,7 @@ impl Plan {
             most: course::greatest(&draft),
             words: write(&knots, errors)?,
             errors,
-            excess: excess(worst, asked.bounds.asked),
+            excess: first_excess(worst, asked.bounds.asked),
         })
     }
 
@@ -122,7 +122,7 @@ impl Plan {
 }
 
 /// The first quantity that is off by more than its bound.
-fn excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
+fn first_excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
     let quantities = [Quantity::Position, Quantity::Speed, Quantity::Acceleration];
     let all = quantities.into_iter().zip(worst).zip(bounds);
     let mut beyond = all.filter(|((_, worst), bound)| worst.error > *bound);

@@ -6,6 +6,7 @@ pub mod figures;
 pub mod formula;
 pub mod numerics;
 pub mod parabola;
+pub mod quadrature;
 pub mod rounding;
 pub mod spline;
 pub mod words;

@@ -4,6 +4,8 @@ pub mod dormand_prince;
 
 use std::cell::Cell;
 
+use super::quadrature::GAUSS_5;
+
 /// Thirds after which the bracket is down to rounding.
 const THIRDS: u32 = 80;
 
@@ -136,19 +138,11 @@ pub fn integral<E>(
 /// # Errors
 /// Those of `f`.
 pub fn gauss<E>(f: &impl Fn(f64) -> Result<f64, E>, [a, b]: [f64; 2]) -> Result<f64, E> {
-    const POINTS: [(f64, f64); 5] = [
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-        (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
-        (0.0, 128.0 / 225.0),
-        (0.538_469_310_105_683, 0.478_628_670_499_366_5),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ];
-    let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
     let mut sum = 0.0;
-    for (x, weight) in POINTS {
-        sum += weight * f(middle + half * x)?;
+    for [share, weight] in GAUSS_5 {
+        sum += weight * f(a + share * (b - a))?;
     }
-    Ok(half * sum)
+    Ok((b - a) * sum)
 }
 
 fn halved<E>(

@@ -2,7 +2,7 @@
 
 use jred_machine::analysis::steady::SteadyError;
 
-use super::{rotor, try_of};
+use super::{rotor, try_of, unbalanced_rotor};
 use crate::support::{edited, near, press_text};
 
 fn why(text: &str, delta: Option<f64>) -> SteadyError {
@@ -13,11 +13,11 @@ fn why(text: &str, delta: Option<f64>) -> SteadyError {
 /// the motor's, on the way up.
 #[test]
 fn a_motor_too_weak_for_a_weight() {
-    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
-        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.5 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
-        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
-        [[load]]\non = \"rotor\"\nopposing_moment = \"3 N m\"\n\
-        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\nat = \"crank\"\ntorque = \"2 N m\"";
+    let text = &unbalanced_rotor(
+        "0.5 kg m^2",
+        "[[load]]\non = \"rotor\"\nopposing_moment = \"3 N m\"",
+        "at = \"crank\"\ntorque = \"2 N m\"",
+    );
     let SteadyError::Stuck { place, needed, .. } = why(text, None) else {
         panic!("{:?}", why(text, None));
     };

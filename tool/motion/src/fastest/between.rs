@@ -12,11 +12,11 @@ use crate::trace::{Node, Trace};
 const MOST_PARTS: f64 = 8.0;
 
 /// Places between two nodes at which limits are looked at.
-pub(super) const LOOKS: [f64; 3] = [0.21, 0.5, 0.79];
+pub(super) const BETWEEN_NODES: [f64; 3] = [0.21, 0.5, 0.79];
 
 /// Those of a motion that was made by sweeps: with the nodes, where it leaves a limit of the speed by what is known of the machine there; what an excess does between
 /// them, with its slopes at the ends, rises less than a third above what it is at the nearest of them.
-const SHARES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
+const BETWEEN_SWEPT_NODES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
 
 /// Share of what a limit may be exceeded by that is kept to at these places.
 const KEPT: f64 = 0.75;
@@ -98,7 +98,7 @@ pub(super) fn check(
 
 /// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
 /// which cells must meet so that it is no more than `within`. Each step is looked at in its own time, however short it is.
-pub(super) fn excess(
+pub(super) fn largest_excess(
     field: &Field,
     ends: &Ends,
     (track, pieces): (&Track, &[Piece]),
@@ -115,7 +115,7 @@ pub(super) fn excess(
         let inside = ends.inside(cell.length);
         // What is exceeded, and what finer cells can do about it.
         let (mut most, mut curable) = (0.0_f64, 0.0_f64);
-        for share in SHARES {
+        for share in BETWEEN_SWEPT_NODES {
             let state = b.after(a, share);
             // A place at a corner has the values of its own side.
             let x = (state.phi - ends.from) * direction;

@@ -129,12 +129,14 @@ fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
         .collect())
 }
 
-/// Distances from the start, in the way or in the first turn of a longer one, at which a quantity of the position is least among its neighbours, with it.
+/// Distances from the start, in the way or in the first turn of a longer one, at which a quantity of the position is least among its neighbours, and no more than
+/// this share of its largest value.
 fn lows(
     field: &Field,
     (from, length): (f64, f64),
+    share: f64,
     quantity: impl Fn(f64) -> Result<f64, Error>,
-) -> Result<(Vec<[f64; 2]>, f64), Error> {
+) -> Result<Vec<f64>, Error> {
     let whole = field.way.file.machine.domain() == Domain::Turn && length > TAU;
     let length = if whole { TAU } else { length };
     let count = PLACES as usize;
@@ -150,10 +152,12 @@ fn lows(
     for (k, three) in values.windows(3).enumerate() {
         if three[1] <= three[0] && three[1] < three[2] {
             let x = least(at, place(k), place(k + 2))?;
-            found.push([x, at(x)?]);
+            if at(x)? <= share * largest {
+                found.push(x);
+            }
         }
     }
-    Ok((found, largest))
+    Ok(found)
 }
 
 /// Where the acceleration changes a limited force least: there the limit is one of the speed alone, or nearly so.
@@ -164,11 +168,7 @@ fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
             let forces = field.forces(phi)?;
             Ok(forces.get(k).map_or(0.0, JointForce::by_acceleration))
         };
-        let (lows, largest) = lows(field, (from, length), by_acceleration)?;
-        let sinks = lows
-            .into_iter()
-            .filter(|[_, force]| *force <= SINKS * largest);
-        found.extend(sinks.map(|[x, _]| x));
+        found.extend(lows(field, (from, length), SINKS, by_acceleration)?);
     }
     Ok(found)
 }
@@ -187,11 +187,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
         if load.has_fixed_direction() {
             continue;
         }
-        let (lows, largest) = lows(field, (from, length), friction)?;
-        let vanishes = lows
-            .into_iter()
-            .filter(|[_, friction]| *friction <= NOTHING * largest);
-        found.extend(vanishes.map(|[x, _]| x));
+        found.extend(lows(field, (from, length), NOTHING, friction)?);
     }
     Ok(found)
 }

@@ -7,7 +7,7 @@
 use jred_machine::model::machine::MachineFile;
 
 use super::field::Field;
-use super::{Fastest, NoMotion, Task, WITHIN, refine, way};
+use super::{Fastest, NoMotion, SWEEP_EXCESS, Task, refine, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
@@ -72,13 +72,13 @@ pub(super) fn solve(
     }
     // With finer cells it may come round a little more slowly.
     let mut speed = low;
-    let mut found = refine(file, actuator, &at(speed), WITHIN);
+    let mut found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
     for share in FINER {
         let Err(NoMotion::StartTooFast { .. } | NoMotion::EndTooFast { .. }) = found else {
             break;
         };
         speed = low * (1.0 - share);
-        found = refine(file, actuator, &at(speed), WITHIN);
+        found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
     }
     let found = found.map_err(|why| match why {
         NoMotion::NotAccurate {

@@ -11,7 +11,7 @@ use crate::way::{Actuator, Way};
 const ROUNDING: f64 = 1e-6;
 
 /// Shares of a step at which limits are looked at.
-const LOOKS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+const STEP_SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// A part of the motion that was kept as it is.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl KeptPart {
         let mut excess = (f64::NEG_INFINITY, Binding::Driving);
         for pair in kept.nodes().windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
-            for share in LOOKS {
+            for share in STEP_SHARES {
                 let state = b.after(a, share);
                 let (v, alpha) = (state.omega.abs(), state.alpha * way.direction);
                 let own = field.excess_by(&way.place(state.phi)?, v, alpha)?;

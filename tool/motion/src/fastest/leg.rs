@@ -1,5 +1,7 @@
 //! One field of accelerations followed through a cell.
 
+use jred_machine::number::quadrature::GAUSS_3;
+
 use super::field::{Field, speed};
 use super::sweep::Side;
 use super::track::Cell;
@@ -25,13 +27,6 @@ const MOST_TRIALS: u32 = 12;
 /// Share of the way by which they may miss its end.
 const CLOSE: f64 = 1e-14;
 
-/// Gauss and Legendre's rule with three points on 0 to 1.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
-
 /// A step, in the direction of the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
@@ -53,11 +48,11 @@ impl Step {
             let way = (self.u[1] - self.u[0]) * length;
             let (sum, rise) = (v0 + v1, v1 - v0);
             // Over the places of constant acceleration, where dx/v is constant.
-            let part = |(s, weight): (f64, f64)| {
+            let part = |[s, weight]: [f64; 2]| {
                 let place = s * (2.0 * v0 + rise * s) / sum;
                 weight * (v0 + rise * s) / speed(self.hermite(place, way))
             };
-            2.0 * way / sum * GAUSS.into_iter().map(part).sum::<f64>()
+            2.0 * way / sum * GAUSS_3.into_iter().map(part).sum::<f64>()
         })
     }
 

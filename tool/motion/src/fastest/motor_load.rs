@@ -3,13 +3,11 @@
 use jred::Error;
 use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, BothWays};
-
-/// Gauss and Legendre's rule with two points on 0 to 1.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// What a motor does in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,9 +48,9 @@ pub(super) fn load(
         if step <= 0.0 {
             continue;
         }
-        for share in GAUSS {
+        for [share, weight] in GAUSS_2 {
             let motor = ways.torque(&b.after(a, share), heading)?;
-            squares += 0.5 * step * motor * motor;
+            squares += weight * step * motor * motor;
         }
         turns += heading.abs();
         for (node, alpha) in [(a, a.alpha[1]), (b, b.alpha[0])] {

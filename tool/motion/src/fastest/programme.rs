@@ -1,11 +1,19 @@
-//! The fastest motion where limits look at more than place, speed and acceleration: jerk, torque rate, and what the motor's heat costs.
+//! The fastest motion under limits of jerk or torque rate, or at a price of the motor's heat.
 //!
-//! Two sweeps do not find it, because the accelerations that are left depend on the one before. The motion is written as w(u), the square
-//! of the pace along a path ([`mesh`]); its time is a convex integral, and [`limits`] are looked at seven places of every piece. An
-//! interior-point method ([`interior`]) finds where no motion nearby is faster. Pieces are halved where the limit that is met changes,
-//! until the time is settled, and limits are kept a little below themselves until the motion, looked at with the machine itself, satisfies them.
+//! Two sweeps do not find it: with a limit of a rate, the accelerations that are possible depend on the one before. Here the motion is written
+//! as w(u), the square of the pace du/dt along a path ([`mesh`]). Its time is a convex integral of w. The [`limits`] must hold at seven
+//! stations of every piece.
 //!
-//! Without a limit of jerk and torque rate the motion of the sweeps is faster than any of these: it is the lower bound.
+//! 1. An interior-point method ([`interior`]) finds a motion than which none nearby is faster.
+//! 2. Pieces are halved where the active limit changes, until the time does not change any more.
+//! 3. The motion over the time is checked between the stations with the machine itself. Where it exceeds a limit, the limit of that piece gets a
+//!    margin, and the motion is sought again.
+//!
+//! Without limits of jerk and torque rate the motion can only be faster: the time of the sweeps is the lower bound.
+//!
+//! Words: a *bend* of the torque is where power changes its direction in a stage with losses, so that the torque's slope by the load jumps.
+//! The method needs smooth functions, so a bend is *rounded* over a *range* of the load. μ is the weight of the barrier that keeps the motion
+//! away from its limits; it falls to almost zero. The limits are *eased* when those of jerk and torque rate are multiplied by a factor.
 
 mod borders;
 mod effort;
@@ -18,9 +26,9 @@ mod rate;
 mod refine;
 mod starts;
 
-use crate::gentlest::mesh::dot;
-use crate::gentlest::shape::Shape;
-use crate::gentlest::{self};
+use crate::collocation;
+use crate::collocation::pieces::dot;
+use crate::collocation::shape::Shape;
 
 use super::field::{Binding, Field, Limits};
 use super::obstacle::input;
@@ -35,49 +43,49 @@ use outcome::{Worst, widen};
 /// Pieces of the first mesh, and the most.
 const PIECES: [usize; 2] = [24, 1500];
 
-/// Least and largest share of u of the ends along which the path is that of a constant jerk.
+/// Least and largest share of u at each end along which the path has the form of a constant jerk.
 const RAMP: [f64; 2] = [1e-6, 0.25];
 
-/// Shares of an even pace from which the motion is sought: of that of the fastest one without limits of rates, and of that at which they are met.
+/// Even paces from which the search starts, as shares: of the pace of the fastest motion without limits of rates, and of the pace that just
+/// meets these limits.
 const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
 
-/// Shares of the fastest motion's pace between which the one is sought at which limits of rates are met, and how closely: in logarithms.
+/// Slowest pace, as a share of that of the fastest motion, at which the limits of rates may be met, and how closely that pace is found, as a
+/// difference of logarithms.
 const SLOWEST: f64 = 1e-12;
 const CLOSELY: f64 = 0.01;
 
-/// Factor from one even pace to the next where what the motor's heat costs is sought.
+/// Factor from one even pace to the next in the search for the one of least cost, where heat has a price.
 const SLOWER: f64 = 0.8;
 
-/// μ of the first mesh, of those that follow, and of the last: what is left of the time is about ten times as much.
+/// μ at the start and at the end: on the first mesh, on those that follow, and on the last. The time is too long by a share of about 10·μ.
 const ROUGH: [f64; 2] = [0.1, 1e-5];
 const FINER: [f64; 2] = [1e-2, 1e-8];
 const LAST: [f64; 2] = [1e-3, 1e-10];
 
-/// Share of itself by which a limit is missed where it stands in the way.
+/// Share of a limit by which it must be exceeded to be named as the one that no motion satisfies.
 const FEASIBLE: f64 = 1e-6;
 
-/// Shares of the largest load of a motion over which bends of the torque are rounded: in the search, and at its end.
+/// Range over which bends of the torque are rounded, as a share of the largest load of the motion: at the start of the search, and at its end.
 const RANGES: [f64; 2] = [1e-1, 4e-3];
 
-/// Factors of the range with which the motion is sought at last.
+/// Factors by which the range is widened in the last search, one after another, until a motion is found.
 const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 
-/// Places closer than this share of u are one.
-const APART: f64 = 1e-9;
-
-/// Share by which a limit may be exceeded between the nodes of the motion, and how often margins are widened for it.
-const WITHIN: f64 = 2e-7;
+/// Share by which a limit may be exceeded between the nodes of the motion, and how often margins may be widened to achieve it.
+const PROGRAMME_EXCESS: f64 = 2e-7;
 const WIDENED: u32 = 24;
 
 /// What is asked.
 pub(super) struct Asked<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) ends: &'a Ends,
-    /// Time (s) of the fastest motion without limits of rates and without heat.
+    /// Time (s) of the fastest motion without limits of rates and without a price of heat.
     pub(super) bound: f64,
     /// Unit of the time (s) in which the motion is sought.
     pub(super) unit: f64,
-    /// Share of `bound` that its accelerations at the ends take to rise under the limits of rates; 0: there are none.
+    /// How long the accelerations at the ends of that motion would take to rise under the limits of rates, as a share of `bound`; 0: no such
+    /// limits.
     pub(super) rise: f64,
     /// What is least.
     pub(super) price: Price,
@@ -89,40 +97,30 @@ struct Found {
     mesh: Mesh,
     point: Point,
     time: f64,
-    /// Load (N·m) over which bends of the torque are rounded, and which share of its largest load that is.
+    /// Range (N·m) over which bends of the torque are rounded, and its share of the largest load of the motion.
     range: f64,
     share: f64,
 }
 
-/// A motion from which one of another price is sought.
+/// A motion as a start for the search for one of another price.
 #[derive(Clone, Debug)]
 pub struct Warm {
     borders: Vec<Border>,
     found: Found,
     margins: Vec<Margins>,
-    /// Share of the time by which it changed with the last pieces.
+    /// Share by which the time changed when the pieces were last made finer.
     change: f64,
 }
 
-/// From where a motion is sought.
+/// Where the search starts.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'w> {
-    /// From nothing.
+    /// From even paces.
     Nothing,
     /// From another motion, with pieces of its own.
     Near(&'w Warm),
     /// On the pieces of another motion, so that a small change of the price makes a small one of the motion.
     Beside(&'w Warm),
-}
-
-/// A border between two pieces of a smooth machine.
-const fn inner(u: f64) -> Border {
-    Border {
-        u,
-        is_corner: false,
-        stays: false,
-        is_plain: false,
-    }
 }
 
 impl Asked<'_> {
@@ -133,7 +131,7 @@ impl Asked<'_> {
     pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
         self.refuse_jumps()?;
         let found = self.solve_from(start, true);
-        // Coarse pieces may show a fast motion that finer ones do not have.
+        // On coarse pieces eased limits may lead to a fast motion that does not exist on finer ones.
         match (start, &found) {
             (Start::Nothing, Err(NoMotion::NotFound { .. })) if self.limits().has_rates() => {
                 self.solve_from(start, false).or(found)
@@ -142,7 +140,7 @@ impl Asked<'_> {
         }
     }
 
-    /// The same with or without a start from limits of rates that are eased.
+    /// The same; `eased`: whether motions under eased limits are starts as well.
     fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
         let shape = Shape::new(self.form_of_ends());
         let beside = match start {
@@ -159,7 +157,7 @@ impl Asked<'_> {
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
         for round in 0..WIDENED {
-            // A range that suits the motion may be too narrow for one that keeps its margins.
+            // With margins the motion needs other loads than without: a range that suited it may be too narrow.
             let mut next = None;
             for factor in WIDER {
                 let range = [warm.found.range, warm.found.share].map(|range| factor * range);
@@ -170,7 +168,7 @@ impl Asked<'_> {
                     break;
                 }
             }
-            // The first time it has no margins yet, and what was found before is one as well.
+            // In the first round there are no margins yet: the motion that was found before is still valid.
             match next {
                 Some(next) => warm.found = next,
                 None if round > 0 => break,
@@ -179,7 +177,7 @@ impl Asked<'_> {
             trace = self.trace(&shape, &warm.found);
             let each;
             (worst, each) = self.exceeded(&trace, warm.margins.len())?;
-            if worst.excess <= WITHIN {
+            if worst.excess <= PROGRAMME_EXCESS {
                 break;
             }
             if !self.divide(&mut warm, &each) {
@@ -220,13 +218,13 @@ impl Asked<'_> {
         &self.field.limits
     }
 
-    /// Share of u of the ends along which the acceleration rises.
+    /// Share of u at each end along which the acceleration rises.
     fn ramp(&self) -> f64 {
         self.rise.clamp(RAMP[0], RAMP[1])
     }
 
-    fn form_of_ends(&self) -> gentlest::Ends {
-        gentlest::Ends {
+    fn form_of_ends(&self) -> collocation::Ends {
+        collocation::Ends {
             rest: self.ends.speeds.map(|speed| speed == 0.0),
             ramp: if self.limits().level_ends {
                 self.ramp()
@@ -278,31 +276,8 @@ impl Asked<'_> {
         }
     }
 
-    /// Equal pieces, cut where the path or the machine is not smooth.
-    fn first_borders(&self, shape: &Shape) -> Vec<Border> {
-        let [pieces, _] = PIECES;
-        let border = |u: f64, stays: bool| Border { stays, ..inner(u) };
-        let corners = self.ends.corners.iter();
-        let mut borders: Vec<Border> = (0..=pieces)
-            .map(|k| border(k as f64 / pieces as f64, false))
-            .chain(shape.knots().map(|u| border(u, true)))
-            .chain(corners.map(|x| Border {
-                is_corner: true,
-                ..border(shape.place(x / self.ends.length), true)
-            }))
-            .collect();
-        borders.sort_by(|a, b| a.u.total_cmp(&b.u));
-        borders.dedup_by(|b, a| {
-            let same = b.u - a.u <= APART;
-            a.is_corner |= same && b.is_corner;
-            a.stays |= same && b.stays;
-            same
-        });
-        borders
-    }
-
-    /// In a unit of the time in which an even pace of 1 just meets the limits of rates, or costs least: the motion may take many times as long
-    /// as without them.
+    /// The same with the unit of the time set so that an even pace of 1 just meets the limits of rates, or costs least. The motion may take many
+    /// times as long as without these limits, and numbers near 1 suit the method best.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -353,7 +328,7 @@ impl Asked<'_> {
         }
     }
 
-    /// From another mesh; without margins if none are given.
+    /// The motion on these borders, from one on other borders; an empty slice of margins stands for none.
     fn next(
         &self,
         shape: &Shape,
@@ -385,7 +360,7 @@ impl Asked<'_> {
         self.unit * each.sum::<f64>()
     }
 
-    /// A load that jumps makes the torque jump, or the acceleration.
+    /// Refuses a load that jumps under a limit of the torque rate: there the torque jumps, or the acceleration.
     fn refuse_jumps(&self) -> Result<(), NoMotion> {
         if self.limits().torque_rate.is_none() {
             return Ok(());

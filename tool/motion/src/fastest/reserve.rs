@@ -5,7 +5,7 @@ use jred_machine::model::rules::RuleSet;
 
 /// Share of a limit by which a motion with a reserve stays below what the reserve leaves, so that a rule that asks for the same
 /// reserve is satisfied whatever the last digits: they are known to 1e-9 between the nodes.
-const BELOW: f64 = 1e-6;
+const ROUNDING_MARGIN: f64 = 1e-6;
 
 /// What a motion leaves unused, as shares of torque and speed of motor and gearbox; 0: nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,7 +57,7 @@ impl Reserve {
     /// What it leaves of a limit.
     pub(super) fn leaves(&self, share: f64) -> f64 {
         if self.is_some() {
-            (1.0 - share) * (1.0 - BELOW)
+            (1.0 - share) * (1.0 - ROUNDING_MARGIN)
         } else {
             1.0
         }

@@ -49,7 +49,7 @@ const STEPS: u32 = 40;
 const NEAR: f64 = 0.02;
 
 /// Share by which the RMS torque may lie below its limit at the end, and at the most.
-const BELOW: [f64; 2] = [1e-8, 1e-6];
+const UNUSED: [f64; 2] = [1e-8, 1e-6];
 
 /// Places of a move at which the torque of a slow motion is looked at.
 const PLACES: u32 = 360;
@@ -179,12 +179,12 @@ pub(super) fn within<E>(
     let mut last = dear;
     let mut slope = (dear[1] - cheap[1]) / (dear[0] - cheap[0]);
     for step in 0..STEPS {
-        if dear[1] >= -BELOW[0] {
+        if dear[1] >= -UNUSED[0] {
             break;
         }
         let is_beside = last[1].abs() <= NEAR;
         // The secant's place, a little on the dear side; where it leaves the shares between, or every fourth time, the middle.
-        let secant = last[0] - (last[1] + 0.5 * BELOW[0]) / slope;
+        let secant = last[0] - (last[1] + 0.5 * UNUSED[0]) / slope;
         let is_inside = secant > cheap[0] && secant < dear[0];
         let next = if is_inside && (is_beside || step % 4 != 3) {
             secant
@@ -197,7 +197,7 @@ pub(super) fn within<E>(
         let found = match try_at(next, is_beside) {
             Ok(found) => found,
             // What is within the limit and hardly below it is the answer.
-            Err(_) if dear[1] >= -BELOW[1] => break,
+            Err(_) if dear[1] >= -UNUSED[1] => break,
             Err(why) => return Err(Refused::Move(why)),
         };
         let own = [next, over(&found)];

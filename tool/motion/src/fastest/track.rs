@@ -13,10 +13,10 @@ const RISE: f64 = 16.0;
 const RISES: i32 = 40;
 
 /// Speeds at which it is looked whether limits leave an acceleration.
-const LOOKS: u32 = 24;
+const TRIED_SPEEDS: u32 = 24;
 
-/// Share of a cell by which a place at a corner lies inside it: what jumps there has the value of its own side.
-const INSIDE: f64 = 1e-9;
+/// Share of a cell, or of a piece, by which a place at a corner lies inside it: what jumps there has the value of its own side.
+pub(super) const INSIDE: f64 = 1e-9;
 
 /// Share by which a limit of the tool's speed changes within that at most, if it does not jump there.
 const GOES_ON: f64 = 1e-6;
@@ -241,11 +241,11 @@ fn ceiling(field: &Field, place: &Spot, top: f64) -> f64 {
         };
         closed
     };
-    let z = |k: u32| highest * (f64::from(k) / f64::from(LOOKS)).powi(2);
-    let Some(first) = (0..=LOOKS).find(|k| open(z(*k))) else {
+    let z = |k: u32| highest * (f64::from(k) / f64::from(TRIED_SPEEDS)).powi(2);
+    let Some(first) = (0..=TRIED_SPEEDS).find(|k| open(z(*k))) else {
         return 0.0;
     };
-    let Some(closed) = (first..=LOOKS).find(|k| !open(z(*k))) else {
+    let Some(closed) = (first..=TRIED_SPEEDS).find(|k| !open(z(*k))) else {
         return top;
     };
     let (mut low, mut high) = (z(closed - 1), z(closed));

@@ -28,9 +28,10 @@ use crate::trace::Trace;
 use crate::way::{Actuator, BothWays};
 
 /// Share of the allowed rise by which the greatest temperature may lie below its limit.
-const BELOW: f64 = 1e-4;
+const COOLER: f64 = 1e-4;
 
-/// Share of the RMS torque within which it is known that no motion is cool enough.
+/// Share of the RMS torque within which its limit is found, and within which it is known that no motion is cool enough.
+const FOUND: f64 = 1e-4;
 const COARSE: f64 = 0.02;
 
 /// Motions that are tried.
@@ -270,7 +271,7 @@ pub fn cooled(
     at: impl Fn(Option<Rms>) -> Result<Cycle, (Option<usize>, NoMotion)>,
 ) -> Result<Cooled, (Option<usize>, NoMotion)> {
     let free = at(rms)?;
-    let margin = BELOW * (limit - winding.ambient());
+    let margin = COOLER * (limit - winding.ambient());
     let aim = limit - 0.5 * margin;
     let look = |cycle: &Cycle| {
         let found = winding.temperatures(file, actuator, cycle, aim);
@@ -332,7 +333,7 @@ pub fn cooled(
             next = low.midpoint(high);
         }
         // What is too warm everywhere need not be known so well.
-        let near = if best.is_some() { BELOW } else { COARSE };
+        let near = if best.is_some() { FOUND } else { COARSE };
         if high - low <= near * high {
             break;
         }

@@ -11,10 +11,12 @@
 //! Where λ < 0, as with a weight that must be held, C from the torque that holds the machine at rest makes the bound finite.
 //! The integral is that of the mesh; the infimum is that of straight lines in w′ and a search over w in a range of speeds of 1 : 10,000.
 
+use jred_machine::number::quadrature::GAUSS_5;
+
 use super::Fault;
-use super::mesh::{GAUSS, Mesh};
+use super::mesh::Mesh;
 use super::solve::{Minimum, Problem, pace_at};
-use super::torque::Torque;
+use crate::collocation::torque::Torque;
 use crate::way::Place;
 
 /// Ends and thirds of an element, at which C is taken.
@@ -48,13 +50,13 @@ fn integrated(problem: &Problem, found: &Minimum) -> Vec<[f64; 2]> {
     let (mut before, mut missed) = (0.0, 0.0);
     for (index, element) in mesh.elements.iter().enumerate() {
         let h = element.span[1] - element.span[0];
-        let mut slopes = [0.0; GAUSS.len()];
-        let first = index * GAUSS.len();
-        let mut own = [0.0; GAUSS.len()];
+        let mut slopes = [0.0; GAUSS_5.len()];
+        let first = index * GAUSS_5.len();
+        let mut own = [0.0; GAUSS_5.len()];
         for (k, slope) in slopes.iter_mut().enumerate() {
             [*slope, own[k]] = problem.pull(&found.x, first + k, found.multiplier);
         }
-        for (k, [z, weight]) in GAUSS.into_iter().enumerate() {
+        for (k, [z, weight]) in GAUSS_5.into_iter().enumerate() {
             let p = before + h * integral(&slopes, z);
             missed += weight * h * (own[k] - p);
             all.push([p, slopes[k]]);
@@ -88,14 +90,14 @@ fn rests(mesh: &Mesh) -> [bool; 2] {
 }
 
 /// The integral from 0 to z of the polynomial through values at Gauss points of (0, 1).
-fn integral(values: &[f64; GAUSS.len()], z: f64) -> f64 {
+fn integral(values: &[f64; GAUSS_5.len()], z: f64) -> f64 {
     let mut sum = 0.0;
-    for (k, [at, _]) in GAUSS.into_iter().enumerate() {
+    for (k, [at, _]) in GAUSS_5.into_iter().enumerate() {
         // Coefficients of Lagrange's polynomial.
-        let mut terms = [0.0; GAUSS.len()];
+        let mut terms = [0.0; GAUSS_5.len()];
         terms[0] = 1.0;
         let mut size = 1.0;
-        let others = GAUSS.into_iter().enumerate().filter(|(j, _)| *j != k);
+        let others = GAUSS_5.into_iter().enumerate().filter(|(j, _)| *j != k);
         for (degree, (_, [other, _])) in others.enumerate() {
             for i in (0..=degree + 1).rev() {
                 let lower = if i > 0 { terms[i - 1] } else { 0.0 };
@@ -155,8 +157,8 @@ fn with(
     for (index, (element, own)) in mesh.elements.iter().zip(&all).enumerate() {
         let [from, to] = element.span;
         let h = to - from;
-        for (k, [z, _]) in GAUSS.into_iter().enumerate() {
-            let station = index * GAUSS.len() + k;
+        for (k, [z, _]) in GAUSS_5.into_iter().enumerate() {
+            let station = index * GAUSS_5.len() + k;
             let [c, c1] = cubic(own, z, h);
             let [w, change] = mesh.pace(&found.x, &mesh.stations[station]);
             let root = w.sqrt();
@@ -193,18 +195,18 @@ fn with(
 /// P at both ends.
 fn ends_of(problem: &Problem, found: &Minimum, p: &[[f64; 2]]) -> [f64; 2] {
     let mesh = problem.mesh;
-    let count = GAUSS.len();
+    let count = GAUSS_5.len();
     let part = |element: usize, z: f64| {
         let [from, to] = mesh.elements[element].span;
-        let mut slopes = [0.0; GAUSS.len()];
+        let mut slopes = [0.0; GAUSS_5.len()];
         for (k, slope) in slopes.iter_mut().enumerate() {
             *slope = problem.pull(&found.x, element * count + k, found.multiplier)[0];
         }
         (to - from) * integral(&slopes, z)
     };
     let last = mesh.elements.len() - 1;
-    let first = p[0][0] - part(0, GAUSS[0][0]);
-    let end = p[last * count][0] + part(last, 1.0) - part(last, GAUSS[0][0]);
+    let first = p[0][0] - part(0, GAUSS_5[0][0]);
+    let end = p[last * count][0] + part(last, 1.0) - part(last, GAUSS_5[0][0]);
     [first, end]
 }
 

@@ -5,62 +5,14 @@
 //! load or a cam, where the acceleration jumps: there each side has a slope of its own.
 
 use jred::Error;
+use jred_machine::number::quadrature::GAUSS_5;
 
-use super::shape::Shape;
-use super::{Ends, Travel};
+use super::Travel;
+use crate::collocation::Ends;
+use crate::collocation::pieces::{Value, dot, first_columns, hermite};
+use crate::collocation::shape::Shape;
 use crate::skyline::Skyline;
 use crate::way::{Place, Way};
-
-/// Gauss and Legendre's five points in (0, 1), and their weights.
-pub(crate) const GAUSS: [[f64; 2]; 5] = [
-    [0.046_910_077_030_668_004, 0.118_463_442_528_094_54],
-    [0.230_765_344_947_158_45, 0.239_314_335_249_683_23],
-    [0.5, 0.284_444_444_444_444_44],
-    [0.769_234_655_052_841_5, 0.239_314_335_249_683_23],
-    [0.953_089_922_969_332, 0.118_463_442_528_094_54],
-];
-
-/// A value at an end of an element.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Value {
-    /// An unknown.
-    Free(usize),
-    /// Given.
-    Fixed(f64),
-}
-
-impl Value {
-    /// With these unknowns.
-    pub(crate) fn of(self, x: &[f64]) -> f64 {
-        match self {
-            Self::Free(index) => x[index],
-            Self::Fixed(value) => value,
-        }
-    }
-
-    const fn unknown(self) -> Option<usize> {
-        match self {
-            Self::Free(index) => Some(index),
-            Self::Fixed(_) => None,
-        }
-    }
-}
-
-/// The column in which each row of a matrix of so many unknowns begins, where those of one element meet each other.
-pub(crate) fn first_columns<'v>(
-    unknowns: usize,
-    elements: impl Iterator<Item = &'v [Value]>,
-) -> Vec<usize> {
-    let mut first: Vec<usize> = (0..unknowns).collect();
-    for values in elements {
-        let free = || values.iter().filter_map(|value| value.unknown());
-        let least = free().min().unwrap_or(0);
-        for index in free() {
-            first[index] = first[index].min(least);
-        }
-    }
-    first
-}
 
 /// A piece of the path: w, w′ at its start, w, w′ at its end.
 #[derive(Clone, Copy, Debug)]
@@ -94,32 +46,6 @@ pub(super) struct Mesh {
     pub(super) stations: Vec<Station>,
     pub(super) unknowns: usize,
     ring: bool,
-}
-
-/// What the four values of an element of length h give to w, w′ and w″ at the share z of it.
-pub(crate) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
-    let z2 = z * z;
-    let z3 = z2 * z;
-    [
-        [
-            2.0 * z3 - 3.0 * z2 + 1.0,
-            h * (z3 - 2.0 * z2 + z),
-            3.0 * z2 - 2.0 * z3,
-            h * (z3 - z2),
-        ],
-        [
-            6.0 * (z2 - z) / h,
-            3.0 * z2 - 4.0 * z + 1.0,
-            6.0 * (z - z2) / h,
-            3.0 * z2 - 2.0 * z,
-        ],
-        [
-            (12.0 * z - 6.0) / (h * h),
-            (6.0 * z - 4.0) / h,
-            (6.0 - 12.0 * z) / (h * h),
-            (6.0 * z - 2.0) / h,
-        ],
-    ]
 }
 
 /// How a ramp rises: ever more slowly, as the acceleration of the laws does, in straight lines through these shares of its length and height.
@@ -169,12 +95,12 @@ impl Mesh {
         } else {
             (0..elements.len()).map(|k| (k, elements[k].span)).collect()
         };
-        let mut stations = Vec::with_capacity(GAUSS.len() * cells.len());
+        let mut stations = Vec::with_capacity(GAUSS_5.len() * cells.len());
         let way_length = travel.distance.abs();
         for &(element, [from, to]) in &cells {
             let [start, end] = elements[element].span;
             let h = to - from;
-            for [z, weight] in GAUSS {
+            for [z, weight] in GAUSS_5 {
                 let u = from + z * h;
                 let [g, slope, bend] = shape.at(u);
                 let [value, change, _] = hermite((u - start) / (end - start), end - start);
@@ -260,10 +186,6 @@ impl Mesh {
         first.push(0);
         Skyline::new(first)
     }
-}
-
-pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Shortest distance of an edge from another node, as a share of u.

@@ -2,9 +2,10 @@
 
 use jred::machine::motion::{End, Polynomial};
 use jred_machine::model::motion::Phase;
+use jred_machine::number::quadrature::GAUSS_5;
 
 use super::cost::Cost;
-use super::mesh::{GAUSS, Mesh};
+use super::mesh::Mesh;
 use super::solve;
 use super::task::{Solved, Stage};
 use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, bound};
@@ -183,7 +184,7 @@ struct Part {
 impl Part {
     fn new(mesh: &Mesh, x: &[f64], cell: usize, [from, to]: [f64; 2]) -> Self {
         let h = to - from;
-        let time = GAUSS.iter().map(|[z, weight]| {
+        let time = GAUSS_5.iter().map(|[z, weight]| {
             let [w, ..] = solve::pace_at(mesh, x, cell, from + z * h);
             weight * h / w.sqrt()
         });

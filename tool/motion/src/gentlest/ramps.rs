@@ -1,11 +1,13 @@
 //! Ramps: the acceleration rises from zero at rest to its first peak in the share of the time that is asked for.
 //!
-//! In the pieces at the ends that rest the pace is even, so that the acceleration rises there as the path bends ([`mesh`]), over exactly that share of the
+//! In the pieces at the ends that rest the pace is even, so that the acceleration rises there as the path bends ([`super::mesh`]), over exactly that share of the
 //! time. What is left to choose is how high it rises: it goes with the length of the piece along the path, which is sought. At an end that moves the piece
 //! is as long as it takes so much time.
 
+use jred_machine::number::quadrature::GAUSS_5;
+
 use super::task::{Solved, Task};
-use super::{FIRST, Fault, mesh, solve};
+use super::{FIRST, Fault, solve};
 
 /// Lengths of the pieces: the longest, and how often that of an end that moves is corrected.
 const LONGEST: f64 = 0.45;
@@ -18,7 +20,7 @@ const CHANGES: [f64; 2] = [0.4, 0.01];
 /// behind the ramp at which that is looked at.
 const REACHED: f64 = 0.9;
 const PENALTY: f64 = 10.0;
-const LOOKS: u32 = 32;
+const PLACES_BEHIND: u32 = 32;
 
 impl<'a> Task<'a> {
     /// The same with the best pieces for the ramp that is asked for, for a motion that moves for so long (s).
@@ -116,7 +118,7 @@ impl Solved<'_> {
         let element = if end == 0 { 1 } else { last - 1 };
         let [from, to] = self.mesh.elements[element].span;
         let size = |k: u32| {
-            let share = f64::from(k) / f64::from(LOOKS);
+            let share = f64::from(k) / f64::from(PLACES_BEHIND);
             let place = if end == 0 { share } else { 1.0 - share };
             let u = from + place * (to - from);
             let [w, change, _] = solve::pace_at(&self.mesh, &self.found.x, element, u);
@@ -124,7 +126,7 @@ impl Solved<'_> {
             (bend * w + 0.5 * slope * change).abs()
         };
         let border = size(0);
-        let most = (1..=LOOKS).map(size).fold(border, f64::max);
+        let most = (1..=PLACES_BEHIND).map(size).fold(border, f64::max);
         (REACHED * most / border - 1.0).max(0.0)
     }
 
@@ -132,7 +134,7 @@ impl Solved<'_> {
     fn time_of_end(&self, end: usize) -> f64 {
         let element = end * (self.mesh.elements.len() - 1);
         let [from, to] = self.mesh.elements[element].span;
-        let part = mesh::GAUSS.map(|[z, weight]| {
+        let part = GAUSS_5.map(|[z, weight]| {
             let [w, ..] =
                 solve::pace_at(&self.mesh, &self.found.x, element, from + z * (to - from));
             weight / w.sqrt()

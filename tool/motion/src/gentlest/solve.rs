@@ -4,8 +4,9 @@
 //! of Lagrange's function; then all w are scaled so that the time is met exactly, and the step is halved until the cost falls.
 
 use super::cost::Cost;
-use super::mesh::{Mesh, Value, dot};
-use super::torque::Torque;
+use super::mesh::Mesh;
+use crate::collocation::pieces::{Value, dot, hermite};
+use crate::collocation::torque::Torque;
 use crate::way::{Place, Way};
 use jred::Error;
 
@@ -400,5 +401,5 @@ pub(super) fn pace_at(mesh: &Mesh, x: &[f64], element: usize, u: f64) -> [f64; 3
     let [from, to] = mesh.elements[element].span;
     let values = mesh.values(x, element);
     let h = to - from;
-    super::mesh::hermite((u - from) / h, h).map(|basis| dot(&basis, &values))
+    hermite((u - from) / h, h).map(|basis| dot(&basis, &values))
 }

@@ -5,8 +5,8 @@ use jred::{Domain, Reducible as _};
 use super::cost::Cost;
 use super::mesh::Mesh;
 use super::solve::{self, Minimum, Problem};
-use super::torque::Torque;
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
+use crate::collocation::torque::Torque;
 use crate::way::{Place, Way};
 
 /// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
@@ -130,7 +130,7 @@ impl Task<'_> {
 
     /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
     pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
-        let is_short = |solved: &Solved| solved.excess(held) <= 0.0;
+        let is_short = |solved: &Solved| solved.cost_above_holding(held) <= 0.0;
         // Down to times that are too short, where there is one motion only: in a long time it may be caught where it crawls.
         let mut time = self.travel.duration;
         let mut last: Option<Solved> = None;
@@ -372,7 +372,7 @@ impl Solved<'_> {
     }
 
     /// What a second more costs above what a second of holding costs, in numbers of its own.
-    fn excess(&self, held: &[f64; 2]) -> f64 {
+    fn cost_above_holding(&self, held: &[f64; 2]) -> f64 {
         let least = held.map(f64::abs).into_iter().fold(f64::INFINITY, f64::min);
         let [holding, ..] = self.stage.cost.torque(least / self.scale.unit);
         -self.found.multiplier - holding
@@ -381,6 +381,7 @@ impl Solved<'_> {
     /// Whether waiting is better than to move for so long. For the peak it never is: a slower motion has the lower one, and the
     /// integral of the 64th power tells nothing about pauses.
     pub(super) fn waits(&self, held: &[f64; 2]) -> bool {
-        self.task.objective != Objective::Peak && self.excess(held) > 1e-6 * self.found.cost
+        self.task.objective != Objective::Peak
+            && self.cost_above_holding(held) > 1e-6 * self.found.cost
     }
 }

@@ -14,7 +14,7 @@ use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_
 use crate::way::Way;
 
 /// Places at which the holding torque is looked at.
-const LOOKS: u32 = 360;
+const HOLDING_PLACES: u32 = 360;
 
 /// Most places that are tried, those of least holding torque.
 const MOST: usize = 4;
@@ -83,15 +83,15 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
 
 /// Positions at which holding takes least, with the torque (N·m): zeros, the least ones among their neighbours, and the better end, where there are ends.
 fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
-    let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(LOOKS);
-    let torques: Vec<f64> = (0..=LOOKS)
+    let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(HOLDING_PLACES);
+    let torques: Vec<f64> = (0..=HOLDING_PLACES)
         .map(|k| way.holding_at(at(k)))
         .collect::<Result<_, _>>()?;
     let mut found = Vec::new();
     let first = u32::from(!travel.ring);
-    for k in first..LOOKS {
+    for k in first..HOLDING_PLACES {
         // Of a ring the place before its start is the last one before its end.
-        let before = k.checked_sub(1).unwrap_or(LOOKS - 1);
+        let before = k.checked_sub(1).unwrap_or(HOLDING_PLACES - 1);
         let [before, here, after] = [before, k, k + 1].map(|k| torques[k as usize]);
         if here * after < 0.0 {
             let phi = zero(
@@ -103,12 +103,12 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
             found.push(phi);
         } else if here.abs() <= before.abs() && here.abs() < after.abs() && before * here >= 0.0 {
             let size = |phi: f64| way.holding_at(phi).map(f64::abs);
-            let aside = travel.distance / f64::from(LOOKS);
+            let aside = travel.distance / f64::from(HOLDING_PLACES);
             found.push(least(size, at(k) - aside, at(k + 1))?);
         }
     }
     let rest = travel.ends().rest;
-    let at_ends = [torques[0], torques[LOOKS as usize]];
+    let at_ends = [torques[0], torques[HOLDING_PLACES as usize]];
     let [first, last] = [0, 1].map(|end| {
         if rest[end] {
             at_ends[end].abs()

@@ -3,17 +3,17 @@
 use jred::machine::motion::{End, Polynomial, State};
 use jred_machine::model::motion::{Motion, Node, Phase, Steady};
 
-/// Share of a part by which its ends are looked at from inside: where the acceleration jumps it has the value of its own side.
-const INSIDE: f64 = 1e-9;
+/// The ends of a part are evaluated this share of it further inside, because the acceleration may jump there.
+pub(crate) const INSIDE: f64 = 1e-9;
 
-/// Steps of a kept part, and how often each is halved at most.
+/// Steps into which a kept part is divided at first, and how often each may be halved.
 const STEPS: u32 = 16;
 const HALVINGS: u32 = 10;
 
-/// Share of the way, and of the largest speed, by which a step may be off halfway.
+/// Error that a step may have in its middle: of the position as a share of the way, of the speed as a share of the largest speed.
 const OFF: f64 = 1e-9;
 
-/// A part of a motion with its course, position, speed and acceleration over its time.
+/// A part of a motion, with position, speed and acceleration over its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kept {
     /// Number of its segment in the file, from 0 on.
@@ -30,7 +30,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// The stretch of a motion between two times (s), `further` on (rad, or m) than there.
+    /// The part of a motion between two times (s). `further` (rad, or m) is added to the positions, for a later cycle.
     pub(super) fn new(
         motion: &Motion,
         steady: &Steady,
@@ -43,7 +43,7 @@ impl Kept {
             let inside = from + duration * share.clamp(INSIDE, 1.0 - INSIDE);
             let State { phi, omega, .. } = motion.at(t);
             let within = motion.at(inside);
-            // Where the next piece begins with another speed, the end is this one's.
+            // The next part may begin with another speed: the value at the end is that of this part.
             let omega = if share >= 1.0 { within.omega } else { omega };
             State {
                 phi: phi + further,
@@ -72,7 +72,7 @@ impl Kept {
             .rev()
             .map(|k| ([even(k), even(k + 1)], 0))
             .collect();
-        // One step will do where the drive link itself goes evenly.
+        // One step is enough where the drive link itself runs at constant speed.
         if follows([0.0, 1.0]) && follows([0.0, 0.3]) {
             open = vec![([0.0, 1.0], 0)];
         }
@@ -105,7 +105,7 @@ impl Kept {
             .map(|node| node.map_or([0.0; 2], |node| [node.omega, node.alpha[0]]))
     }
 
-    /// It as polynomials one after another.
+    /// The part as polynomials, one after another.
     pub fn phases(&self) -> Vec<Phase> {
         let phase = |pair: &[Node]| {
             let [a, b] = [&pair[0], &pair[1]];

@@ -1,4 +1,4 @@
-//! The time of a motion, cut where its direction changes, where it rests and where it is kept.
+//! The time of a motion, cut where the drive link turns back, where a pause begins or ends, and where a kept part does.
 
 use std::convert::Infallible;
 
@@ -7,19 +7,19 @@ use jred_machine::number::numerics::edge;
 
 use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
 
-/// Parts of a smooth stretch at whose ends the direction is looked at.
+/// Number of parts of a smooth stretch; the direction is taken at their ends.
 const SAMPLES: u32 = 256;
 
-/// Share of the largest speed below which the drive link is at rest: rounding at the ends of a law.
+/// A speed below this share of the largest one counts as rest: the ends of motion laws are at rest but for rounding.
 const REST: f64 = 1e-12;
 
-/// A time in which the direction stays: −1, 0 or +1.
+/// A span of time in which the drive link goes in one direction: backward (−1) or forward (+1), or is at rest (0).
 #[derive(Clone, Copy, Debug)]
 struct Span {
     from: f64,
     to: f64,
     sign: i8,
-    /// Which of the stretches it is that are kept.
+    /// Number of the stretch in `process`, if this span is kept.
     kept: Option<usize>,
 }
 
@@ -90,7 +90,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Position and speed, the next cycle after the end.
+    /// Position and speed; after the end of the motion those of the next cycle.
     fn state(&self, t: f64) -> [f64; 2] {
         let duration = self.motion.duration();
         let (t, further) = if t > duration {
@@ -102,12 +102,12 @@ impl<'a> Timeline<'a> {
         [state.phi + further, state.omega]
     }
 
-    /// What a cycle adds to the position.
+    /// Way of the drive link in one cycle.
     fn advance(&self) -> f64 {
         self.motion.at(self.motion.duration()).phi - self.motion.at(0.0).phi
     }
 
-    /// The first span with which a motion that turns for ever may begin: kept, at rest, or from rest.
+    /// The first span with which the chain of an endless motion may begin: a kept part, a pause, or a move from rest.
     fn beginning(&self) -> Option<usize> {
         let begins = |k: usize| {
             let span = &self.spans[k];
@@ -232,7 +232,7 @@ impl<'a> Timeline<'a> {
         (0..runs.len()).map(part).collect()
     }
 
-    /// A part that is kept.
+    /// The kept part that a span stands for; `None`: the span is not kept.
     fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<Kept> {
         let steady = self.process.get(span.kept?)?;
         let duration = self.motion.duration();
@@ -247,8 +247,8 @@ impl<'a> Timeline<'a> {
     }
 }
 
-/// The spans between two samples; `inner`: whether a sample lies inside its stretch, where a zero is the beginning or the end of a pause,
-/// not of a law.
+/// Adds the spans between two samples. `inner` says of each sample whether it lies inside its stretch: a zero of the speed there is where a
+/// pause begins or ends, while a zero at the end of a stretch may be that of a motion law.
 fn split(sign: &impl Fn(f64) -> i8, [from, to]: [f64; 2], inner: [bool; 2], spans: &mut Vec<Span>) {
     let middle = sign(from.midpoint(to));
     let [before, after] = [sign(from), sign(to)];

@@ -5,6 +5,7 @@ use jred::machine::motion::{End, Law, Polynomial};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Phase, Segment};
+use jred_machine::number::quadrature::GAUSS_3;
 use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;
@@ -14,13 +15,6 @@ use crate::way::{Actuator, BothWays, Way};
 
 /// The turn at constant kinetic energy.
 const EVEN_ENERGY: &str = "constant kinetic energy";
-
-/// Gauss and Legendre's rule with three points on 0 to 1.
-const GAUSS: [[f64; 2]; 3] = [
-    [0.112_701_665_379_258_3, 5.0 / 18.0],
-    [0.5, 8.0 / 18.0],
-    [0.887_298_334_620_741_7, 5.0 / 18.0],
-];
 
 /// The machine with what is asked.
 pub(super) struct Asked<'a> {
@@ -62,7 +56,7 @@ impl Asked<'_> {
         let [mut cost, mut peak] = [0.0_f64; 2];
         for pair in kept.nodes().windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
-            for [share, weight] in GAUSS {
+            for [share, weight] in GAUSS_3 {
                 let state = b.after(a, share);
                 let torque = ways.torque(&state, b.phi - a.phi)?;
                 let mut power = self.heat() * torque * torque;

@@ -3,11 +3,10 @@
 use jred::machine::motion::{End, Law, Polynomial};
 use jred_machine::model::motion::Phase;
 
+use crate::moves::INSIDE;
+
 /// Parts of a smooth stretch of a law.
 const PARTS: u32 = 64;
-
-/// Share of a part by which its ends are inside: where the acceleration jumps it has the value of its own side.
-const INSIDE: f64 = 1e-9;
 
 /// Polynomials of fifth degree through position, speed and acceleration of a move by a law; exact where the law is such a polynomial.
 pub(super) fn phases(law: Law, distance: f64, duration: f64) -> Vec<Phase> {

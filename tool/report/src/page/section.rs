@@ -2,9 +2,9 @@
 
 use askama::Template;
 
-use crate::plot::{Axes, Axis, Series, lines};
+use crate::plot::{Axes, Axis, lines};
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::{Columns, Quantity};
+use jred_machine::number::columns::{Column, Columns, Quantity};
 
 use super::figures::line;
 
@@ -87,41 +87,54 @@ fn capital(mut text: String) -> String {
     text
 }
 
+/// A curve: its name, and its points.
+type Curve = (String, Vec<(f64, f64)>);
+
+/// The columns of a quantity over another, each under a name.
+fn curves(
+    columns: &Columns,
+    along: Quantity,
+    quantity: Quantity,
+    name: impl Fn(&Column) -> String,
+) -> Vec<Curve> {
+    let Some((x, _)) = columns.of(along).next() else {
+        return Vec::new();
+    };
+    let each = columns.of(quantity).map(|(y, head)| {
+        let rows = columns.rows().iter();
+        let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
+        let points = rows.filter_map(|row| Some((value(row, x)?, value(row, y)?)));
+        (name(head), points.collect())
+    });
+    each.collect()
+}
+
+fn drawn(curves: &[Curve], x: Axis, y: &str) -> String {
+    let series = curves
+        .iter()
+        .map(|(name, points)| line(name, points.clone()));
+    let axes = Axes { title: "", x, y };
+    lines(&axes, &series.collect::<Vec<_>>())
+}
+
 /// The columns of a quantity over another, of several courses that each have a name.
 pub(super) fn plot(
     runs: &[(&str, &Columns)],
     (along, axis): (Quantity, Axis),
     (y, quantity): (&str, Quantity),
 ) -> String {
-    let mut all: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
-    for (name, run) in runs {
-        let Some((x, _)) = run.of(along).next() else {
-            continue;
-        };
+    let all = runs.iter().flat_map(|(name, run)| {
         let alone = run.of(quantity).count() == 1 && !name.is_empty();
-        for (k, head) in run.of(quantity) {
-            let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
-            let points = run.rows().iter();
-            let points = points.filter_map(|row| Some((value(row, x)?, value(row, k)?)));
-            // Of one column the axis says what it is.
-            let what = if alone {
+        // Of one column the axis says what it is.
+        curves(run, along, quantity, |head| {
+            if alone {
                 (*name).to_owned()
             } else {
                 head.title()
-            };
-            all.push((what, points.collect()));
-        }
-    }
-    let series: Vec<Series> = all
-        .iter()
-        .map(|(name, points)| line(name, points.clone()))
-        .collect();
-    let axes = Axes {
-        title: "",
-        x: axis,
-        y,
-    };
-    lines(&axes, &series)
+            }
+        })
+    });
+    drawn(&all.collect::<Vec<_>>(), axis, y)
 }
 
 /// The columns of a quantity over another that are not zero everywhere, each under the name of its part; `None`: there are none.
@@ -130,28 +143,14 @@ pub(super) fn over(
     (along, axis): (Quantity, Axis),
     (y, quantity): (&str, Quantity),
 ) -> Option<String> {
-    let (x, _) = columns.of(along).next()?;
-    let rows = columns.rows().iter();
-    let series: Vec<Series> = columns
-        .of(quantity)
-        .filter(|(k, _)| {
-            let mut values = rows.clone().filter_map(|row| row[*k]);
-            values.any(|value| value != 0.0)
-        })
-        .map(|(k, head)| {
-            let points = rows.clone().filter_map(|row| Some((row[x]?, row[k]?)));
-            let name = if head.part.is_empty() {
-                &head.name
-            } else {
-                &head.part
-            };
-            line(name, points.collect())
-        })
-        .collect();
-    let axes = Axes {
-        title: "",
-        x: axis,
-        y,
-    };
-    (!series.is_empty()).then(|| lines(&axes, &series))
+    let mut all = curves(columns, along, quantity, |head| {
+        let named = if head.part.is_empty() {
+            &head.name
+        } else {
+            &head.part
+        };
+        named.clone()
+    });
+    all.retain(|(_, points)| points.iter().any(|(_, value)| *value != 0.0));
+    (!all.is_empty()).then(|| drawn(&all, axis, y))
 }

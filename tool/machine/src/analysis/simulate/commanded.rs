@@ -4,7 +4,7 @@ use jred::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
-use super::free::{PLAIN, WITH_GUESTS, guests_of};
+use super::free::{PLAIN, WITH_GUESTS, guests_of, slope_in_motion};
 use super::geared::Together;
 use super::machine::{Instant, Plant};
 use super::observe::Working;
@@ -93,24 +93,16 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
     }
 
     fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
-        let mut slope = [0.0; N];
-        let guests = guests_of::<N>(3);
         if moment.direction == 0.0 {
             // The motor's state goes on until it breaks away.
-            [.., slope[2]] = self.torque(moment, commanded(y))?;
-            if let Some(at) = guests {
-                slope[at + 1] = self.plant.held_power(moment, y[0])?;
-            }
+            let [.., rate] = self.torque(moment, commanded(y))?;
+            let mut slope = self.plant.slope_at_rest(moment, y[0], 3)?;
+            slope[2] = rate;
             return Ok(slope);
         }
         let (now, rate) = self.now(moment, commanded(y))?;
-        (slope[0], slope[1], slope[2]) = (y[1], now.alpha, rate);
-        if let Some(at) = guests {
-            slope[at + 1] = now.carriage_power;
-        }
-        slope[N - 3] = now.motor_power;
-        slope[N - 2] = now.process_power;
-        slope[N - 1] = now.loss;
+        let mut slope = slope_in_motion(&now, y[1], 3);
+        slope[2] = rate;
         Ok(slope)
     }
 

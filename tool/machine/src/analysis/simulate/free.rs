@@ -36,6 +36,35 @@ pub(super) fn guests_of<const N: usize>(own: usize) -> Option<usize> {
     (N == own + 5).then_some(own)
 }
 
+/// How a state that begins with `own` values changes where the drive link moves; a value of the motor itself is left at zero.
+pub(super) fn slope_in_motion<const N: usize>(now: &Instant, omega: f64, own: usize) -> [f64; N] {
+    let mut slope = [0.0; N];
+    (slope[0], slope[1]) = (omega, now.alpha);
+    if let Some(at) = guests_of::<N>(own) {
+        slope[at + 1] = now.carriage_power;
+    }
+    slope[N - 3] = now.motor_power;
+    slope[N - 2] = now.process_power;
+    slope[N - 1] = now.loss;
+    slope
+}
+
+impl<M: Motor> Plant<'_, M> {
+    /// The same where friction holds it.
+    pub(super) fn slope_at_rest<const N: usize>(
+        &self,
+        moment: &Moment,
+        phi: f64,
+        own: usize,
+    ) -> Result<[f64; N], Error> {
+        let mut slope = [0.0; N];
+        if let Some(at) = guests_of::<N>(own) {
+            slope[at + 1] = self.held_power(moment, phi)?;
+        }
+        Ok(slope)
+    }
+}
+
 impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
     fn start(&self) -> Result<[f64; N], Error> {
         let Simulation {
@@ -49,23 +78,11 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
     }
 
     fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
-        let mut slope = [0.0; N];
-        let guests = guests_of::<N>(2);
         if moment.direction == 0.0 {
-            if let Some(at) = guests {
-                slope[at + 1] = self.held_power(moment, y[0])?;
-            }
-            return Ok(slope);
+            return self.slope_at_rest(moment, y[0], 2);
         }
         let now = self.now(moment, [y[0], y[1]])?;
-        (slope[0], slope[1]) = (y[1], now.alpha);
-        if let Some(at) = guests {
-            slope[at + 1] = now.carriage_power;
-        }
-        slope[N - 3] = now.motor_power;
-        slope[N - 2] = now.process_power;
-        slope[N - 1] = now.loss;
-        Ok(slope)
+        Ok(slope_in_motion(&now, y[1], 2))
     }
 
     fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {

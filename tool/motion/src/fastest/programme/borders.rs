@@ -1,29 +1,34 @@
-//! Where pieces meet: at the places at which the limit that is met changes.
+//! Where pieces meet: a border is best where the active limit changes. A limit is active where the motion meets it.
 
 use super::interior::Programme as _;
 use super::limits::Margins;
 use super::mesh::{Border, SHARES};
-use super::{Asked, Found, RAMP, Warm, inner};
+use super::{Asked, Found, PIECES, RAMP, Warm};
+use crate::collocation::shape::Shape;
 use crate::fastest::field::Binding;
 use crate::trace::{Node, Trace};
 
-/// Share of itself within which a limit is met.
+/// Borders that are closer than this share of u are one border.
+const APART: f64 = 1e-9;
+
+/// A limit counts as met when the motion comes within this share of it.
 const MET: f64 = 1e-3;
 
-/// Share by which a state may exceed its limit between stations without swinging.
+/// Share by which a limit of speed, acceleration or torque may be exceeded between stations. Beyond it the polynomial is taken to oscillate.
 const SWINGS: f64 = 1e-4;
 
-/// The same of the rate of the torque, of a piece that is long.
+/// The same for the torque rate; beyond it the piece is divided if it is long.
 const CHANGES: f64 = 1e-2;
 
-/// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree swings there.
+/// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree oscillates there.
 const STEEP: f64 = 0.1;
 
-/// Pieces are not cut to less than this share of u: w″ is a difference of second order, whose last digits are those of w by the square of
-/// the length. What a larger limit of the rates leaves of them is less.
+/// Shortest piece as a share of u. In a piece of length h rounding of w appears in w″, and so in the jerk, divided by h². Where the limits of
+/// rates are high, the ramps are short, and so may the pieces be.
 const SHORTEST: f64 = 6e-4;
 
-/// A limit that is met at a station: which of its rows, how hard it pushes, and how far away it is.
+/// A limit that is met at a station: which of its inequalities, its multiplier per weight (what easing it would save), and its value, 0 where it is just
+/// met.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Met {
     pub(super) limit: Binding,
@@ -32,13 +37,46 @@ pub(super) struct Met {
     pub(super) value: f64,
 }
 
-/// The one that pushes hardest.
+/// The limit whose easing would save most.
 pub(super) fn strongest(met: &[Met]) -> Option<Met> {
     let each = met.iter().copied().filter(|met| met.force > 0.0);
     each.max_by(|a, b| a.force.total_cmp(&b.force))
 }
 
+/// A border at a place where machine and path are smooth.
+pub(super) const fn inner(u: f64) -> Border {
+    Border {
+        u,
+        is_corner: false,
+        stays: false,
+        is_plain: false,
+    }
+}
+
 impl Asked<'_> {
+    /// Equal pieces, cut where the path or the machine is not smooth.
+    pub(super) fn first_borders(&self, shape: &Shape) -> Vec<Border> {
+        let [pieces, _] = PIECES;
+        let border = |u: f64, stays: bool| Border { stays, ..inner(u) };
+        let corners = self.ends.corners.iter();
+        let mut borders: Vec<Border> = (0..=pieces)
+            .map(|k| border(k as f64 / pieces as f64, false))
+            .chain(shape.knots().map(|u| border(u, true)))
+            .chain(corners.map(|x| Border {
+                is_corner: true,
+                ..border(shape.place(x / self.ends.length), true)
+            }))
+            .collect();
+        borders.sort_by(|a, b| a.u.total_cmp(&b.u));
+        borders.dedup_by(|b, a| {
+            let same = b.u - a.u <= APART;
+            a.is_corner |= same && b.is_corner;
+            a.stays |= same && b.stays;
+            same
+        });
+        borders
+    }
+
     /// The limits that are met at each station.
     pub(super) fn all_met(&self, found: &Found) -> Vec<Vec<Met>> {
         let mesh = &found.mesh;
@@ -56,7 +94,7 @@ impl Asked<'_> {
             let Some(limit) = row.limit.filter(|_| row.value > -MET) else {
                 continue;
             };
-            // Where power flows another way the torque bends, and with it the jerk jumps: those of the torque rate are others there.
+            // Where power changes its direction the torque bends and the jerk jumps. The torque rate on each side counts as a limit of its own.
             let flow = if limit == Binding::TorqueRate {
                 let station = &mesh.stations[row.station];
                 let state = problem.state(station, &mesh.values(&found.point.x, station.element));
@@ -75,21 +113,21 @@ impl Asked<'_> {
         met
     }
 
-    /// The limit that is met at each station, and which of its rows: driving and braking are two.
+    /// The active limit at each station, and which of its inequalities: the upper and the lower one are two.
     pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
         let met = self.all_met(found).into_iter();
         met.map(|met| strongest(&met).map(|met| (met.limit, met.row)))
             .collect()
     }
 
-    /// Of each piece: whether the limit that is met changes in it or at its borders, and whether it changes in it.
+    /// For each piece: whether the active limit changes in it or at one of its borders, and whether it changes in it.
     pub(super) fn changes(&self, found: &Found) -> Vec<[bool; 2]> {
         let met = self.met(found);
         let all: Vec<_> = met.chunks(SHARES.len()).collect();
         let changes = |(index, own): (usize, &&[_])| {
             let inner = &own[1..SHARES.len() - 1];
             let inside = inner.windows(2).any(|pair| pair[0] != pair[1]);
-            // What happens at a border of two pieces is known to neither.
+            // The stations at borders belong to two pieces and tell little of either: the middles of neighbours are compared.
             let beside = |other: Option<usize>| {
                 let other = other.and_then(|other| all.get(other));
                 other.is_some_and(|other| other[3] != own[3])
@@ -110,8 +148,8 @@ impl Asked<'_> {
         }
     }
 
-    /// Divides the pieces in which limits are exceeded by much and makes them cubics: a margin there would slow their neighbours down. Whether
-    /// there are any.
+    /// Divides the pieces in which limits are exceeded by much, and makes those that oscillate cubics. A margin would slow their neighbours
+    /// down instead. Returns whether anything changed.
     pub(super) fn divide(&self, warm: &mut Warm, exceeded: &[[f64; 3]]) -> bool {
         let shortest = self.shortest();
         let mut borders = Vec::with_capacity(warm.borders.len());
@@ -142,7 +180,7 @@ impl Asked<'_> {
         changes
     }
 
-    /// Whether w changes in a piece by more than its polynomial bears.
+    /// Whether w changes in a piece by more than its polynomial can follow.
     fn is_steep(found: &Found, piece: usize) -> bool {
         let shares = (0..=20).map(|k| f64::from(k) / 20.0);
         let each = shares.map(|z| found.mesh.pace(&found.point.x, piece, z)[0]);
@@ -152,7 +190,7 @@ impl Asked<'_> {
         least <= STEEP * most
     }
 
-    /// Middles of the pieces in which the limit that is met changes, or w by much.
+    /// Middles of the pieces in which the active limit changes, or w changes by much.
     pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
         let pieces = found.mesh.elements.iter().zip(self.changes(found));
         let shortest = self.shortest();
@@ -166,7 +204,8 @@ impl Asked<'_> {
         finer.collect()
     }
 
-    /// The borders with one where the limit that is met changes, in the place of those around it; `None`: it changes at borders only.
+    /// The borders with a new one at each place where the active limit changes, which replaces those around it; `None`: it changes at borders
+    /// only.
     pub(super) fn moved(
         &self,
         borders: &[Border],
@@ -177,7 +216,7 @@ impl Asked<'_> {
         let count = SHARES.len();
         let last = count - 1;
         let nodes = trace.nodes();
-        // The limit that is met all through a piece.
+        // The limit that is active at all inner stations of a piece.
         let whole: Vec<_> = met
             .chunks(count)
             .map(|own| {
@@ -196,7 +235,8 @@ impl Asked<'_> {
                 && right > left + 1
                 && whole[left] != whole[right]
             {
-                // Time, acceleration and jerk where the gap begins and ends.
+                // Between two pieces with one limit each there is a gap. The jerks on its two sides are continued to where the accelerations meet:
+                // time, acceleration and jerk where the gap begins and ends.
                 let side = |node: usize, other: usize| {
                     let [a, b] = [node, other].map(|k| &nodes[k]);
                     let alpha =

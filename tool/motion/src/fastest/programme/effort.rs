@@ -1,7 +1,7 @@
 //! A torque at a station, with first and second derivatives by the values of its piece.
 
 use super::mesh::{Local, Station};
-use crate::gentlest::torque::Torque;
+use crate::collocation::torque::Torque;
 use crate::way::{Demand, Place};
 
 /// A motion at a station.

@@ -4,10 +4,10 @@
 //! minimise Σ f(y)   subject to   c(y) + s = 0,  s ≥ 0
 //! ```
 //!
-//! where each f and c depends on the values y of one piece. Newton's method on the conditions of optimality with s·λ = μ·weight, μ falling
-//! to zero; slacks and multipliers are eliminated, so that the matrix has the band of the pieces. What bends downwards is left out
-//! of the matrix where it would not be positive definite. A step is as long as it leads to a point that misses limits less, or costs less, than
-//! each point before (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
+//! where each f and c depends on the values y of one piece. Newton's method solves the conditions of optimality with s·λ = μ·weight for slacks s
+//! and multipliers λ, while μ falls to zero. Slacks and multipliers are eliminated, so that the matrix has the band of the pieces. Negative
+//! second derivatives are left out of the matrix where it would not be positive definite. A step is halved until it leads to a point that
+//! violates limits less, or costs less, than each point before (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
 
 use super::mesh::{Local, Mesh, VALUES};
 use super::newton::{Kkt, Steps, along};
@@ -24,12 +24,12 @@ pub(super) struct Term {
     pub(super) gradient: Local,
     /// Second derivatives as factors of squares of linear forms.
     pub(super) bends: [(f64, Local); 4],
-    /// Share in the barrier.
+    /// Weight of its logarithm in the barrier.
     pub(super) weight: f64,
 }
 
 impl Term {
-    /// Zero everywhere.
+    /// A term that is zero, to be filled in.
     pub(super) const fn straight(element: usize, weight: f64) -> Self {
         Self {
             element,
@@ -47,13 +47,14 @@ impl Term {
 pub(super) trait Programme {
     /// The pieces.
     fn mesh(&self) -> &Mesh;
-    /// Terms of the objective and limits at a point; always the same in number. `None`: the point means no motion.
+    /// Terms of the objective, and limits, at a point; always the same number of each. `None`: at this point w is not positive, so there is no
+    /// motion.
     fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]>;
-    /// The largest share of a step that leaves a motion.
+    /// The largest share of a step after which w is still positive.
     fn reach(&self, x: &[f64], step: &[f64]) -> f64;
 }
 
-/// A point with slacks and multipliers of the limits.
+/// A point with the multipliers of the limits.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub(super) x: Vec<f64>,
@@ -63,36 +64,36 @@ pub(super) struct Point {
 /// Most steps with one μ.
 const STEPS: u32 = 80;
 
-/// Shares by which stationarity and limits may be missed after so many.
+/// Errors of the gradient and of the limits that are accepted after that many steps.
 const BENT: [f64; 2] = [1e-2, 1e-6];
 
 /// Most halvings of a step.
 const HALVINGS: u32 = 30;
 
-/// Share of the way to a limit that a step goes at most.
+/// Largest share of a step's way to where a slack or a multiplier would be zero.
 const INSIDE: f64 = 0.995;
 
-/// Share by which conditions of optimality, and limits, may be missed at the end.
+/// Error of the gradient, as a share of its terms, and of the limits that may be left at the end.
 const STATIONARY: f64 = 1e-6;
 const FEASIBLE: f64 = 1e-9;
 
-/// Shares by which stationarity and limits are missed where Newton's step is taken as it is.
+/// Errors of the gradient and of the limits below which Newton's step is taken without a look at the filter.
 const CLOSE: [f64; 2] = [1e-3, 1e-6];
 
-/// How often the sum of s·λ may be the one that is aimed at before μ falls.
+/// The sum of s·λ may be this many times what μ aims at when μ falls.
 const GAP: f64 = 2.0;
 
-/// Steps that gain nothing, after which a point that misses limits by less than a share is the best that rounding leaves.
+/// After so many steps without gain, a point that violates limits by less than this share is as good as rounding allows.
 const IDLE: u32 = 3;
 const ROUNDED: f64 = 1e-8;
 
-/// Share of what limits are missed by that a step must gain.
+/// Least gain of a step, as a share of the violation of limits.
 const FILTER: f64 = 1e-5;
 
-/// Share of a slack that its limit must leave for the slack to become what the limit leaves.
+/// A slack is set to the distance from its limit if that is more than this share of the slack after the step.
 const KEPT: f64 = 0.1;
 
-/// Least slack at the start, and as a multiple of μ.
+/// Least slack at the start: a number, and a multiple of μ, of which the smaller counts.
 const SLACK: [f64; 2] = [1e-2, 10.0];
 
 /// A point on the way: unknowns, slacks, terms and limits there.
@@ -103,7 +104,7 @@ pub(super) struct Iterate {
     pub(super) rows: Vec<Term>,
 }
 
-/// Where the method came to no end: the limit that is missed most there, at which station and by which share.
+/// Where the method failed: the limit that is violated most there, at which station, and by which share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stuck {
     pub(super) limit: Option<Binding>,
@@ -150,7 +151,7 @@ pub(super) fn minimise(
                 (10.0 * mu).clamp(STATIONARY, 0.1)
             };
             let is_rounded = idle >= IDLE && at.missed() <= ROUNDED;
-            // Where a torque bends the gradient jumps: steps across the bend lead nowhere, and what is left there is small.
+            // At a bend of the torque the gradient jumps. Steps across it gain nothing, but the error that remains is small.
             let is_bent = steps_of_mu >= STEPS && missed[0] < BENT[0] && missed[1] < BENT[1];
             if !(is_rounded || is_bent)
                 && (missed[0] > enough || missed[1] > mu.clamp(FEASIBLE, 1e-3) || missed[2] > GAP)
@@ -172,7 +173,7 @@ pub(super) fn minimise(
             return Err(at.stuck());
         };
         let dual = longest(&lambda, &steps.multipliers);
-        // Near the solution of its μ Newton's step is right even where it bends out of a limit by more than it gains.
+        // Near the solution for this μ Newton's step is right, although a curved limit may be violated by more than the step gains.
         let missed = kkt.missed(&at, &lambda, mu);
         let is_near = missed[0] < CLOSE[0] && missed[1] < CLOSE[1];
         let Some((next, gains)) = at.after(programme, &steps, mu, &mut filter, is_near) else {
@@ -182,7 +183,7 @@ pub(super) fn minimise(
         idle = if gains { 0 } else { idle + 1 };
         for (k, (l, d)) in lambda.iter_mut().zip(&steps.multipliers).enumerate() {
             *l += dual * d;
-            // Not far from s·λ = μ·weight.
+            // s·λ is kept near μ·weight.
             let center = mu * at.rows[k].weight / at.slacks[k];
             *l = l.clamp(1e-8 * center, 1e8 * center);
         }
@@ -217,13 +218,13 @@ impl Iterate {
         }
     }
 
-    /// The largest share by which a limit with its slack is missed.
+    /// The largest value of c + s: the share by which a limit is violated, its slack included.
     pub(super) fn missed(&self) -> f64 {
         let each = self.rows.iter().zip(&self.slacks);
         each.map(|(row, s)| row.value + s).fold(0.0, f64::max)
     }
 
-    /// By how much limits with their slacks are missed, and cost with barrier.
+    /// The two values that the filter compares: the sum of |c + s|, and the cost with the barrier.
     fn merits(&self, mu: f64) -> [f64; 2] {
         let cost: f64 = self.terms.iter().map(|term| term.value).sum();
         let each = || self.rows.iter().zip(&self.slacks);
@@ -231,7 +232,7 @@ impl Iterate {
         [each().map(|(row, s)| misses(row, *s)).sum(), cost - barrier]
     }
 
-    /// What a step promises to cost and barrier.
+    /// Slope of cost and barrier along a step.
     fn promise(&self, mesh: &Mesh, steps: &Steps, mu: f64) -> f64 {
         let terms = self.terms.iter().map(|term| along(mesh, term, &steps.x));
         let slacks = self.rows.iter().zip(&self.slacks).zip(&steps.slacks);
@@ -241,8 +242,8 @@ impl Iterate {
                 .sum::<f64>()
     }
 
-    /// After as much of a step as is better than all points of the filter, or, if it is taken as it is, as stays inside; and whether anything
-    /// was gained.
+    /// The point after the largest share of a step that is better than all points of the filter; `as_it_is`: after the largest share that keeps slacks
+    /// and w positive. With it, whether anything was gained.
     fn after(
         &self,
         programme: &impl Programme,
@@ -258,8 +259,8 @@ impl Iterate {
         for halvings in 0..=HALVINGS {
             let moved = self.x.iter().zip(&steps.x).map(|(x, d)| x + share * d);
             if let Some(mut next) = Self::new(programme, moved.collect()) {
-                // A slack that differs from what its limit leaves counts as a limit that is missed. It becomes what is left, or a limit that is far
-                // away, and whose torque bends, would stop every step.
+                // A slack that differs from the distance to its limit counts as a violation. Without setting it to that distance, a limit that
+                // is far away, but at a bend of its torque, would stop every step.
                 let slacks = self.slacks.iter().zip(&steps.slacks).zip(&next.rows);
                 next.slacks = slacks
                     .map(|((s, d), row)| {
@@ -269,7 +270,7 @@ impl Iterate {
                     })
                     .collect();
                 let then = next.merits(mu);
-                // Where the step promises much of the cost against what is missed, the cost must fall.
+                // Where the violation is small against what the step should save, the cost must fall.
                 let is_of_cost = slope < 0.0 && share * slope.powi(2) > now[0];
                 let is_gain = if is_of_cost {
                     then[1] <= now[1] + 1e-4 * share * slope + 1e-13 * now[1].abs()
@@ -293,12 +294,12 @@ impl Iterate {
     }
 }
 
-/// Whether a point misses limits less than another, or costs less.
+/// Whether a point violates limits less than another, or costs less.
 fn is_better(then: [f64; 2], now: [f64; 2]) -> bool {
     then[0] <= (1.0 - FILTER) * now[0] || then[1] <= now[1] - FILTER * now[0] + 1e-13 * now[1].abs()
 }
 
-/// By how much a limit with its slack is missed; less than what rounding leaves is nothing.
+/// |c + s|, or zero where that is only rounding.
 fn misses(row: &Term, slack: f64) -> f64 {
     ((row.value + slack).abs() - FEASIBLE).max(0.0)
 }

@@ -4,24 +4,23 @@
 //! v = L·g′·√w/t,   a = L·(g″·w + ½·g′·w′)/t²,   da/dt = L·√w·(g‴·w + 3/2·g″·w′ + ½·g′·w″)/t³
 //! ```
 //!
-//! with t the unit of the time. Speed and acceleration limits are straight lines in w and w′; so is the torque, but for viscous friction (√w);
-//! the jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is a share of itself: c ≤ 0, −1 far from it.
+//! with t the unit of the time. Limits of the square of the speed and of the acceleration are linear in w and w′. So is the torque, but for viscous
+//! friction (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where what it limits is zero.
 
 use super::effort::{Effort, State, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
 use super::rate::{Rate, smooth_slopes};
+use crate::collocation::pieces::{Value, dot};
 use crate::fastest::field::{Binding, Field};
-use crate::gentlest::mesh::Value;
-use crate::gentlest::mesh::dot;
 
-/// Share of the mean speed over which the slope of a torque-speed curve is taken.
+/// Difference of speeds for the slope of a torque-speed curve, as a share of the mean speed.
 const NEAR: f64 = 1e-6;
 
 /// A step leaves at least this share of w.
 const LEAVES: f64 = 0.1;
 
-/// By which a limit is kept below itself, as a share, so that it holds between the stations as well.
+/// Margins by which limits are lowered, as shares, so that they hold between the stations as well.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Margins {
     /// Of speed, acceleration and torques.
@@ -32,13 +31,13 @@ pub(super) struct Margins {
     pub(super) rate: f64,
 }
 
-/// What is least: `time` times the duration (s) and `heat` times ∫T² dt (N²·m²·s). The time may count less than nothing: where a weight is
-/// held a slower motion has less RMS torque until it takes more of ∫T² than of the time.
+/// What is to be least: `time` times the duration (s) plus `heat` times ∫T² dt (N²·m²·s). `time` may be negative: where the motor holds a
+/// weight, a slower motion has less RMS torque as long as ∫T² grows less than in proportion to the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Price {
     /// Of a second.
     pub time: f64,
-    /// Of a second with 1 N²·m² (1/(N²·m²)).
+    /// Of the square of 1 N·m for a second (1/(N²·m²)).
     pub heat: f64,
 }
 
@@ -58,11 +57,11 @@ pub(super) struct Problem<'a> {
     pub(super) unit: f64,
     /// Mean speed (rad/s, or m/s) in that time.
     pub(super) pace: f64,
-    /// What is least.
+    /// What is to be least.
     pub(super) price: Price,
-    /// Load (N·m) over which bends of the torque are rounded.
+    /// Range of the load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
-    /// Factor of the limits of rates.
+    /// Factor by which the limits of jerk and torque rate are eased; 1: not at all.
     pub(super) ease: f64,
     /// The motor's torque limits as straight lines, braking and driving.
     pub(super) lines: [Option<Vec<[f64; 2]>>; 2],
@@ -88,7 +87,7 @@ impl Problem<'_> {
         }
     }
 
-    /// What the motor's torque rises with the speed itself.
+    /// Slope of the motor's torque by the speed: friction of the motor itself.
     fn friction(&self) -> f64 {
         let way = self.field.way;
         way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
@@ -108,8 +107,8 @@ impl Problem<'_> {
         })
     }
 
-    /// −T and T at their limits, which fall with the speed. Where the curve is the lowest of straight lines each is a limit of its own: a
-    /// motion may stay where two meet.
+    /// Limits of the braking and of the driving torque, which depend on the speed. Where the torque-speed curve is the lowest of several straight lines,
+    /// each line is a limit of its own, because the motion may stay at the speed at which two of them meet.
     fn torque_limits(
         &self,
         station: &Station,
@@ -128,7 +127,7 @@ impl Problem<'_> {
                 Binding::Driving
             };
             let size = sign / scale[k];
-            // A limit and its slope by the speed. A margin is a share of what an excess is measured by: the limit itself may be nothing.
+            // A limit and its slope by the speed. The margin is a share of the torque at rest, as an excess is: the limit itself may be zero.
             let mut row = |left: f64, slope: f64| {
                 let by_w = -slope * state.pace / (2.0 * state.w.sqrt());
                 let bend = 0.25 * slope * state.pace / (state.w * state.w.sqrt());
@@ -270,7 +269,7 @@ impl Problem<'_> {
         let Price { time, heat } = self.price;
         let whole = time + heat * t * t;
         let own = &station.basis[0];
-        // Of T²/√w: one square, and what is left of w's own.
+        // The second derivatives of T²/√w are the square of one linear form and a multiple of w's own.
         let lean = mix((1.0, &torque.gradient), (-0.5 * t / w, own));
         let bend = (0.75 * time + 0.25 * heat * t * t) / (w * w * root)
             + 2.0 * heat * t * torque.bend / root;
@@ -292,7 +291,7 @@ impl Problem<'_> {
 }
 
 impl Problem<'_> {
-    /// Whether a motion keeps the limits of jerk and torque rate.
+    /// Whether a motion satisfies the limits of jerk and torque rate.
     pub(super) fn keeps_rates(&self, x: &[f64]) -> bool {
         let is_kept = |row: &Term| {
             row.value <= 0.0 || !matches!(row.limit, Some(Binding::Jerk | Binding::TorqueRate))
@@ -300,7 +299,7 @@ impl Problem<'_> {
         self.at(x).is_some_and(|[_, rows]| rows.iter().all(is_kept))
     }
 
-    /// With bends of the torque, if it has any, rounded over a share of the largest load of a motion.
+    /// The same with bends of the torque, if it has any, rounded over a share of the largest load of a motion.
     pub(super) fn ranged(self, x: &[f64], share: f64) -> Self {
         let load = |station: &Station| {
             let state = self.state(station, &self.mesh.values(x, station.element));

@@ -1,27 +1,25 @@
-//! The square of the pace in pieces of fifth degree, and the places at which limits are looked at.
+//! The square of the pace in pieces of fifth degree, and the stations at which limits must hold.
 //!
-//! Along the path s = L·g(u) of [`Shape`] the pace is w = (du/dτ)², τ the time in units of the programme's
-//! own. w and w′ are continuous, so the acceleration is; w″ and with it the jerk may jump where two pieces meet. Fifth degree leaves w″
-//! a cubic in each piece, which follows an arc of constant jerk or of constant torque with an error of order 4.
+//! Along the path s = L·g(u) of [`Shape`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is
+//! the acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows
+//! an arc of constant jerk or of constant torque with an error of order 4.
 
 use jred::Error;
 
+use crate::collocation::pieces::{Value, dot, first_columns, hermite};
+use crate::collocation::shape::Shape;
 use crate::fastest::field::Field;
-use crate::gentlest::mesh::{Value, dot, first_columns, hermite};
-use crate::gentlest::shape::Shape;
+use crate::fastest::track::INSIDE;
 use crate::skyline::Skyline;
 use crate::way::Place;
 
-/// Values of a piece: w and w′ at its start, two that vanish with their slopes at both ends, w and w′ at its end.
+/// Unknowns of a piece: w and w′ at its start, factors of two functions that are zero with zero slope at both ends, w and w′ at its end.
 pub(super) const VALUES: usize = 6;
 
 /// Coefficients of the values of one piece.
 pub(super) type Local = [f64; VALUES];
 
-/// Share of a piece by which a place at its end lies inside it: what jumps there has the value of its own side.
-const INSIDE: f64 = 1e-9;
-
-/// The same as a share of u, whose last digits must not step out of a short piece.
+/// Least distance of such a place from the end as a share of u: in a short piece, rounding of u must not carry it outside.
 const NEAR: f64 = 1e-13;
 
 /// How the ends of the motion are, and what may jump on the way.
@@ -43,9 +41,9 @@ pub(super) struct Border {
     pub(super) u: f64,
     /// Whether the machine is not smooth there.
     pub(super) is_corner: bool,
-    /// Whether it stays where it is: a corner, or where the path's own pieces meet.
+    /// Whether it must stay where it is: at a corner, or where two pieces of the path meet.
     pub(super) stays: bool,
-    /// Whether the piece that begins here is a cubic: one in which the limit that is met changes, where a higher degree would swing.
+    /// Whether the piece that begins here is a cubic, because in it the active limit changes and a higher degree would oscillate.
     pub(super) is_plain: bool,
 }
 
@@ -56,7 +54,7 @@ pub(super) struct Element {
     pub(super) values: [Value; VALUES],
 }
 
-/// A place at which limits are looked at, and a point of the quadrature.
+/// A place at which limits must hold, and a point of the quadrature.
 #[derive(Clone, Debug)]
 pub(super) struct Station {
     pub(super) element: usize,

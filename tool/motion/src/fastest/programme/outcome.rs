@@ -1,29 +1,29 @@
-//! The motion over the time that w(u) stands for, and a look at its limits with the machine itself.
+//! The motion over the time that belongs to w(u), and the check of its limits with the machine itself.
 
 use jred::Error;
+use jred_machine::number::quadrature::GAUSS_5;
 
 use super::borders::{Met, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
-use super::{Asked, Found, WITHIN};
-use crate::fastest::between::{LOOKS, within_step};
+use super::{Asked, Found, PROGRAMME_EXCESS};
+use crate::collocation::shape::Shape;
+use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::{NoMotion, Phase};
-use crate::gentlest::mesh::GAUSS;
-use crate::gentlest::shape::Shape;
 use crate::trace::{Node, Trace};
 use crate::way::Place;
 
-/// Last digits of a speed that make another acceleration in a step, and of a torque.
+/// Roundings, in units of the last digit, that a speed or a torque may have; within a step they look like a jerk or a torque rate.
 const ROUNDINGS: f64 = 4.0;
 
 /// Share of a step over which the rate of the torque is taken.
 const NEAR: f64 = 0.02;
 
-/// Parts of a step in which the torque bends in which its rate is looked at.
+/// Parts of a step into which it is divided to check the torque rate, where the torque bends in the step.
 const PARTS: u32 = 32;
 
-/// Shares of themselves by which two limits that are met together may differ.
+/// Two limits whose values differ by less than this share are met together.
 const TIED: f64 = 1e-6;
 
 /// The limit that is exceeded most between the nodes, by which share of itself, and where.
@@ -35,7 +35,7 @@ pub(super) struct Worst {
 }
 
 impl Worst {
-    /// Nothing was looked at.
+    /// Nothing was checked.
     pub(super) const NONE: Self = Self {
         excess: f64::INFINITY,
         limit: None,
@@ -43,13 +43,13 @@ impl Worst {
     };
 }
 
-/// Widens the margins of pieces in which limits are exceeded, by as much, or late also by as much as they are: a limit that is met at a bend
-/// only between two stations may leave what it is at them far away.
+/// Widens the margins of pieces in which limits are exceeded, by the excess. In late rounds each margin is doubled as well: a bend between two
+/// stations may exceed a limit from which the motion is far at the stations, where a small margin has no effect.
 pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: bool) {
     for (margins, own) in margins.iter_mut().zip(exceeded) {
         let each = [&mut margins.state, &mut margins.jerk, &mut margins.rate];
         for (margin, excess) in each.into_iter().zip(own) {
-            if *excess > 0.5 * WITHIN {
+            if *excess > 0.5 * PROGRAMME_EXCESS {
                 let more = if is_late { *margin } else { 0.0 };
                 *margin += 1.1 * excess + 1e-9 + more;
             }
@@ -57,7 +57,7 @@ pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: boo
     }
 }
 
-/// What rounding of the speeds makes of the jerk in a step.
+/// The jerk in a step that may be rounding of the speeds.
 fn rounded_jerk([a, b]: [&Node; 2]) -> f64 {
     ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step)
 }
@@ -128,7 +128,7 @@ impl Asked<'_> {
     pub(super) fn step(&self, found: &Found, element: usize, stations: [usize; 2]) -> f64 {
         let [from, to] = stations.map(|k| SHARES[k][0]);
         let [start, end] = found.mesh.elements[element].span;
-        let each = GAUSS.into_iter().map(|[z, weight]| {
+        let each = GAUSS_5.into_iter().map(|[z, weight]| {
             let [w, ..] = found
                 .mesh
                 .pace(&found.point.x, element, from + z * (to - from));
@@ -173,13 +173,13 @@ impl Asked<'_> {
             let [first, last] = [a, b].map(|node| distance(node.phi));
             let middle = 0.5 * (first + last);
             let place = |phi: f64| {
-                // A place at a corner has the values of its own side.
+                // At a corner of the machine, the place is moved a little to its own side.
                 let x = distance(phi)
                     .max((first + near).min(middle))
                     .min((last - near).max(middle));
                 way.place(self.ends.from + direction * x)
             };
-            for share in LOOKS {
+            for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
                 let place = place(state.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
@@ -200,7 +200,7 @@ impl Asked<'_> {
         Ok((worst, own))
     }
 
-    /// The greatest rate (N·m/s) of the torque in a step, less what rounding may make of it.
+    /// The greatest torque rate (N·m/s) in a step, less what may be rounding.
     fn torque_rate(
         &self,
         [a, b]: [&Node; 2],
@@ -240,7 +240,7 @@ impl Asked<'_> {
         Ok(most)
     }
 
-    /// Which limit is met, from where to where.
+    /// Which limit is active, from where to where.
     pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
         let met = self.all_met(found);
         let count = SHARES.len();
@@ -257,7 +257,7 @@ impl Asked<'_> {
             let first = piece * count + index % (count - 1);
             let mut at = [1, 0].into_iter().map(|k| &met[first + k]);
             let limit = at.find_map(|at| strongest(at).map(|own| (at, own)));
-            // Of two limits that are met together the one before goes on.
+            // Where two limits are met together, the one that was active before is named.
             let limit = limit.map(|(at, own)| {
                 let before = phases.last().map(|phase| phase.limit);
                 let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;

@@ -9,12 +9,9 @@
 
 use super::effort::{State, mix};
 use super::mesh::{Local, Station, VALUES};
-use crate::gentlest::mesh::dot;
-use crate::gentlest::torque::Torque;
+use crate::collocation::pieces::dot;
+use crate::collocation::torque::{STRAIGHT, Torque};
 use crate::way::{Demand, Place};
-
-/// Shares of the slopes that differ by less are one.
-const STRAIGHT: f64 = 1e-9;
 
 /// The slopes of a torque averaged over loads ± `range` once more: Newton's method needs a gradient of them that does not jump.
 pub(super) fn smooth_slopes(

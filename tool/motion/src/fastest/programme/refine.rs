@@ -1,32 +1,33 @@
-//! Finer pieces: from a first mesh, or from another motion, until the time is settled.
+//! Finer pieces, from a first mesh or from another motion, until the time does not change any more.
 
+use super::borders::inner;
 use super::limits::Margins;
 use super::mesh::Border;
 use super::starts::SAME;
-use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm, inner};
+use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm};
+use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
-use crate::gentlest::shape::Shape;
 
 /// Rounds of finer pieces.
 const ROUNDS: u32 = 24;
 
-/// Change of the time, as a share, at which finer pieces gain nothing.
+/// Share by which the time may still change with finer pieces when they are fine enough.
 const SETTLED: f64 = 2e-9;
 
-/// Factor of the range over which bends of the torque are rounded, from one round to the next.
+/// Factor from one round to the next of the range over which bends of the torque are rounded.
 const NARROWER: f64 = 0.5;
 
-/// How often the first pieces are halved where they have no motion.
+/// How often the first pieces may be halved when no motion is found on them.
 const FINER_STARTS: u32 = 2;
 
-/// How often borders are moved to where the limit changes.
+/// How often borders are moved to where the active limit changes.
 const MOVES: u32 = 3;
 
-/// How often pieces longer than this are halved after that.
+/// How often pieces longer than `LONGEST`, a share of u, are halved after that.
 const HALVED: u32 = 3;
 const LONGEST: f64 = 0.006;
 
-/// More borders; `None`: there are none.
+/// The borders with more of them; `None`: there are no more.
 fn with(borders: &[Border], more: Vec<Border>) -> Option<Vec<Border>> {
     if more.is_empty() {
         return None;
@@ -53,13 +54,13 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
 }
 
 impl Asked<'_> {
-    /// Load over which bends of the torque are rounded beside a motion, and the share of its largest load that it is.
+    /// The range over which bends of the torque are rounded in a search from a motion, and its share of the largest load of that motion.
     fn range(&self, found: &Found, share: f64) -> [f64; 2] {
         let problem = self.problem(&found.mesh, &[], found.range);
         [problem.ranged(&found.point.x, share).range, share]
     }
 
-    /// On the pieces of another motion; `None`: it is too far away.
+    /// The motion on the pieces of another one; `None`: that is too different.
     pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
         let Warm {
             borders,
@@ -75,7 +76,7 @@ impl Asked<'_> {
         }))
     }
 
-    /// On other borders, with the torque rounded over a share of the loads where it bends, or over more if no motion is found.
+    /// The motion on other borders, with bends of the torque rounded over a share of the loads, or over more if no motion is found.
     fn narrowed(
         &self,
         shape: &Shape,
@@ -94,7 +95,7 @@ impl Asked<'_> {
         Ok(None)
     }
 
-    /// From nothing. Coarse pieces may have no motion that finer ones have.
+    /// The first motion. Where none is found on coarse pieces, finer ones are tried.
     fn first_of_all(&self, shape: &Shape, eased: bool) -> Result<(Vec<Border>, Found), NoMotion> {
         let mut borders = self.first_borders(shape);
         let mut first = self.first(shape, borders.clone(), eased);
@@ -108,7 +109,7 @@ impl Asked<'_> {
         first
     }
 
-    /// On pieces that are made finer until the time is settled.
+    /// The motion on pieces that are made finer until the time does not change any more.
     pub(super) fn refined(
         &self,
         shape: &Shape,
@@ -151,7 +152,7 @@ impl Asked<'_> {
             let solved = match next {
                 Some(next) => match self.narrowed(shape, &next, &found, share)? {
                     Some(solved) => Some((next, solved)),
-                    // Between the places at which coarse pieces are looked at their motion may be none.
+                    // A motion on coarse pieces may break limits between the stations, so that finer pieces have none like it.
                     None if round == 0 => {
                         let first = self.first(shape, next, eased).ok();
                         first.filter(|(_, first)| first.time < SAME * found.time)

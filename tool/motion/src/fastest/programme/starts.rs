@@ -1,36 +1,40 @@
-//! From where the motion is sought: even paces, and motions under limits of rates that are eased.
+//! Where the search starts: from even paces, and from motions under eased limits of rates.
+//!
+//! There may be two families of motions. In a fast motion the inertia bears most of the load; in a slow one the torque follows it.
+//! A search finds the best motion of the family in which it starts.
 
 use super::interior::{Point, Stuck, minimise};
 use super::limits::{Margins, Problem};
 use super::mesh::{Border, Mesh};
 use super::refine::halved;
 use super::{Asked, FEASIBLE, Found, PIECES, RANGES, ROUGH, STARTS};
+use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
-use crate::gentlest::shape::Shape;
 
-/// Most that limits of rates are eased by at the start, and the factors from one to the next: the first, and what is too near to 1.
+/// Largest factor by which the limits of rates are eased at the start; and what this factor is multiplied by from one search to the next: the first
+/// time, and when it is too close to 1 to go on.
 const MOST_EASE: f64 = 1e4;
 const EASES: [f64; 2] = [0.1, 0.97];
 
-/// Power of a factor that was not too near, and the most factors.
+/// Exponent by which a step between factors grows after a success, and the most steps.
 const LONGER: f64 = 1.2;
 const MOST_EASES: u32 = 40;
 
-/// How much longer a motion of one family may take than the one before, and the μ of both.
+/// A motion that takes no more than this times as long as the one before is of the same family; and the μ with which they are sought.
 pub(super) const SAME: f64 = 1.2;
 const EASED: [f64; 2] = [1e-2, 1e-5];
 
-/// Borders with which that is not tried on finer pieces.
+/// With this many borders eased limits are not tried on finer pieces any more.
 const MOST_EASED: usize = 3 * PIECES[0];
 
-/// Share by which the time of another family differs.
+/// Share by which a motion from eased limits must be faster to be preferred.
 const CLEARLY: f64 = 1e-3;
 
-/// How often a motion is sought anew because its own loads are less than half of those that it was sought with.
+/// How often the search is repeated because the range suited loads more than twice those of the motion that was found.
 const RANGED: u32 = 8;
 
 impl Asked<'_> {
-    /// From a point, with bends rounded over a range that suits the loads of the motion itself.
+    /// Searches from a point, with bends rounded over a range that suits the loads of the motion that is found.
     fn from(
         &self,
         mesh: &Mesh,
@@ -56,8 +60,8 @@ impl Asked<'_> {
         Ok((point, problem.range))
     }
 
-    /// From limits of rates that hardly bind down to those that are asked for: a machine that goes fast bears its loads with its inertia, which no
-    /// slow start may find. A motion that is much slower than the one before is none of theirs.
+    /// Starts with limits of rates that are eased so far that they hardly bind, and goes back to the limits that are asked for, step by step. So it
+    /// stays in the family of fast motions, which slow starts may not find. `None`: the next motion was much slower, so the family has ended.
     fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
         let fast = self.unit / self.bound;
         let mut ease = fast.powi(3).min(MOST_EASE);
@@ -88,7 +92,7 @@ impl Asked<'_> {
         None
     }
 
-    /// From nothing, with the borders of its pieces: the fastest of the motions to which several starts lead.
+    /// The best of the motions to which several starts lead, with the borders of its pieces.
     pub(super) fn first(
         &self,
         shape: &Shape,
@@ -97,7 +101,7 @@ impl Asked<'_> {
     ) -> Result<(Vec<Border>, Found), NoMotion> {
         let mesh = self.mesh(shape, &borders)?;
         let mut stuck = None;
-        // A machine that goes fast bears its loads with its inertia, a slow one follows them with its torque: there may be two families of motions.
+        // Fast and slow even paces, for both families.
         let fast = self.unit / self.bound;
         let paces = STARTS.into_iter().flat_map(|pace| [pace * fast, pace]);
         let even = paces.filter_map(|pace| {
@@ -110,7 +114,7 @@ impl Asked<'_> {
         };
         let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best, RANGES[0])));
-        // Coarse pieces leave the faster family no motion.
+        // On coarse pieces the faster family may have no motion.
         let mut eased = None;
         let mut finer = borders;
         let rates = self.limits().has_rates();

@@ -19,7 +19,7 @@ impl Shape {
     }
 
     /// The same with a ramp for each end, or none at both, which passes these shares of its height at these shares of its length: a straight one passes none.
-    pub(super) fn with_ramps(
+    pub(crate) fn with_ramps(
         [starts, stops]: [bool; 2],
         [first_ramp, last_ramp]: [f64; 2],
         passes: &[[f64; 2]],
@@ -82,7 +82,7 @@ impl Shape {
     }
 
     /// [g, g′, g″] at u.
-    pub(super) fn at(&self, u: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, u: f64) -> [f64; 3] {
         let [g, slope, bend, _] = self.series(u, u);
         [g, slope, bend]
     }

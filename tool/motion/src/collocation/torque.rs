@@ -21,14 +21,14 @@ pub(crate) struct Torque {
 }
 
 /// Shares of the slopes that differ by less are one.
-const STRAIGHT: f64 = 1e-9;
+pub(crate) const STRAIGHT: f64 = 1e-9;
 
 /// Most bends in one range: of loads so large that their last digits are more than the range there would be any number.
 const MOST_BENDS: u32 = 8;
 
 impl Torque {
     /// Without rounding.
-    pub(super) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
+    pub(crate) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
         Self::of(place, acceleration, |place| {
             way.demand(place, speed, acceleration)
         })
@@ -62,7 +62,7 @@ impl Torque {
     }
 
     /// Averaged over the loads R ± `range`.
-    pub(super) fn rounded(
+    pub(crate) fn rounded(
         way: &Way,
         place: &Place,
         [speed, acceleration]: [f64; 2],

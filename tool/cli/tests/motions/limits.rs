@@ -1,0 +1,160 @@
+//! Limits of a fastest motion: torque rates, forces in joints, the RMS torque.
+
+use super::{PRESS_DRIVE, run};
+use crate::support::{Folder, edited, press_file};
+
+/// Torque rates that ask for a motion many times as long as the fastest one, among them single values between others at which the search once
+/// ended without a motion.
+#[test]
+fn torque_rates_of_presses_are_found() {
+    let cases = [
+        ("press", PRESS_DRIVE, ["1e4", "316.2278", "10"]),
+        (
+            "toggle-press",
+            "sgm7g-05a+npt015mf-5",
+            ["1e3", "1", "0.3162278"],
+        ),
+        (
+            "linkage-press",
+            "sgm7j-08a+npt035ma-16",
+            ["10", "3.162278", "0.1"],
+        ),
+        (
+            "cam-oscillating",
+            "sgm7j-c2a+npt015mf-10",
+            ["1", "0.3162278", "0.1"],
+        ),
+    ];
+    for (machine, drive, rates) in cases {
+        let file = format!(
+            "{}/../../machines/{machine}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let mut last = 0.0;
+        for rate in rates {
+            let limit = format!("{rate} N m/s");
+            let asked = [
+                "fastest",
+                &file,
+                "--drive",
+                drive,
+                "--max-torque-rate",
+                &limit,
+            ];
+            let made = run(&[&asked[..], &["--format", "json"]].concat())
+                .ends(0)
+                .json();
+            let own = &made["moves"][0];
+            let time = own["time"].as_f64().unwrap();
+            assert!(own["excess"].as_f64().unwrap() <= 1e-6, "{machine} {rate}");
+            assert!(
+                time >= own["bound"].as_f64().unwrap() && time > last,
+                "{machine} {rate}"
+            );
+            last = time;
+        }
+    }
+}
+
+/// The force in a joint that `fastest` limits is the one that `reduce --reactions` finds in the motion that it wrote.
+#[test]
+fn a_limited_force_is_that_of_the_reactions() {
+    let folder = Folder::new();
+    let text = include_str!("../../../../machines/scotch-yoke.toml");
+    let yoke = folder.file("yoke.toml", text);
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Run-up from rest").unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"p.csv\"\ncyclic = false\n\n";
+    let judged = folder.file("judged.toml", edited(text, &text[begin..end], motion));
+    let profile = folder.path("p.csv");
+    let mut asked = vec![
+        "fastest",
+        yoke.to_str().unwrap(),
+        "--from",
+        "30 deg",
+        "--to",
+        "400 deg",
+    ];
+    asked.extend(["--torque", "80 N m", "--motor-speed", "1500 rpm"]);
+    asked.extend(["--profile", profile.to_str().unwrap(), "--format", "json"]);
+    let joint = ["--max-reaction", "pin in the slot=1 kN"];
+    for (limit, most) in [(&joint[..], 1000.0), (&[], 2000.0)] {
+        let made = run(&[&asked[..], limit].concat()).ends(0).json();
+        let phases = made["moves"][0]["phases"].as_array().unwrap();
+        let at_limit = phases
+            .iter()
+            .any(|phase| phase["limit"] == "force in pin in the slot");
+        assert_eq!(at_limit, !limit.is_empty());
+        let forces = run(&[
+            "reduce",
+            judged.to_str().unwrap(),
+            "--reactions",
+            "--over",
+            "time",
+            "--positions",
+            "2000",
+            "--format",
+            "json",
+        ]);
+        let largest = forces.ends(0).json()["largest"].clone();
+        let of_pin = largest
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|one| one["quantity"] == "pin in the slot F [N]");
+        let force = of_pin.unwrap_or_else(|| panic!("{largest}"))["value"]
+            .as_f64()
+            .unwrap();
+        if limit.is_empty() {
+            assert!(force > 1.05 * 1000.0 && force < most, "{force}");
+        } else {
+            assert!((force / most - 1.0).abs() <= 1e-5, "{force}");
+        }
+    }
+}
+
+/// Where a guide turns round its friction does, too: the largest force is that of the side on which the motion is.
+#[test]
+fn the_largest_force_has_the_friction_of_its_own_side() {
+    let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let feeder = home.join("../../machines/shaking-feeder.toml");
+    let answer = run(&[
+        "fastest",
+        feeder.to_str().unwrap(),
+        "--torque",
+        "100 N m",
+        "--motor-speed",
+        "3000 rpm",
+        "--max-reaction",
+        "crank pivot=4 kN",
+        "--format",
+        "json",
+    ])
+    .ends(0)
+    .json();
+    let force = answer["joint_forces"][0]["force"].as_f64().unwrap();
+    assert!(
+        force <= 4000.0 * (1.0 + 1e-6) && force > 4000.0 * (1.0 - 1e-4),
+        "{force}"
+    );
+}
+
+/// A limit that is satisfied by far lags behind where the torque bends; at this RMS torque that once stopped the search.
+#[test]
+fn a_limit_far_away_does_not_stop_the_search() {
+    let press = press_file();
+    let answer = run(&[
+        "fastest",
+        press.to_str().unwrap(),
+        "--drive",
+        PRESS_DRIVE,
+        "--max-rms",
+        "10.40564 N m",
+        "--format",
+        "json",
+    ])
+    .ends(0)
+    .json();
+    let found = answer["motor"]["rms_torque"].as_f64().unwrap();
+    assert!(found <= 10.40564 && found > 10.4, "{found}");
+}

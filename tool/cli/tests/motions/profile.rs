@@ -1,0 +1,207 @@
+//! A motion that was made stands in a profile, which the other commands read, and beside the drives that it suits.
+
+use serde_json::Value;
+
+use super::{PRESS_DRIVE, run};
+use crate::support::{Folder, edited, press_text};
+
+/// The press, which rests for 1.5 s after each stroke.
+fn rested() -> String {
+    edited(&press_text(), "dwell = \"0.1 s\"", "dwell = \"1.5 s\"")
+}
+
+/// The same with another motion.
+fn with_motion(text: &str, motion: &str) -> String {
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("# Start from rest").unwrap();
+    edited(text, &text[begin..end], motion)
+}
+
+fn checked<'v>(drive: &'v Value, rule: &str) -> &'v Value {
+    let checks = drive["checks"].as_array().unwrap();
+    checks.iter().find(|check| check["rule"] == rule).unwrap()
+}
+
+/// With the reserve of the rules, written as a profile, the same drive is accepted, and its peak torque is that of the motion; without a reserve
+/// torque and speed are refused.
+#[test]
+fn size_accepts_a_motion_with_its_reserve() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", rested());
+    let press = press.to_str().unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"p.csv\"\n\n";
+    let judged = folder.file("judged.toml", with_motion(&rested(), motion));
+    let judged = judged.to_str().unwrap();
+    let profile = folder.path("p.csv");
+    let profile = profile.to_str().unwrap();
+    for (reserve, verdict) in [("rules", "pass"), ("0 %", "fail")] {
+        let made = run(&[
+            "fastest",
+            press,
+            "--drive",
+            PRESS_DRIVE,
+            "--reserve",
+            reserve,
+            "--profile",
+            profile,
+            "--format",
+            "json",
+        ])
+        .ends(0)
+        .json();
+        let sized = run(&["size", judged, "--why", PRESS_DRIVE, "--format", "json"]).json();
+        let drive = &sized["asked"];
+        for rule in ["peak torque", "speed"] {
+            assert_eq!(
+                checked(drive, rule)["verdict"],
+                verdict,
+                "{reserve}: {drive:#}"
+            );
+        }
+        let [asked, found] = [
+            &made["motor"]["peak_torque"],
+            &sized["explanation"]["contributions"]["total"]["torque [N m]"]["max"],
+        ];
+        let [asked, found] = [asked, found].map(|value| value.as_f64().unwrap());
+        assert!((found / asked - 1.0).abs() < 1e-6, "{found} {asked}");
+        let left = made["reserve"]["torque"].as_f64().unwrap();
+        assert!((left - if reserve == "rules" { 0.2 } else { 0.0 }).abs() < 1e-12);
+    }
+    run(&["fastest", press, "--reserve", "120 %"])
+        .ends(2)
+        .says(&["less than 100 %"]);
+}
+
+/// A toothed-belt axis in millimetres: 600 mm at up to 1 m/s and 10 m/s² take 0.6 + 0.1 s. The profile is in metres, for the same [motion].
+#[test]
+fn an_axis_is_spoken_of_in_its_own_words() {
+    let folder = Folder::new();
+    let machines = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let text = std::fs::read_to_string(machines.join("belt-axis.toml")).unwrap();
+    let axis = folder.file("axis.toml", &text);
+    let axis = axis.to_str().unwrap();
+    let profile = folder.path("p.csv");
+    let profile = profile.to_str().unwrap();
+    let plain = [
+        "fastest",
+        axis,
+        "--torque",
+        "500 N m",
+        "--motor-speed",
+        "6000 rpm",
+        "--max-speed",
+        "1 m/s",
+        "--max-acceleration",
+        "10 m/s^2",
+    ];
+    let with = |more: &[&'static str]| [&plain[..], more].concat();
+    let way = ["--from", "0 mm", "--to", "600 mm"];
+    let made = run(&with(&way)).ends(0).out;
+    for words in [
+        "0.7 s: 1 move",
+        "0 mm to 600 mm",
+        "from x [mm]",
+        "speed from [m/s]",
+    ] {
+        assert!(made.contains(words), "{made}");
+    }
+    let json = run(&[&with(&way)[..], &["--format", "json", "--profile", profile]].concat());
+    let json = json.ends(0).json();
+    let time = json["duration"].as_f64().unwrap();
+    assert!((time - 0.7).abs() < 1e-9, "{time}");
+    assert_eq!(json["unit"], "m");
+    let move_to = json["moves"][0]["to"].as_f64().unwrap();
+    assert!((move_to - 0.6).abs() < 1e-12, "{move_to}");
+    let begin = text.find("[[motion.segment]]").unwrap();
+    let again = text[..begin].replace(
+        "type = \"cycle\"",
+        "type = \"profile\"\nfile = \"p.csv\"\ncyclic = false",
+    );
+    let again = folder.file("again.toml", again);
+    let checked = run(&["check", again.to_str().unwrap()]).ends(0).out;
+    for words in ["motion of x of carriage: 0.7 s", "600 mm", "1 m/s"] {
+        assert!(checked.contains(words), "{checked}");
+    }
+    let retimed = run(&["retime", axis, "--format", "csv"]).ends(0);
+    assert!(
+        retimed.out.starts_with("t [s],s [m],v [m/s],a [m/s^2]"),
+        "{}",
+        &retimed.out[..60]
+    );
+    let listed = run(&["retime", axis]).ends(0).out;
+    assert!(listed.contains("x = 0 mm to x = 600 mm"), "{listed}");
+}
+
+/// A profile of the drive link under a [motion] of the tool: the cure is named.
+#[test]
+fn a_profile_of_the_drive_link_does_not_go_with_a_motion_of_the_tool() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", rested());
+    let profile = folder.path("p.csv");
+    run(&[
+        "fastest",
+        press.to_str().unwrap(),
+        "--torque",
+        "30 N m",
+        "--motor-speed",
+        "3000 rpm",
+        "--profile",
+        profile.to_str().unwrap(),
+    ])
+    .ends(0);
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"p.csv\"\nof = { point = \"slider\", along = \"x\" }\nnear = \"90 deg\"\n\n";
+    let wrong = folder.file("wrong.toml", with_motion(&rested(), motion));
+    run(&["check", wrong.to_str().unwrap()]).ends(2).says(&[
+        "the file has positions of the drive link",
+        "remove `of` from [motion]",
+    ]);
+}
+
+/// The drive that the motion is made for is the first of the list, and every drive that was tried stands with its own motion and what that saves.
+#[test]
+fn the_motion_is_that_of_the_first_drive() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", rested());
+    let press = press.to_str().unwrap();
+    let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../sizing/catalogue");
+    let few = |table: &str, keys: &[&str]| {
+        let text = std::fs::read_to_string(home.join(table)).unwrap();
+        let kept = |line: &&str| {
+            let key = line.split(',').next().unwrap();
+            key == "key" || keys.contains(&key)
+        };
+        let lines: Vec<&str> = text.lines().filter(kept).collect();
+        folder.file(table, lines.join("\n") + "\n")
+    };
+    let motors = few("motors.csv", &["sgmsh-15a", "sgmsh-30a"]);
+    let gearboxes = few("gearboxes.csv", &["npt025mf-5", "npt035mf-10"]);
+    let size = [
+        "size",
+        press,
+        "--motion",
+        "best",
+        "--steps",
+        "200",
+        "--motors",
+        motors.to_str().unwrap(),
+        "--gearboxes",
+        gearboxes.to_str().unwrap(),
+    ];
+    let text = run(&size).ends(0).out;
+    let (_, named) = text.split_once("Motion: the gentlest for ").unwrap();
+    let (named, _) = named.split_once(" (").unwrap();
+    assert!(text.contains("each with its own motion"), "{text}");
+    let json = run(&[&size[..], &["--format", "json"]].concat())
+        .ends(0)
+        .json();
+    let first = &json["fit"][0];
+    let name = format!(
+        "{} + {}",
+        first["motor"].as_str().unwrap(),
+        first["gearbox"].as_str().unwrap()
+    );
+    assert!(
+        name == named || text.contains(&format!("The list ranks {name}")),
+        "{name} {named}"
+    );
+}

@@ -1,0 +1,251 @@
+//! What happened in a simulated motion, sentence by sentence.
+
+use jred_machine::analysis::simulate::{Rest, Stop, beside_name};
+use jred_machine::model::axis::Axis;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::rounding::{short, shown};
+use jred_machine::units::RPM;
+use jred_motion::driven::{Loads, Peak};
+
+use super::Shown;
+
+impl Shown<'_> {
+    /// What happened on the way, sentence by sentence.
+    pub(super) fn sentences(&self) -> Vec<String> {
+        let axis = self.machines.first.axis();
+        let effort = self.effort_unit();
+        let mut lines = self.by_motion();
+        if let Some(stuck) = self.found.missing {
+            let missing = (stuck.missing.needed - stuck.missing.given).abs();
+            lines.push(format!(
+                "the motor does not drive the machine beyond {}, at {} s: at rest it gives {} {effort} there, {} {effort} are needed, {} {effort} are missing",
+                axis.place(stuck.missing.phi),
+                short(stuck.time),
+                short(stuck.missing.given.abs()),
+                short(stuck.missing.needed.abs()),
+                short(missing)
+            ));
+        }
+        lines.extend(self.reached(&axis));
+        lines.extend(self.effort());
+        lines.extend(self.torque_limit(&axis));
+        if let Some(following) = self.found.following {
+            lines.push(format!(
+                "largest following error: {} {} at {} s, {}",
+                self.way(&axis, following.error),
+                axis.coordinate.unit(),
+                short(following.time),
+                axis.place(following.position)
+            ));
+        }
+        if let Some((_, loads)) = self.drive {
+            lines.extend(drive_sentences(loads, &axis, self.machines.first));
+        }
+        lines.extend(self.impacts(&axis));
+        lines.extend(self.rest(&axis));
+        lines.extend(self.worst_stop(&axis));
+        lines
+    }
+
+    /// The longest of the stops over a cycle.
+    fn worst_stop(&self, axis: &Axis) -> Option<String> {
+        let stops = self.stops?;
+        let count = stops.len();
+        let unit = axis.coordinate.unit();
+        let from = |stop: &Stop| {
+            format!(
+                "switched off at {} s, {}",
+                short(stop.time),
+                axis.place(stop.position)
+            )
+        };
+        if let Some(moving) = stops.iter().find(|stop| stop.rest.is_none()) {
+            return Some(format!(
+                "warning: of {count} instants over the cycle before, {} the machine has not come to rest by the end",
+                from(moving)
+            ));
+        }
+        let longest = |of: fn(&Rest) -> f64| {
+            let rests = stops.iter().filter_map(|stop| Some((stop, stop.rest?)));
+            rests.max_by(|a, b| of(&a.1).total_cmp(&of(&b.1)))
+        };
+        let (far, way) = longest(|rest| rest.way.abs())?;
+        let (slow, time) = longest(|rest| rest.time)?;
+        Some(format!(
+            "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
+            self.way(axis, way.way),
+            short(way.time),
+            from(far),
+            short(time.time),
+            self.way(axis, time.way),
+            from(slow)
+        ))
+    }
+
+    /// What acts, is carried and moves by the clock of `[motion]`, of each machine.
+    pub(super) fn by_motion(&self) -> Vec<String> {
+        let duration = self.simulation.duration;
+        let machines = self.machines.all().enumerate();
+        let lines = machines.flat_map(|(k, machine)| {
+            let prefix = k.checked_sub(1);
+            let prefix = prefix.map_or_else(String::new, |k| format!("{}: ", beside_name(k)));
+            let lines = machine.file.by_the_clock(duration);
+            lines
+                .map(move |line| format!("{prefix}{line}"))
+                .collect::<Vec<_>>()
+        });
+        lines.collect()
+    }
+
+    /// The size of a way; zero if it is only a rounding error compared with the way of the whole motion.
+    fn way(&self, axis: &Axis, way: f64) -> String {
+        let positions = self.found.states.iter().map(|[phi, ..]| *phi);
+        let first = positions.clone().next().unwrap_or(0.0);
+        let most = positions.fold(0.0f64, |most, phi| most.max((phi - first).abs()));
+        shown(axis.shown_way(way).abs(), axis.shown_way(most))
+    }
+
+    /// When the speed that was asked for is reached.
+    fn reached(&self, axis: &Axis) -> Option<String> {
+        let speed = self.simulation.to_speed?;
+        let unit = axis.coordinate.speed_unit();
+        let speed = if axis.coordinate == Coordinate::Angle {
+            format!("{} rpm", short(speed / RPM))
+        } else {
+            format!("{} {unit}", short(axis.rate(speed)))
+        };
+        Some(match self.found.reached {
+            Some(reached) => format!(
+                "{speed} are reached {} s and {} {} after the start",
+                short(reached.time),
+                self.way(axis, reached.way),
+                axis.coordinate.unit()
+            ),
+            None => format!(
+                "{speed} are not reached in {} s",
+                short(self.simulation.duration)
+            ),
+        })
+    }
+
+    /// What the motor gives at most.
+    fn effort(&self) -> Option<String> {
+        let effort = self.found.effort?;
+        let unit = self.effort_unit();
+        let speed = if self.slides() {
+            format!("{} m/s", short(effort.speed[0]))
+        } else {
+            format!("{} rpm", short(effort.speed[0] / RPM))
+        };
+        let until = if self.simulation.halt.is_some() {
+            " until it is switched off"
+        } else {
+            ""
+        };
+        Some(format!(
+            "the motor gives up to {} {unit} at {} s, RMS {} {unit}{until}, and up to {} W at {} s; its largest speed is {speed} at {} s",
+            short(effort.torque[0]),
+            short(effort.torque[1]),
+            short(effort.rms),
+            short(effort.power[0]),
+            short(effort.power[1]),
+            short(effort.speed[1]),
+        ))
+    }
+
+    fn torque_limit(&self, axis: &Axis) -> Option<String> {
+        let limit = self.found.torque_limit?;
+        let times = match limit.count {
+            1 => "once".to_owned(),
+            count => format!("{count} times"),
+        };
+        Some(format!(
+            "warning: the motor is at the limit of its torque {times}, for {} s in all; first at {} s, {}",
+            short(limit.duration),
+            short(limit.time),
+            axis.place(limit.position)
+        ))
+    }
+
+    /// The sentence about end stops.
+    fn impacts(&self, axis: &Axis) -> Option<String> {
+        let impacts = self.found.impacts?;
+        let all = match impacts.count {
+            1 => String::new(),
+            count => format!("; {count} impacts in all"),
+        };
+        Some(format!(
+            "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
+            axis.place(impacts.position),
+            short(impacts.time),
+            short(axis.rate(impacts.speed)),
+            axis.coordinate.speed_unit()
+        ))
+    }
+
+    /// The sentence about the stop.
+    fn rest(&self, axis: &Axis) -> Option<String> {
+        let Some(halt) = self.simulation.halt else {
+            let held = self.found.held.filter(|_| self.found.missing.is_none())?;
+            return Some(format!(
+                "the machine comes to rest {} s and {} {} after the start, and friction holds it",
+                short(held.time),
+                self.way(axis, held.way),
+                axis.coordinate.unit()
+            ));
+        };
+        let off = format!("the motor is switched off at {} s", short(halt.time));
+        Some(match self.found.rest {
+            Some(rest) => format!(
+                "{off}; the machine comes to rest {} s and {} {} later",
+                short(rest.time),
+                short(axis.shown_way(rest.way)),
+                axis.coordinate.unit()
+            ),
+            None => format!("{off}; the machine has not come to rest by the end"),
+        })
+    }
+}
+
+/// What the drive bears more than it may, and how warm it gets.
+fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<String> {
+    let place = |peak: &Peak| format!("at {} s, {}", short(peak.time), axis.place(peak.phi));
+    let mut lines = Vec::new();
+    if let Some(peak) = loads.gearbox_torque.filter(Peak::exceeds) {
+        lines.push(format!(
+            "warning: the gearbox carries up to {} N m, {}; its acceleration torque is {} N m",
+            short(peak.value),
+            place(&peak),
+            short(peak.allowed.unwrap_or_default())
+        ));
+    }
+    if loads.motor_speed.exceeds() {
+        let peak = loads.motor_speed;
+        lines.push(format!(
+            "warning: the motor turns the gearbox with up to {} rpm, {}; its largest input speed is {} rpm",
+            short(peak.value / RPM),
+            place(&peak),
+            short(peak.allowed.unwrap_or_default() / RPM)
+        ));
+    }
+    if let Some(heat) = loads.heat {
+        let peak = heat.hottest;
+        let over = if peak.exceeds() { "warning: " } else { "" };
+        let ambient = file.site.surroundings.ambient;
+        let (value, allowed) = if heat.relative {
+            let percent = |share: f64| format!("{} % of its rated rise", short(100.0 * share));
+            (percent(peak.value), peak.allowed.map(percent))
+        } else {
+            let degrees = |rise: f64| format!("{} °C", short(ambient + rise));
+            (degrees(peak.value), peak.allowed.map(degrees))
+        };
+        let allowed =
+            allowed.map_or_else(String::new, |allowed| format!("; {allowed} are allowed"));
+        lines.push(format!(
+            "{over}the motor, cold at the start, reaches {value}, {}{allowed}",
+            place(&peak)
+        ));
+    }
+    lines
+}
