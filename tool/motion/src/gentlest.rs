@@ -199,7 +199,19 @@ pub const GAP: f64 = 1e-4;
 /// # Errors
 /// See [`Fault`].
 pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
-    let found = from_end_to_end(way, travel, objective, false);
+    of(way, travel, objective, true)
+}
+
+/// The same, without the lower bound, which takes most of the time: a motion that is not convex counts as local.
+///
+/// # Errors
+/// See [`Fault`].
+pub(crate) fn unproved(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
+    of(way, travel, objective, false)
+}
+
+fn of(way: &Way, travel: &Travel, objective: Objective, prove: bool) -> Result<Gentle, Fault> {
+    let found = from_end_to_end(way, travel, objective, [false, prove]);
     let may_wait = match &found {
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
@@ -211,12 +223,13 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
     }
 }
 
-/// The gentlest motion that waits at its ends alone, where they are at rest; at one of them in any case if it must.
+/// The gentlest motion that waits at its ends alone, where they are at rest; at one of them in any case if it must. With a lower
+/// bound if that is wanted.
 fn from_end_to_end(
     way: &Way,
     travel: &Travel,
     objective: Objective,
-    must_wait: bool,
+    [must_wait, prove]: [bool; 2],
 ) -> Result<Gentle, Fault> {
     for (what, value) in [
         ("distance", travel.distance.abs()),
@@ -289,5 +302,5 @@ fn from_end_to_end(
         solved = next;
     }
     let waits = Waits::new(travel.duration - moving, &held);
-    solved.finish(change, &waits)
+    solved.finish(change, &waits, prove)
 }

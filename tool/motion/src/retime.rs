@@ -3,9 +3,9 @@
 use jred::Error;
 use jred::machine::motion::Law;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, Segment};
+use jred_machine::model::motion::Motion;
 
-use crate::gentlest::{self, Fault, Gentle, Objective, Optimum, Reason, Travel};
+use crate::gentlest::{self, Fault, Gentle, Optimum, Reason};
 use crate::moves::{self, Chain, Move, NoMoves, Part};
 use crate::trace::Trace;
 use crate::way::Actuator;
@@ -140,57 +140,23 @@ const AGREES: f64 = 1e-3;
 /// # Errors
 /// See [`Obstacle`].
 pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<Retimed, Obstacle> {
-    let objective = match (request.goal, request.copper) {
-        (Goal::Rms, _) => Objective::Rms,
-        (Goal::Peak, _) => Objective::Peak,
-        (Goal::Energy, Some(copper)) => Objective::Energy { copper },
-        (Goal::Energy, None) => return Err(Obstacle::NoCopper),
-    };
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
-    let parts = &chain.parts;
-    let asked = Asked {
-        file,
-        request,
-        cyclic: motion.cyclic,
-        parts,
-    };
-    let mut gentle = Vec::new();
-    for (step, ends) in parts.iter().filter_map(Part::step) {
-        let travel = Travel {
-            start: step.from,
-            distance: step.to - step.from,
-            duration: step.duration,
-            speeds: ends.speeds,
-            accelerations: ends.accelerations,
-            ramp: request.ramp,
-            ring: chain.endless,
-        };
-        let way = asked.way(&step);
-        let found = gentlest::gentlest(&way, &travel, objective);
-        let number = gentle.len() + 1;
-        gentle.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
-    }
-    let found = |gentle: &[Gentle]| {
-        let mut found = gentle.iter();
-        asked.motion(|step, _| {
-            let phases = found.next().map(|gentle| gentle.phases.clone());
-            Segment::phases(step.to - step.from, phases.unwrap_or_default())
-        })
-    };
-    let laws = asked.beside(chain.endless)?;
-    let mut best = found(&gentle)?;
+    let asked = Asked::new(file, motion, request, &chain);
+    let mut gentle = asked.gentlest(gentlest::gentlest)?;
+    let laws = asked.beside()?;
+    let mut best = asked.made_of(&gentle)?;
     let mut figures = asked.figures(&best)?;
     // The mean of a high power is not quite the peak: a law may have a lower one.
     if request.goal == Goal::Peak
         && let Some(name) = asked.better_law(&laws, figures.peak)
     {
-        let steps = parts.iter().filter_map(Part::step);
+        let steps = chain.parts.iter().filter_map(Part::step);
         for (gentle, (step, _)) in gentle.iter_mut().zip(steps) {
             gentle.phases = asked.by_law(name, &step)?;
             gentle.law = Some(name);
             gentle.moving = step.duration;
         }
-        best = found(&gentle)?;
+        best = asked.made_of(&gentle)?;
         figures = asked.figures(&best)?;
     }
     let duration = best.duration();
@@ -214,11 +180,26 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         laws,
         best: figures,
         bound: bound.map(|bound| bound.min(least)),
-        trace: trace(file, parts, &gentle),
+        trace: trace(file, &chain.parts, &gentle),
         chain,
         moves: gentle,
         motion: best,
     })
+}
+
+/// The gentlest motion alone: without a lower bound, and without other motions beside it.
+///
+/// # Errors
+/// See [`Obstacle`].
+pub(crate) fn alone(
+    file: &MachineFile,
+    motion: &Motion,
+    request: &Request,
+) -> Result<Motion, Obstacle> {
+    let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
+    let asked = Asked::new(file, motion, request, &chain);
+    let moves = asked.gentlest(gentlest::unproved)?;
+    Ok(asked.made_of(&moves)?)
 }
 
 /// The bound of all moves together, with what pauses and kept parts cost, and their peak. Not that of the motion less what the search left: the written motion may take more than the

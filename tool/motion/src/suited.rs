@@ -9,10 +9,11 @@ use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::{Envelope, Prepared};
 use jred_sizing::select::size::{Candidate, Order, Selection};
+use jred_sizing::threads;
 
 use crate::gentlest::without_drive;
 use crate::moves::{self, Chain};
-use crate::retime::{Figures, Goal, Obstacle, Request, Retimed, retime};
+use crate::retime::{self, Figures, Goal, Obstacle, Request};
 use crate::way::Actuator;
 
 /// Suitable and refused drives, of the file's motion and of the machine's own gentlest one, that get a motion of their own.
@@ -31,7 +32,7 @@ pub struct Judging<'a> {
     /// Time steps of the duty.
     pub steps: usize,
     /// Leaves of a selection what is asked for.
-    pub narrow: &'a dyn Fn(&mut Selection),
+    pub narrow: &'a (dyn Fn(&mut Selection) + Sync),
 }
 
 /// A drive with the motion that is the gentlest for it.
@@ -83,10 +84,12 @@ impl<'a> Judging<'a> {
     /// Each of the first drives with the motion of least RMS torque for it.
     ///
     /// # Errors
-    /// Those of [`retime`].
+    /// Those of [`retime::retime`].
     pub fn best(&self) -> Result<Suited<'a>, Obstacle> {
-        let before = self.first(self.own)?;
-        let free = self.first(&self.gentlest(None)?.motion)?;
+        let own = self.cycle(self.own)?;
+        let before = self.first(&own);
+        let free = self.gentlest(&self.request(None))?;
+        let free = self.first(&self.cycle(&free)?);
         let mut known = BTreeSet::new();
         let mut suited = Suited {
             tried: Vec::new(),
@@ -94,16 +97,15 @@ impl<'a> Judging<'a> {
             chain: moves::chain(self.own, &self.file.process()).map_err(Obstacle::NoMoves)?,
             ahead: None,
         };
-        for (id, drive) in before.tried.iter().chain(&free.tried) {
-            if known.insert(*id) {
-                suited.tried.push(self.with_own(*id, *drive)?);
-            }
-        }
+        let first = before.tried.into_iter().chain(free.tried);
+        let first: Vec<(DriveId, Drive)> = first.filter(|(id, _)| known.insert(*id)).collect();
+        let tried = threads::map(&first, |(id, drive)| self.with_own(*id, *drive, &own));
+        suited.tried = tried.into_iter().collect::<Result<_, _>>()?;
         suited.sort();
         // With the motion of the best drive another one may come first, which was not tried.
         for _ in 0..TRIED {
             let Some(best) = suited.best() else { break };
-            let listed = self.first(&best.motion)?;
+            let listed = self.first(&self.cycle(&best.motion)?);
             let ahead = listed.fit.first();
             let Some((id, drive, _)) = ahead.filter(|(.., order)| Some(*order) < best.order) else {
                 break;
@@ -112,48 +114,53 @@ impl<'a> Judging<'a> {
                 suited.ahead = Some(*drive);
                 break;
             }
-            suited.tried.push(self.with_own(*id, *drive)?);
+            suited.tried.push(self.with_own(*id, *drive, &own)?);
             suited.sort();
         }
         Ok(suited)
     }
 
-    fn with_own(&self, id: DriveId, drive: Drive<'a>) -> Result<Tried<'a>, Obstacle> {
-        let retimed = self.gentlest(Some(&drive))?;
+    /// A drive with its own motion; the cycle is that of the file's motion.
+    fn with_own(&self, id: DriveId, drive: Drive<'a>, own: &Cycle) -> Result<Tried<'a>, Obstacle> {
+        let request = self.request(Some(&drive));
+        let motion = self.gentlest(&request)?;
+        let cycle = self.cycle(&motion)?;
         Ok(Tried {
             drive,
-            order: self.order(id, drive, &retimed.motion)?,
-            own: retimed.own,
-            gentlest: retimed.best,
-            motion: retimed.motion,
+            order: self.order(id, drive, &cycle),
+            own: request.figures(own),
+            gentlest: request.figures(&cycle),
+            motion,
         })
     }
 
-    /// The gentlest motion for a drive, or for the machine alone.
-    fn gentlest(&self, drive: Option<&Drive>) -> Result<Retimed, Obstacle> {
+    /// For a drive, or for the machine alone.
+    fn request(&self, drive: Option<&Drive>) -> Request {
         let actuator = drive.map_or_else(without_drive, |drive| {
             let envelope = Envelope::at(drive.motor, drive.amplifier, &self.file.site);
             Actuator::new(drive, envelope)
         });
-        let request = Request {
+        Request {
             actuator,
             copper: None,
             goal: Goal::Rms,
             ramp: 0.0,
             steps: self.steps,
-        };
-        retime(self.file, self.own, &request)
+        }
+    }
+
+    fn gentlest(&self, request: &Request) -> Result<Motion, Obstacle> {
+        retime::alone(self.file, self.own, request)
     }
 
     fn cycle(&self, motion: &Motion) -> Result<Cycle, Obstacle> {
         Ok(Cycle::new(&Duty::new(self.file, motion, self.steps)?))
     }
 
-    fn first(&self, motion: &Motion) -> Result<First<'a>, Obstacle> {
+    fn first(&self, cycle: &Cycle) -> First<'a> {
         let Self { file, motors, .. } = self;
-        let cycle = self.cycle(motion)?;
         let mut selection =
-            Selection::parallel(self.catalogue, motors, &cycle, &file.site, &file.rules);
+            Selection::parallel(self.catalogue, motors, cycle, &file.site, &file.rules);
         (self.narrow)(&mut selection);
         let fit = selection.first_fit(TRIED);
         // The smaller motor that is refused by least is the one that another motion may make suitable.
@@ -169,29 +176,23 @@ impl<'a> Judging<'a> {
             let drive = tried.get(&candidate.id())?;
             Some((candidate.id(), *drive, Order::of(candidate)))
         });
-        Ok(First {
+        First {
             fit: with_order.collect(),
             tried,
-        })
+        }
     }
 
-    /// The place of a drive with a motion; `None`: it violates a rule.
-    fn order(
-        &self,
-        id: DriveId,
-        drive: Drive<'a>,
-        motion: &Motion,
-    ) -> Result<Option<Order>, Obstacle> {
+    /// The place of a drive with a motion of this cycle; `None`: it violates a rule.
+    fn order(&self, id: DriveId, drive: Drive<'a>, cycle: &Cycle) -> Option<Order> {
         let Self {
             file,
             motors,
             catalogue,
             ..
         } = self;
-        let cycle = self.cycle(motion)?;
         let alone = std::iter::once((id, drive));
-        let selection = Selection::among(alone, catalogue, motors, &cycle, &file.site, &file.rules);
-        Ok(selection.fit.first().map(Order::of))
+        let selection = Selection::among(alone, catalogue, motors, cycle, &file.site, &file.rules);
+        selection.fit.first().map(Order::of)
     }
 }
 

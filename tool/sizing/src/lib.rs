@@ -23,4 +23,4 @@ pub mod motor;
 pub mod select;
 pub mod study;
 pub mod thermal;
-mod threads;
+pub mod threads;

@@ -19,7 +19,7 @@ pub(crate) fn map_in<R, T: Send>(
 }
 
 /// The results of `work` for each item.
-pub(crate) fn map<I: Sync, T: Send>(items: &[I], work: impl Fn(&I) -> T + Send + Sync) -> Vec<T> {
+pub fn map<I: Sync, T: Send>(items: &[I], work: impl Fn(&I) -> T + Send + Sync) -> Vec<T> {
     #[cfg(feature = "threads")]
     return items.par_iter().map(work).collect();
     #[cfg(not(feature = "threads"))]

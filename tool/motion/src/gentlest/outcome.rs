@@ -35,8 +35,8 @@ impl Waits {
 }
 
 impl Solved<'_> {
-    /// The result, with the share by which the cost changed with the last mesh.
-    pub(super) fn finish(self, change: f64, waits: &Waits) -> Result<Gentle, Fault> {
+    /// The result, with the share by which the cost changed with the last mesh, and a lower bound if that is wanted.
+    pub(super) fn finish(self, change: f64, waits: &Waits, prove: bool) -> Result<Gentle, Fault> {
         let Self {
             task,
             moving,
@@ -71,7 +71,7 @@ impl Solved<'_> {
         let waiting = waits.duration > 0.0;
         let multiplier = if waiting { -holding } else { found.multiplier };
         let whole = task.travel.ends().ramp == 0.0;
-        let bound = if whole && task.objective != Objective::Peak {
+        let bound = if prove && whole && task.objective != Objective::Peak {
             let bound = bound::value([&problem, &rounded], &found, multiplier)?;
             let bound = size * moving * bound + held;
             // One that is negative says nothing.

@@ -151,6 +151,7 @@ fn waiting_at(
     (place, rate): (f64, f64),
 ) -> Option<Gentle> {
     let end = travel.start + travel.distance;
+    // The whole has the bound of all motions: parts need none.
     let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
         let at = |values: [f64; 2]| {
             let kept = |k: usize, whole: f64| if is(ends[k], whole) { values[k] } else { 0.0 };
@@ -164,7 +165,7 @@ fn waiting_at(
             accelerations: at(travel.accelerations),
             ..*travel
         };
-        from_end_to_end(way, &part, objective, must_wait).ok()
+        from_end_to_end(way, &part, objective, [must_wait, false]).ok()
     };
     if is(place, travel.start) || is(place, end) {
         return part([travel.start, end], travel.duration, true);
@@ -220,7 +221,7 @@ fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) ->
         ring: false,
         ..*travel
     };
-    let made = from_end_to_end(way, &turn, objective, true).ok()?;
+    let made = from_end_to_end(way, &turn, objective, [true, false]).ok()?;
     let offset = (travel.start - place) / travel.distance;
     let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
     Some(Gentle {

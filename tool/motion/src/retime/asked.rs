@@ -9,22 +9,81 @@ use jred_machine::number::quadrature::GAUSS_3;
 use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;
-use super::{Figures, Goal, LAWS, Request, Row, law};
-use crate::moves::{Kept, Move, Part, Passing};
-use crate::way::{Actuator, BothWays, Way};
+use super::{Figures, Goal, LAWS, Obstacle, Request, Row, law};
+use crate::gentlest::{Fault, Gentle, Objective, Travel};
+use crate::moves::{Chain, Kept, Move, Part, Passing};
+use crate::way::{BothWays, Way};
 
 /// The turn at constant kinetic energy.
 const EVEN_ENERGY: &str = "constant kinetic energy";
 
 /// The machine with what is asked.
 pub(super) struct Asked<'a> {
-    pub(super) file: &'a MachineFile,
-    pub(super) request: &'a Request,
-    pub(super) cyclic: bool,
-    pub(super) parts: &'a [Part],
+    file: &'a MachineFile,
+    request: &'a Request,
+    cyclic: bool,
+    endless: bool,
+    parts: &'a [Part],
 }
 
-impl Asked<'_> {
+/// The search for a gentlest move.
+type Search = fn(&Way, &Travel, Objective) -> Result<Gentle, Fault>;
+
+impl<'a> Asked<'a> {
+    /// Of a motion, and the parts that it is made of.
+    pub(super) fn new(
+        file: &'a MachineFile,
+        motion: &Motion,
+        request: &'a Request,
+        chain: &'a Chain,
+    ) -> Self {
+        Self {
+            file,
+            request,
+            cyclic: motion.cyclic,
+            endless: chain.endless,
+            parts: &chain.parts,
+        }
+    }
+
+    /// Each move in the gentlest way.
+    pub(super) fn gentlest(&self, search: Search) -> Result<Vec<Gentle>, Obstacle> {
+        let Request {
+            goal, copper, ramp, ..
+        } = *self.request;
+        let objective = match (goal, copper) {
+            (Goal::Rms, _) => Objective::Rms,
+            (Goal::Peak, _) => Objective::Peak,
+            (Goal::Energy, Some(copper)) => Objective::Energy { copper },
+            (Goal::Energy, None) => return Err(Obstacle::NoCopper),
+        };
+        let mut moves = Vec::new();
+        for (step, ends) in self.parts.iter().filter_map(Part::step) {
+            let travel = Travel {
+                start: step.from,
+                distance: step.to - step.from,
+                duration: step.duration,
+                speeds: ends.speeds,
+                accelerations: ends.accelerations,
+                ramp,
+                ring: self.endless,
+            };
+            let found = search(&self.way(&step), &travel, objective);
+            let number = moves.len() + 1;
+            moves.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
+        }
+        Ok(moves)
+    }
+
+    /// The parts with these moves.
+    pub(super) fn made_of(&self, moves: &[Gentle]) -> Result<Motion, Error> {
+        let mut moves = moves.iter();
+        self.motion(|step, _| {
+            let phases = moves.next().map(|gentle| gentle.phases.clone());
+            Segment::phases(step.to - step.from, phases.unwrap_or_default())
+        })
+    }
+
     /// What the pauses and the kept parts cost, in the unit of the moves' costs: of the peak nothing.
     pub(super) fn held(&self) -> Result<f64, Error> {
         let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
@@ -104,28 +163,8 @@ impl Asked<'_> {
     }
 
     pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, Error> {
-        let duty = Duty::new(self.file, motion, self.request.steps)?;
-        let cycle = Cycle::new(&duty);
-        let Actuator {
-            coefficients,
-            ratio,
-            envelope,
-        } = &self.request.actuator;
-        let rms = cycle.rms_torque(coefficients);
-        let [drawn, _] = cycle.energies(coefficients, *ratio);
-        let copper = (self.request.copper).map(|copper| copper * rms * rms * cycle.duration());
-        let speed = cycle.peak_speed() * ratio;
-        let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
-        Ok(Figures {
-            rms_used: rms / continuous,
-            speed_used: speed / envelope.max_speed(),
-            rms,
-            peak: cycle.peak_torque(coefficients),
-            drawn,
-            copper,
-            speed,
-            used: cycle.peak(coefficients, *ratio, envelope).used,
-        })
+        let cycle = Cycle::new(&Duty::new(self.file, motion, self.request.steps)?);
+        Ok(self.request.figures(&cycle))
     }
 
     /// The motion of the list with the lowest peak, if that is below this one and it has the form of the ends that is asked for.
@@ -166,8 +205,8 @@ impl Asked<'_> {
     }
 
     /// The laws; of a rotation without rest the classical motions. Between speeds there is no law: there it is the polynomial of fifth degree.
-    pub(super) fn beside(&self, endless: bool) -> Result<Vec<Row>, Error> {
-        if endless {
+    pub(super) fn beside(&self) -> Result<Vec<Row>, Error> {
+        if self.endless {
             return self.classical();
         }
         let row = |name: &'static str, law: Law| {

@@ -1,7 +1,11 @@
 //! What a motion asks of the motor, and which of it is to be least.
 
 use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::winding::CurrentCurve;
+
+use super::Request;
+use crate::way::Actuator;
 
 /// Temperature of the winding (°C) at which the copper loss is taken.
 pub const WINDING: f64 = 20.0;
@@ -54,6 +58,31 @@ impl Figures {
             Goal::Rms => self.rms,
             Goal::Peak => self.peak,
             Goal::Energy => self.drawn + self.copper.unwrap_or(0.0),
+        }
+    }
+}
+
+impl Request {
+    /// What a cycle asks.
+    pub(crate) fn figures(&self, cycle: &Cycle) -> Figures {
+        let Actuator {
+            coefficients,
+            ratio,
+            envelope,
+        } = &self.actuator;
+        let rms = cycle.rms_torque(coefficients);
+        let [drawn, _] = cycle.energies(coefficients, *ratio);
+        let speed = cycle.peak_speed() * ratio;
+        let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
+        Figures {
+            rms_used: rms / continuous,
+            speed_used: speed / envelope.max_speed(),
+            rms,
+            peak: cycle.peak_torque(coefficients),
+            drawn,
+            copper: (self.copper).map(|copper| copper * rms * rms * cycle.duration()),
+            speed,
+            used: cycle.peak(coefficients, *ratio, envelope).used,
         }
     }
 }
