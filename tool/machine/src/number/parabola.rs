@@ -89,8 +89,13 @@ pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Re
     Ok(most.map_or(b, |most| most.0))
 }
 
-/// Where the peak of a curve may lie between its places, of which `count` values are known: the three places around each, the most
-/// promising first. Two summits may be nearly as high as each other, and the places may lie nearer to the top of the lower one.
+/// Whether a peak is higher than another one: the first of two that differ by rounding is kept.
+pub fn is_higher(peak: f64, other: f64) -> bool {
+    peak - other > 1e-14 * other.abs()
+}
+
+/// Where the peak of a curve may lie between its places, of which `count` values are known: the three places around each, of the
+/// most promising ones, in order. Two summits may be nearly as high as each other, and the places may lie nearer to the top of the lower one.
 ///
 /// `around` gives the place `k` and two others, in order, all in one smooth part of the curve.
 pub fn summits(
@@ -123,5 +128,7 @@ pub fn summits(
     found.sort_by(|a: &(f64, _), b| b.0.total_cmp(&a.0));
     found.dedup_by_key(|(_, around)| *around);
     found.truncate(MOST_SUMMITS);
-    found.into_iter().map(|(_, around)| around).collect()
+    let mut places: Vec<[usize; 3]> = found.into_iter().map(|(_, around)| around).collect();
+    places.sort_unstable();
+    places
 }

@@ -80,7 +80,7 @@ pub(super) fn insert_extremes(
                     around.map(|k| instants[k].t),
                 )?;
                 let instant = at(t)?;
-                if value(&instant) > best {
+                if parabola::is_higher(value(&instant), best) {
                     best = value(&instant);
                     peak = Some(instant);
                 }

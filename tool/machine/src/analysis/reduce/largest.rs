@@ -117,7 +117,8 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
             let around = around.map(|place| stretch.place(places[place].1));
             let x = parabola::peak(|x| Ok::<_, Error>(search.at(x)?[k].abs()), around)?;
             let value = search.at(x)?[k];
-            if best.is_none_or(|(most, ..): (f64, _, _)| value.abs() > most.abs()) {
+            let higher = |(most, ..): (f64, _, _)| parabola::is_higher(value.abs(), most.abs());
+            if best.is_none_or(higher) {
                 best = Some((value, stretch, x));
             }
         }
