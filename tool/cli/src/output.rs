@@ -177,6 +177,37 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     written.map_err(|error| failed(path, &error))
 }
 
+/// Files that belong together: each is written in full before the first takes its place.
+#[derive(Debug, Default)]
+pub struct Files(Vec<(PathBuf, Output)>);
+
+impl Files {
+    /// Writes one more.
+    ///
+    /// # Errors
+    /// It cannot be written; then none of them takes its place.
+    pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
+        let begun = Output::create(path).and_then(|mut output| {
+            output.write_all(bytes)?;
+            Ok(output)
+        });
+        let output = begun.map_err(|error| failed(path, &error))?;
+        self.0.push((path.to_owned(), output));
+        Ok(())
+    }
+
+    /// Puts them in their places.
+    ///
+    /// # Errors
+    /// The disk is full, or something else is in the place of one; the others behind it are left out.
+    pub fn finish(self) -> Result<()> {
+        for (path, output) in self.0 {
+            output.finish().map_err(|error| failed(&path, &error))?;
+        }
+        Ok(())
+    }
+}
+
 /// The report of a file that cannot be written.
 pub fn failed(path: &Path, error: &Error) -> Report {
     let help = match error.kind() {

@@ -213,3 +213,28 @@ fn what_is_zero_is_printed_as_zero() {
     let explained = jred([&"size", &bucket, &"--explain"]).out;
     assert!(explained.contains(" 0.0 %") && !explained.contains("-0.0 %"));
 }
+
+/// Files that belong together: where one cannot be written, none takes its place.
+#[test]
+fn of_files_that_belong_together_all_or_none_are_written() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", press_text());
+    let drive = ["--torque", "60 N m", "--motor-speed", "3000 rpm"];
+    for (command, options) in [("fastest", &drive[..]), ("retime", &[])] {
+        let cam = folder.path("cam.csv");
+        let missing = folder.path("nowhere/report.html");
+        for what in ["--report", "--plan"] {
+            let outputs = ["--cam", cam.to_str().unwrap(), what];
+            let missing = missing.with_extension(if what == "--plan" { "jred" } else { "html" });
+            let path = missing.to_str().unwrap();
+            let words = [command, press.to_str().unwrap()];
+            let run = jred_with(&[&words[..], options, &outputs, &[path]].concat()).ends(2);
+            run.says(&["cannot write", "make the folder first"]);
+        }
+        let left: Vec<_> = std::fs::read_dir(cam.parent().unwrap())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect();
+        assert_eq!(left, ["press.toml"], "{command}");
+    }
+}

@@ -25,6 +25,7 @@ mod programme;
 mod reserve;
 mod rms;
 mod slivers;
+mod slowed;
 pub mod sweep;
 pub mod tool_speed;
 pub mod track;
@@ -239,7 +240,13 @@ fn refine(
                 count *= 2;
                 continue;
             }
-            Err(obstacle) => return Err(NoMotion::at(&field, &track, obstacle)),
+            Err(obstacle) => {
+                let eased = match obstacle {
+                    Obstacle::Stops(..) => slowed::by(&field, &ends, count)?,
+                    _ => None,
+                };
+                return Err(NoMotion::at(&field, &track, obstacle, eased));
+            }
         };
         if let Err(closed) = between::check(&field, &ends, &track, &pieces) {
             // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.

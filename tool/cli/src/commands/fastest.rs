@@ -12,8 +12,7 @@ use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{Done, drive_named, envelope, print, quantity, rate};
 use crate::options::fastest::{Asked, Fastest as Options};
-use crate::output;
-use crate::output::print_parts;
+use crate::output::{self, Files, print_parts};
 use jred::Reducible as _;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
@@ -108,15 +107,14 @@ pub fn fastest(options: &Options) -> Result<Done> {
     }
     let broken = broken(&file, &cycle.trace).map_err(core_report)?;
     let trace = cycle.trace.of_axis(&file.axis());
+    let mut files = Files::default();
     if let Some(path) = &options.profile {
-        let text = trace.profile();
-        output::write(path, text.as_bytes())?;
+        files.add(path, trace.profile().as_bytes())?;
     }
     if let Some(path) = &options.cam {
-        let text = trace.cam(options.rows as usize);
-        output::write(path, text.as_bytes())?;
+        files.add(path, trace.cam(options.rows as usize).as_bytes())?;
     }
-    let planned = plan::write(&options.plan, &file, &cycle.trace)?;
+    let planned = plan::write(&options.plan, (&file, &cycle.trace), &mut files)?;
     let answer = list::fastest::Answer {
         file: &file,
         drive: &chosen.name,
@@ -133,8 +131,9 @@ pub fn fastest(options: &Options) -> Result<Done> {
     };
     if let Some(path) = &options.report {
         let page = page::fastest_page(&answer).map_err(core_report)?;
-        output::write(path, page.as_bytes())?;
+        files.add(path, page.as_bytes())?;
     }
+    files.finish()?;
     print_parts(answer.write(options.format).map_err(core_report)?)?;
     if options.format == Format::Table {
         for (what, path) in [

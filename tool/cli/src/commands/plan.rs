@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::options::plan::{Form, PlanFile};
-use crate::output;
+use crate::output::{self, Files};
 use jred::Reducible as _;
 use jred_machine::export::{plan_c_source, plan_source};
 use jred_machine::model::machine::MachineFile;
@@ -16,7 +16,11 @@ use jred_report::list;
 ///
 /// # Errors
 /// A motion that no plan holds, or a file that cannot be written.
-pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Result<String> {
+pub(super) fn write(
+    options: &PlanFile,
+    (file, trace): (&MachineFile, &Trace),
+    files: &mut Files,
+) -> Result<String> {
     let Some(path) = &options.plan else {
         return Ok(String::new());
     };
@@ -36,6 +40,6 @@ pub(super) fn write(options: &PlanFile, file: &MachineFile, trace: &Trace) -> Re
         }
         Some(Form::Image) | None => plan.bytes(),
     };
-    output::write(path, &bytes)?;
+    files.add(path, &bytes)?;
     Ok(format!("plan written to {}: {says}\n", plain::path(path)))
 }

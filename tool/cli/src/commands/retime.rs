@@ -8,7 +8,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::{Done, drive_asked, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
-use crate::output;
+use crate::output::{self, Files};
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
@@ -62,16 +62,17 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let rows = options.rows as usize;
     let trace = retimed.trace.of_axis(&file.axis());
     let mut written = String::new();
+    let mut files = Files::default();
     for (path, what, text) in [
         (&options.profile, "motion", trace.profile()),
         (&options.cam, "cam table", trace.cam(rows)),
     ] {
         if let Some(path) = path {
-            output::write(path, text.as_bytes())?;
+            files.add(path, text.as_bytes())?;
             written += &[what, " written to ", &plain::path(path), "\n"].concat();
         }
     }
-    written += &plan::write(&options.plan, &file, &retimed.trace)?;
+    written += &plan::write(&options.plan, (&file, &retimed.trace), &mut files)?;
     let broken = broken(&file, &retimed.trace).map_err(core_report)?;
     let mut shown = list::retime::Shown {
         file: &file,
@@ -83,9 +84,10 @@ pub fn retime(options: &Retime) -> Result<Done> {
     };
     if let Some(path) = &options.report {
         let page = page::retime_page(&shown, motion).map_err(core_report)?;
-        output::write(path, page.as_bytes())?;
+        files.add(path, page.as_bytes())?;
         written += &["report written to ", &plain::path(path), "\n"].concat();
     }
+    files.finish()?;
     shown.written = written;
     print_parts([list::retime::write(&shown, options.format)])?;
     let best = &retimed.best;

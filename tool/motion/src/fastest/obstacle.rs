@@ -39,6 +39,8 @@ pub enum NoMotion {
         limit: Binding,
         /// In words, with the joint whose force it is.
         name: Box<str>,
+        /// A limit of speed or acceleration that keeps the machine from taking the kinetic energy that would carry it on.
+        eased: Option<Binding>,
         /// Torque that keeps the machine moving there (N·m), and that the limit gives.
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
@@ -121,6 +123,8 @@ pub enum NoMotion {
         rms: f64,
         /// What it may be.
         allowed: f64,
+        /// Least torque (N·m, or N) of the machine when it moves slowly, anywhere on the way.
+        slow: f64,
         /// Whether the search for motions with less did not come to its end.
         stopped: bool,
         /// Their unit: N of a motor that slides.
@@ -239,7 +243,13 @@ impl NoMotion {
         }))
     }
 
-    pub(super) fn at(field: &Field, track: &Track, obstacle: Obstacle) -> Self {
+    /// `eased`: a limit without which the machine does not stop.
+    pub(super) fn at(
+        field: &Field,
+        track: &Track,
+        obstacle: Obstacle,
+        eased: Option<Binding>,
+    ) -> Self {
         let axis = field.way.file.axis();
         let unit = input(field.way.file);
         let place = |index: usize, u: f64| track.cells[index].spot(u);
@@ -252,6 +262,7 @@ impl NoMotion {
                     at_start: index == 0 && u == 0.0,
                     limit,
                     name: in_words(limit, field),
+                    eased,
                     torques: field.needed_and_given(&place, limit, false),
                     unit,
                     axis,

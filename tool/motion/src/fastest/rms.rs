@@ -172,6 +172,7 @@ pub(super) fn within<E>(
         return Err(Refused::Limit(NoMotion::RmsTooLarge {
             rms: least,
             allowed: limit,
+            slow,
             stopped,
             unit,
         }));

@@ -96,6 +96,58 @@ fn kinetic_energy_carries_over_a_place_that_cannot_be_held() {
     assert_eq!(limits, [Binding::Driving, Binding::Braking]);
 }
 
+/// A limit that keeps the machine from taking the kinetic energy that would carry it over is named, not the motor.
+#[test]
+fn what_keeps_the_machine_slow_is_named() {
+    let (_, needed) = steepest();
+    let start = std::f64::consts::PI;
+    let asked = Task {
+        speeds: [8.0, 0.0],
+        ..task(start, start + 3.0)
+    };
+    let with = |limits: Limits| {
+        let asked = Task { limits, ..asked };
+        solve(&upright(), &motor([0.5 * needed; 2], 100.0), &asked)
+    };
+    assert!(with(Limits::default()).is_ok());
+    // At 8 rad/s it passes; from rest no limit is in the way.
+    let slow = Limits {
+        acceleration: Some(1e-3),
+        ..Limits::default()
+    };
+    let from_rest = Task {
+        limits: slow,
+        ..task(start, start + 3.0)
+    };
+    let motor_alone = solve(&upright(), &motor([0.5 * needed; 2], 100.0), &from_rest);
+    assert!(
+        matches!(motor_alone, Err(NoMotion::Stops { eased: None, .. })),
+        "{motor_alone:?}"
+    );
+    // With a motor that passes from rest a limit is.
+    for (limits, named) in [
+        (slow, Binding::Acceleration),
+        (
+            Limits {
+                speed: Some(0.5),
+                ..Limits::default()
+            },
+            Binding::Speed,
+        ),
+    ] {
+        let asked = Task {
+            limits,
+            ..task(start, start + 3.0)
+        };
+        let found = solve(&upright(), &motor([0.9 * needed; 2], 100.0), &asked);
+        let Err(why @ NoMotion::Stops { eased, .. }) = found else {
+            panic!("{found:?}")
+        };
+        assert_eq!(eased, Some(named), "{why}");
+        assert!(why.to_string().contains(named.name()), "{why}");
+    }
+}
+
 /// Down the steepest place a weak brake cannot stop.
 #[test]
 fn a_load_that_runs_away_is_named() {

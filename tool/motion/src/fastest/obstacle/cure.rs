@@ -21,6 +21,21 @@ impl NoMotion {
             Self::NoSpeedLimit => "give --max-speed".to_owned(),
             Self::SelfLocking => "take another gearbox".to_owned(),
             Self::Stops {
+                eased: Some(eased),
+                at_start: false,
+                ..
+            } => {
+                let option = match eased {
+                    Binding::Speed => "--max-speed",
+                    Binding::ToolSpeed => "--max-tool-speed",
+                    _ => "--max-acceleration",
+                };
+                format!(
+                    "raise the {} ({option}), or take a motor with more torque at low speed or a larger gear ratio",
+                    eased.name()
+                )
+            }
+            Self::Stops {
                 limit,
                 torques,
                 unit,
@@ -63,6 +78,9 @@ impl NoMotion {
             }
             Self::LoadJumps { .. } => {
                 "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
+            }
+            Self::RmsTooLarge { allowed, slow, .. } if slow >= allowed => {
+                "take a motor with more continuous torque or a larger gear ratio, or balance the weight; more time at rest helps where the machine is held with less".to_owned()
             }
             Self::RmsTooLarge { stopped: true, .. } => {
                 "allow slightly more, give the cycle more time at rest, or take a motor with more continuous torque".to_owned()

@@ -3,7 +3,7 @@
 use crate::fastest::leg::MOST_STEPS;
 use std::fmt;
 
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{short, told_apart};
 
 use super::super::field::Binding;
 use super::{Empty, NoMotion};
@@ -102,21 +102,35 @@ impl NoMotion {
             Self::RmsTooLarge {
                 rms,
                 allowed,
+                slow,
                 stopped,
                 unit,
-            } => write!(
-                f,
-                "no motion with an RMS {effort} of {} {u} or less was found: the least one met was {} {u}. {}",
-                short(*allowed),
-                short(*rms),
-                if *stopped {
-                    "The search for slower motions, which may have less, did not come to its end"
+            } => {
+                let u = unit.effort_unit();
+                let [least, most] = told_apart([*rms, *allowed]);
+                write!(
+                    f,
+                    "no motion with an RMS {effort} of {most} {u} or less was found: the least one met was {least} {u}. ",
+                    effort = unit.vocabulary().torque.word,
+                )?;
+                if slow >= allowed {
+                    let [slow, _] = told_apart([*slow, *allowed]);
+                    write!(
+                        f,
+                        "Weight, loads and friction take {slow} {u} or more all the way, however slowly the machine moves"
+                    )
+                } else if *stopped {
+                    write!(
+                        f,
+                        "The search for slower motions, which may have less, did not come to its end"
+                    )
                 } else {
-                    "A slower motion may have less, and weight and friction may keep it above the limit"
-                },
-                effort = unit.vocabulary().torque.word,
-                u = unit.effort_unit()
-            ),
+                    write!(
+                        f,
+                        "A slower motion may have less, and weight and friction may keep it above the limit"
+                    )
+                }
+            }
             Self::TooWarm {
                 greatest,
                 limit,
@@ -194,17 +208,22 @@ impl fmt::Display for NoMotion {
                 at_start,
                 limit,
                 name,
-                torques: [needed, given],
+                eased,
+                torques,
                 unit,
                 axis,
             } => {
                 let place = axis.place(*phi);
-                let [needed, given] = [needed, given].map(|torque| short(*torque));
+                let [needed, given] = told_apart(*torques);
                 let unit = unit.effort_unit();
-                let what = if *at_start {
-                    "the machine cannot start at"
-                } else {
-                    "with the largest acceleration all the way, the machine still stops at"
+                let what = match eased {
+                    _ if *at_start => "the machine cannot start at".to_owned(),
+                    Some(eased) => format!(
+                        "the {} leaves the machine too little kinetic energy to pass; it stops at",
+                        eased.name()
+                    ),
+                    None => "with the largest acceleration all the way, the machine still stops at"
+                        .to_owned(),
                 };
                 match limit {
                     Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
@@ -230,12 +249,12 @@ impl fmt::Display for NoMotion {
                 at_end,
                 limit,
                 name,
-                torques: [needed, given],
+                torques,
                 unit,
                 axis,
             } => {
                 let place = axis.place(*phi);
-                let [needed, given] = [needed, given].map(|torque| short(torque.abs()));
+                let [needed, given] = told_apart(torques.map(f64::abs));
                 let unit = unit.effort_unit();
                 let what = if *at_end {
                     "the machine cannot be stopped at"

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{percent, short, shown};
+use jred_machine::number::rounding::{percent, short, shown, told_apart};
 use jred_motion::fastest::cycle::{Cost, MORE, Made};
 use jred_motion::fastest::{Binding, Phase};
 use jred_sizing::select::fit::input_kind;
@@ -31,10 +31,13 @@ impl Answer<'_> {
         let ends = [made.task.from, made.task.to].map(|phi| axis.shown(phi).abs());
         let farthest = ends[0].max(ends[1]);
         let position = |phi: f64| shown(axis.shown(phi), farthest);
+        let ends = [made.task.from, made.task.to];
+        let [mut from, mut to] = ends.map(position);
+        if from == to {
+            [from, to] = told_apart(ends.map(|phi| axis.shown(phi)));
+        }
         let mut text = format!(
-            "move {number}: {} {unit} to {} {unit} in {} s",
-            position(made.task.from),
-            position(made.task.to),
+            "move {number}: {from} {unit} to {to} {unit} in {} s",
             short(made.fastest.time)
         );
         if let Some(before) = made.before {
