@@ -8,11 +8,3 @@
 pub(crate) mod pieces;
 pub(crate) mod shape;
 pub(crate) mod torque;
-
-/// The form of the ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Ends {
-    pub(crate) rest: [bool; 2],
-    pub(crate) ramp: f64,
-    pub(crate) ring: bool,
-}

@@ -24,7 +24,6 @@ use jred_sizing::motor::envelope::Envelope;
 
 use self::outcome::Waits;
 use self::task::{Task, edges};
-use crate::collocation::Ends;
 use crate::way::{Actuator, Way};
 
 mod bound;
@@ -71,6 +70,14 @@ pub struct Travel {
     pub ramp: f64,
     /// Whether it goes on for ever: the end is the start, at a speed that is sought.
     pub ring: bool,
+}
+
+/// The form of the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Ends {
+    rest: [bool; 2],
+    ramp: f64,
+    ring: bool,
 }
 
 impl Travel {

@@ -4,7 +4,7 @@ pub mod dormand_prince;
 
 use std::cell::Cell;
 
-use super::quadrature::GAUSS_5;
+use super::quadrature::CENTRED_GAUSS_5;
 
 /// Thirds after which the bracket is down to rounding.
 const THIRDS: u32 = 80;
@@ -27,7 +27,8 @@ pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
     x
 }
 
-/// The place of the smallest value of `f` between `low` and `high`, where it has one minimum, by thirds.
+/// The place of the smallest value of `f` between `low` and `high`, where it has one minimum, by thirds: down to rounding, because no step
+/// depends on the places of the one before, as in [`golden_section`].
 ///
 /// # Errors
 /// Those of `f`.
@@ -41,6 +42,39 @@ pub fn least<E>(f: impl Fn(f64) -> Result<f64, E>, mut low: f64, mut high: f64) 
         }
     }
     Ok(low.midpoint(high))
+}
+
+/// The golden section, for values that cost much: each step takes one of them, and leaves 0.618 of the range in which `f` has one minimum. The
+/// last two places inside it, with their values. `is_less` compares values; it ends early where one of them `is_enough`.
+///
+/// # Errors
+/// Those of `f`.
+pub fn golden_section<T, E>(
+    f: impl Fn(f64) -> Result<T, E>,
+    [mut low, mut high]: [f64; 2],
+    steps: u32,
+    is_less: impl Fn(&T, &T) -> bool,
+    is_enough: impl Fn(&T) -> bool,
+) -> Result<[(f64, T); 2], E> {
+    const SECTION: f64 = 0.381_966_011_250_105_1;
+    let at = |x: f64| Ok((x, f(x)?));
+    let mut left = at(low + SECTION * (high - low))?;
+    let mut right = at(high - SECTION * (high - low))?;
+    for _ in 0..steps {
+        if is_less(&left.1, &right.1) {
+            high = right.0;
+            right = left;
+            left = at(low + SECTION * (high - low))?;
+        } else {
+            low = left.0;
+            left = right;
+            right = at(high - SECTION * (high - low))?;
+        }
+        if is_enough(&left.1) || is_enough(&right.1) {
+            break;
+        }
+    }
+    Ok([left, right])
 }
 
 /// The place between `a`, where `before` holds, and `b`, where it does not hold any more.
@@ -138,11 +172,12 @@ pub fn integral<E>(
 /// # Errors
 /// Those of `f`.
 pub fn gauss<E>(f: &impl Fn(f64) -> Result<f64, E>, [a, b]: [f64; 2]) -> Result<f64, E> {
+    let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
     let mut sum = 0.0;
-    for [share, weight] in GAUSS_5 {
-        sum += weight * f(a + share * (b - a))?;
+    for [x, weight] in CENTRED_GAUSS_5 {
+        sum += weight * f(middle + half * x)?;
     }
-    Ok((b - a) * sum)
+    Ok(half * sum)
 }
 
 fn halved<E>(

@@ -1,4 +1,4 @@
-//! Gauss and Legendre's rules on 0 to 1: places and weights. A rule of n points is exact to degree 2n − 1.
+//! Gauss and Legendre's rules, on 0 to 1 unless they are centred: places and weights. A rule of n points is exact to degree 2n − 1.
 
 /// Two points.
 pub const GAUSS_2: [[f64; 2]; 2] = [
@@ -22,9 +22,26 @@ pub const GAUSS_5: [[f64; 2]; 5] = [
     [0.953_089_922_969_332, 0.118_463_442_528_094_54],
 ];
 
+/// The five points on −1 to 1, for sums about the middle of an interval.
+pub const CENTRED_GAUSS_5: [[f64; 2]; 5] = [
+    [-0.906_179_845_938_664, 0.236_926_885_056_189_1],
+    [-0.538_469_310_105_683, 0.478_628_670_499_366_5],
+    [0.0, 128.0 / 225.0],
+    [0.538_469_310_105_683, 0.478_628_670_499_366_5],
+    [0.906_179_845_938_664, 0.236_926_885_056_189_1],
+];
+
 #[cfg(test)]
 mod tests {
-    use super::{GAUSS_2, GAUSS_3, GAUSS_5};
+    use super::{CENTRED_GAUSS_5, GAUSS_2, GAUSS_3, GAUSS_5};
+
+    #[test]
+    fn both_of_five_points_are_the_same() {
+        for ([z, weight], [x, centred]) in GAUSS_5.into_iter().zip(CENTRED_GAUSS_5) {
+            assert!((2.0 * z - 1.0 - x).abs() < 2.0 * f64::EPSILON);
+            assert!((2.0 * weight - centred).abs() < 2.0 * f64::EPSILON);
+        }
+    }
 
     /// Each integrates powers of its degree to rounding, and the next one no more.
     #[test]

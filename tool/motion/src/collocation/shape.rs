@@ -3,8 +3,6 @@
 //! Near rest the speed is no smooth function of the position: v² ∝ φ where the acceleration begins with a jump, v² ∝ φ^(4/3) where it
 //! begins with a constant jerk. Along g(u) with g ∝ u² or u³ there, the square of the pace is smooth and greater than zero.
 
-use super::Ends;
-
 /// g(u) with g(0) = 0 and g(1) = 1, in cubic pieces.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
@@ -14,8 +12,8 @@ pub(crate) struct Shape {
 
 impl Shape {
     /// For ends at rest (or not), with ramps of the acceleration over a share of u (or none).
-    pub(crate) fn new(ends: Ends) -> Self {
-        Self::with_ramps(ends.rest, [ends.ramp; 2], &[])
+    pub(crate) fn new(rest: [bool; 2], ramp: f64) -> Self {
+        Self::with_ramps(rest, [ramp; 2], &[])
     }
 
     /// The same with a ramp for each end, or none at both, which passes these shares of its height at these shares of its length: a straight one passes none.
@@ -137,19 +135,14 @@ fn rise(passes: &[[f64; 2]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ends, Shape};
+    use super::Shape;
 
     /// Every form goes from 0 to 1, rises, has no slope at rest, and with ramps no bend there.
     #[test]
     fn ends_are_as_asked() {
         for rest in [[true, true], [true, false], [false, true], [false, false]] {
             for ramp in [0.0, 0.1, 0.3] {
-                let ends = Ends {
-                    rest,
-                    ramp,
-                    ring: false,
-                };
-                let shape = Shape::new(ends);
+                let shape = Shape::new(rest, ramp);
                 let [first, last] = [0.0, 1.0].map(|u| shape.at(u));
                 assert!(first[0].abs() < 1e-15 && (last[0] - 1.0).abs() < 1e-15);
                 for (end, rest) in [first, last].into_iter().zip(rest) {

@@ -26,7 +26,6 @@ mod rate;
 mod refine;
 mod starts;
 
-use crate::collocation;
 use crate::collocation::pieces::dot;
 use crate::collocation::shape::Shape;
 
@@ -142,7 +141,7 @@ impl Asked<'_> {
 
     /// The same; `eased`: whether motions under eased limits are starts as well.
     fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
-        let shape = Shape::new(self.form_of_ends());
+        let shape = self.shape();
         let beside = match start {
             Start::Beside(warm) => self.beside(&shape, warm)?,
             _ => None,
@@ -223,16 +222,19 @@ impl Asked<'_> {
         self.rise.clamp(RAMP[0], RAMP[1])
     }
 
-    fn form_of_ends(&self) -> collocation::Ends {
-        collocation::Ends {
-            rest: self.ends.speeds.map(|speed| speed == 0.0),
-            ramp: if self.limits().level_ends {
-                self.ramp()
-            } else {
-                0.0
-            },
-            ring: false,
-        }
+    /// Whether each end is at rest.
+    fn rest(&self) -> [bool; 2] {
+        self.ends.speeds.map(|speed| speed == 0.0)
+    }
+
+    /// The path, whose form is that of the ends.
+    fn shape(&self) -> Shape {
+        let ramp = if self.limits().level_ends {
+            self.ramp()
+        } else {
+            0.0
+        };
+        Shape::new(self.rest(), ramp)
     }
 
     /// Start and length of the way with its sign.
@@ -246,7 +248,7 @@ impl Asked<'_> {
             let [_, slope, ..] = shape.series(end as f64, end as f64);
             (self.ends.speeds[end] * self.unit / (distance.abs() * slope)).powi(2)
         };
-        let rest = self.form_of_ends().rest;
+        let rest = self.rest();
         let form = Form {
             rest,
             pace: [0, 1].map(|end| if rest[end] { 0.0 } else { pace(end) }),
@@ -282,7 +284,7 @@ impl Asked<'_> {
     /// # Errors
     /// The mechanism cannot be placed somewhere.
     pub(super) fn in_own_unit(mut self) -> Result<Self, NoMotion> {
-        let shape = Shape::new(self.form_of_ends());
+        let shape = self.shape();
         let mesh = self.mesh(&shape, &self.first_borders(&shape))?;
         let margins = vec![Margins::default(); mesh.elements.len()];
         let even = |pace: f64| {

@@ -11,6 +11,9 @@
 //! Where λ < 0, as with a weight that must be held, C from the torque that holds the machine at rest makes the bound finite.
 //! The integral is that of the mesh; the infimum is that of straight lines in w′ and a search over w in a range of speeds of 1 : 10,000.
 
+use std::convert::Infallible;
+
+use jred_machine::number::numerics::golden_section;
 use jred_machine::number::quadrature::GAUSS_5;
 
 use super::Fault;
@@ -265,22 +268,10 @@ impl Line {
             }
         }
         let place = |k: i32| f64::from(k) / f64::from(STEPS);
-        let [mut low, mut high] = [place(best - 1), place(best + 1)];
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let [mut a, mut b] = [high - golden * (high - low), low + golden * (high - low)];
-        let [mut fa, mut fb] = [at(a), at(b)];
-        for _ in 0..GOLDEN {
-            if fa < fb {
-                (high, b, fb) = (b, a, fa);
-                a = high - golden * (high - low);
-                fa = at(a);
-            } else {
-                (low, a, fa) = (a, b, fb);
-                b = low + golden * (high - low);
-                fb = at(b);
-            }
-        }
-        least.min(fa).min(fb)
+        let around = [place(best - 1), place(best + 1)];
+        let sure = |power: f64| Ok::<_, Infallible>(at(power));
+        let Ok([a, b]) = golden_section(sure, around, GOLDEN, |a, b| a < b, |_| false);
+        least.min(a.1).min(b.1)
     }
 
     /// The infimum over w′ at a w.

@@ -7,8 +7,7 @@
 use jred::Error;
 use jred_machine::number::quadrature::GAUSS_5;
 
-use super::Travel;
-use crate::collocation::Ends;
+use super::{Ends, Travel};
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Shape;
 use crate::skyline::Skyline;

@@ -1,10 +1,16 @@
 //! Search over the values of one quantity for the range in which every rule is satisfied.
 
+use std::convert::Infallible;
+
 use super::remedy::{Edge, Lever, Remedy};
 use crate::judge::{Context, Findings};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
+use jred_machine::number::numerics::golden_section;
+
+/// Steps of the search by the golden section.
+const SECTIONS: u32 = 40;
 
 /// What violating a limit of zero adds to a score.
 const BEYOND: f64 = 1e6;
@@ -247,25 +253,14 @@ impl Remedy {
 }
 
 /// The value between two others at which the worst rule uses least, by golden section.
-fn golden(judge: impl Fn(f64) -> State, [mut low, mut high]: [f64; 2]) -> (f64, State) {
-    const SECTION: f64 = 0.381_966_011_250_105_1;
-    let at = |value: f64| (value, judge(value));
-    let mut left = at(low + SECTION * (high - low));
-    let mut right = at(high - SECTION * (high - low));
-    for _ in 0..40 {
-        if left.1.score() < right.1.score() {
-            high = right.0;
-            right = left;
-            left = at(low + SECTION * (high - low));
-        } else {
-            low = left.0;
-            left = right;
-            right = at(high - SECTION * (high - low));
-        }
-        if left.1.holds() || right.1.holds() {
-            break;
-        }
-    }
+fn golden(judge: impl Fn(f64) -> State, around: [f64; 2]) -> (f64, State) {
+    let Ok([left, right]) = golden_section(
+        |value| Ok::<_, Infallible>(judge(value)),
+        around,
+        SECTIONS,
+        |a, b| a.score() < b.score(),
+        State::holds,
+    );
     if right.1.holds() || (!left.1.holds() && right.1.score() < left.1.score()) {
         right
     } else {
