@@ -18,14 +18,12 @@
 
 use jred::Error;
 use jred_machine::model::motion::Phase;
-use jred_sizing::catalogue::Motor;
-use jred_sizing::cycle::form::Coefficients;
-use jred_sizing::motor::envelope::Envelope;
 
 use self::outcome::Waits;
 use self::task::{Task, edges};
 use crate::collocation::Ends;
-use crate::way::{Actuator, Way};
+use crate::way::Way;
+pub use crate::way::without_drive;
 
 mod bound;
 mod cost;
@@ -130,15 +128,6 @@ pub enum Reason {
     Bound,
     /// The motion takes more than the search counted: its polynomials do not follow what was found.
     Written,
-}
-
-/// No drive: the torque at the input of the machine's drive train, without limits.
-pub fn without_drive() -> Actuator {
-    Actuator {
-        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
-        ratio: 1.0,
-        envelope: Envelope::of(&Motor::default()),
-    }
 }
 
 /// The gentlest motion of a move.
