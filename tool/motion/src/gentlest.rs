@@ -14,6 +14,7 @@
 //! - [`bound`](self): the lower bound;
 //! - [`task`](self): mesh after mesh, and the time that is better waited;
 //! - [`waiting`](self): a wait on the way, where holding costs less than at the ends;
+//! - [`scale`](self): the unit of its numbers, and its largest load;
 //! - [`outcome`](self): cost, optimum and motion of what was found.
 
 use jred::Error;
@@ -30,6 +31,7 @@ mod cost;
 mod mesh;
 mod outcome;
 mod ramps;
+mod scale;
 mod solve;
 mod task;
 mod waiting;
