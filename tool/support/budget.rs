@@ -320,3 +320,16 @@ pub(crate) const STEADY_FROM_REST: f64 = 1e-8;
 
 /// δ with the flywheel found for it.
 pub(crate) const STEADY_FLYWHEEL: f64 = 1e-9;
+
+/// Cost of a move by the midpoint rule at 2000 times, of itself: jumps of the slope where power changes its direction lie between two of them.
+pub(crate) const MIDPOINTS: f64 = 1e-5;
+
+/// By how much a search that sets bumps on a motion may find less, of the cost: what the midpoint rule may be wrong by.
+pub(crate) const NO_BUMP: f64 = 1e-4;
+
+/// By how much the same search may stay above the least, of the cost: bumps set one after another creep along a bend of the torque, at which
+/// the least energy lies for long [3e-3 for the RMS torque, 5.2e-2 for the energy].
+pub(crate) const SEARCHED: f64 = 6e-2;
+
+/// By how much a lower bound may be above the cost: roundings of sums of some thousand terms.
+pub(crate) const REFUTED: f64 = 1e-9;

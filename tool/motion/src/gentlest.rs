@@ -14,23 +14,23 @@
 //! - [`bound`](self): the lower bound;
 //! - [`task`](self): mesh after mesh, and the time that is better waited;
 //! - [`waiting`](self): a wait on the way, where holding costs less than at the ends;
+//! - [`scale`](self): the unit of its numbers, and its largest load;
 //! - [`outcome`](self): cost, optimum and motion of what was found.
 
 use jred::Error;
 use jred_machine::model::motion::Phase;
-use jred_sizing::catalogue::Motor;
-use jred_sizing::cycle::form::Coefficients;
-use jred_sizing::motor::envelope::Envelope;
 
 use self::outcome::Waits;
 use self::task::{Task, edges};
-use crate::way::{Actuator, Way};
+use crate::way::Way;
+pub use crate::way::without_drive;
 
 mod bound;
 mod cost;
 mod mesh;
 mod outcome;
 mod ramps;
+mod scale;
 mod solve;
 mod task;
 mod waiting;
@@ -137,15 +137,6 @@ pub enum Reason {
     Bound,
     /// The motion takes more than the search counted: its polynomials do not follow what was found.
     Written,
-}
-
-/// No drive: the torque at the input of the machine's drive train, without limits.
-pub fn without_drive() -> Actuator {
-    Actuator {
-        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
-        ratio: 1.0,
-        envelope: Envelope::of(&Motor::default()),
-    }
 }
 
 /// The gentlest motion of a move.

@@ -20,7 +20,7 @@ use jred::{Error, Reduction};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::schedule::Now;
-use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Drive, Motor};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -51,6 +51,15 @@ impl Actuator {
     pub fn torques(&self, speed: f64) -> [f64; 2] {
         let limit = |braking: bool| self.envelope.limit(braking).torque(speed);
         [-limit(true), limit(false)]
+    }
+}
+
+/// No drive: the torque at the input of the machine's drive train, without limits.
+pub fn without_drive() -> Actuator {
+    Actuator {
+        coefficients: GEARBOX_OUTPUT,
+        ratio: 1.0,
+        envelope: Envelope::of(&Motor::default()),
     }
 }
 

@@ -17,6 +17,7 @@ use crate::support::near;
 
 mod closed_form;
 mod objectives;
+mod passing;
 mod polynomials;
 mod ramps;
 mod slow;

@@ -20,7 +20,9 @@ use super::Fault;
 use super::mesh::Mesh;
 use super::solve::{Minimum, Problem, pace_at};
 use crate::collocation::torque::Torque;
-use crate::way::Place;
+use pieces::pieces;
+
+mod pieces;
 
 /// Ends and thirds of an element, at which C is taken.
 const THIRDS: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
@@ -35,20 +37,31 @@ const GOLDEN: u32 = 40;
 /// A gap of this share of the cost cannot be closed further: it is that of the quadrature and of the search over w.
 const PROVED: f64 = 1e-9;
 
-/// Most straight pieces of a torque.
-const PIECES: usize = 16;
-
-/// How often two lines are looked at in search of what lies between them.
-const MOST_LOOKS: usize = 8 * PIECES;
+/// A cost of this size, in the units of the problem, is rounding.
+const NONE: f64 = 1e-20;
 
 /// The best of the bounds, in the units of the problem: of the problem that is meant, P from the one with rounded bends.
-/// `price` is λ: the multiplier found, or what waiting saves.
-pub(super) fn value(problems: [&Problem; 2], found: &Minimum, price: f64) -> Result<f64, Fault> {
+/// `price` is λ: the multiplier found, or what waiting saves. `None`: what is more than the motion's own `cost` is no bound.
+pub(super) fn value(
+    problems: [&Problem; 2],
+    (found, cost): (&Minimum, f64),
+    price: f64,
+) -> Result<Option<f64>, Fault> {
+    let close = PROVED * cost + NONE;
     let plain = with(problems, found, price, 0.0)?;
-    if found.cost - plain <= PROVED * found.cost {
-        return Ok(plain);
+    if plain > cost + close {
+        return Ok(None);
     }
-    Ok(plain.max(with(problems, found, price, 1.0)?))
+    if plain >= cost - close {
+        return Ok(Some(plain));
+    }
+    // With C the integral of dV/du is that of the mesh as well: where that is too coarse, there is the other one.
+    let held = with(problems, found, price, 1.0)?;
+    Ok(Some(if held > cost + close {
+        plain
+    } else {
+        plain.max(held)
+    }))
 }
 
 /// P and P′ at every station: P′ is what stationarity asks, and P its integral, which closes over a whole move because the
@@ -310,94 +323,4 @@ impl Line {
         }
         least + self.multiplier / root - self.p1 * w - self.c1 * root
     }
-}
-
-/// A straight piece of the torque over the acceleration, in units of the problem.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    at: f64,
-    start: f64,
-    rise: f64,
-    /// From where to where it reaches.
-    torques: [f64; 2],
-}
-
-/// A few pieces, without memory of their own.
-struct Pieces {
-    all: [Piece; PIECES],
-    count: usize,
-}
-
-impl Pieces {
-    fn iter(&self) -> impl Iterator<Item = &Piece> {
-        self.all[..self.count].iter()
-    }
-}
-
-/// The torque over the acceleration at a speed: convex, so two of its lines meet above it or at the bend between them.
-fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
-    let line = |a: f64| {
-        let demand = problem.way.demand(place, speed, a);
-        Piece {
-            at: a,
-            start: demand.torque / problem.unit,
-            rise: demand.per_acceleration / problem.unit,
-            torques: [f64::NEG_INFINITY, f64::INFINITY],
-        }
-    };
-    let middle = line(0.0);
-    let mut pieces = Pieces {
-        all: [middle; PIECES],
-        count: 1,
-    };
-    if problem.smooth == 0.0 {
-        return pieces;
-    }
-    // Far enough on both sides that nothing bends beyond.
-    let far = 1e6 * (1.0 + middle.start.abs() + (place.load / problem.unit).abs()) / middle.rise;
-    let mut lines = Vec::with_capacity(PIECES);
-    lines.extend([line(-far), line(far)]);
-    let (mut k, mut looked) = (0, 0);
-    while k + 1 < lines.len() && lines.len() < PIECES {
-        looked += 1;
-        if looked > MOST_LOOKS {
-            // Not convex, or bent within the roundings: what is no number is no bound.
-            pieces.all[0].rise = f64::NAN;
-            return pieces;
-        }
-        let [left, right] = [lines[k], lines[k + 1]];
-        if right.rise - left.rise <= 1e-9 * right.rise {
-            lines.remove(k + 1);
-            continue;
-        }
-        let meet = (right.start - left.start + left.rise * left.at - right.rise * right.at)
-            / (left.rise - right.rise);
-        let there = line(meet);
-        let expected = left.start + left.rise * (meet - left.at);
-        let own = |side: Piece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
-        if own(left)
-            || own(right)
-            || (there.start - expected).abs() <= 1e-9 * (1.0 + expected.abs())
-        {
-            k += 1;
-        } else {
-            lines.insert(k + 1, there);
-        }
-    }
-    let mut from = f64::NEG_INFINITY;
-    pieces.count = 0;
-    for (k, own) in lines.iter().enumerate() {
-        let to = lines.get(k + 1).map_or(f64::INFINITY, |next| {
-            let meet = (next.start - own.start + own.rise * own.at - next.rise * next.at)
-                / (own.rise - next.rise);
-            own.start + own.rise * (meet - own.at)
-        });
-        pieces.all[pieces.count] = Piece {
-            torques: [from, to],
-            ..*own
-        };
-        pieces.count += 1;
-        from = to;
-    }
-    pieces
 }

@@ -35,6 +35,17 @@ pub(super) struct Station {
     pub(super) basis: [[f64; 4]; 2],
 }
 
+impl Station {
+    /// Speed and acceleration with w and w′, in a move of this duration (s).
+    pub(super) fn state(&self, [w, change]: [f64; 2], duration: f64) -> [f64; 2] {
+        let [slope, bend] = self.path;
+        [
+            slope * w.sqrt() / duration,
+            (bend * w + 0.5 * slope * change) / (duration * duration),
+        ]
+    }
+}
+
 /// The elements of a move.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {

@@ -71,25 +71,28 @@ impl Solved<'_> {
         let waiting = waits.duration > 0.0;
         let multiplier = if waiting { -holding } else { found.multiplier };
         let whole = task.travel.ends().ramp == 0.0;
-        let bound = if prove && whole && task.objective != Objective::Peak {
-            let bound = bound::value([&problem, &rounded], &found, multiplier)?;
-            let bound = size * moving * bound + held;
+        let (mut bound, mut refuted) = (None, false);
+        if prove && whole && task.objective != Objective::Peak {
+            let value = bound::value([&problem, &rounded], (&found, cost), multiplier)?;
+            refuted = value.is_none();
             // One that is negative says nothing.
-            (bound >= 0.0).then_some(bound)
-        } else {
-            None
-        };
+            let value = value.map(|value| size * moving * value + held);
+            bound = value.filter(|bound| *bound >= 0.0);
+        }
         let cost = size * moving * cost + held;
-        let convex = !viscous && !scale.bends && multiplier >= -1e-9 * found.cost;
+        let bends = way.bends();
+        let convex = !viscous && !bends && !refuted && multiplier >= -1e-9 * found.cost;
         let proved =
             found.converged && convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
         let optimum = if proved {
             Optimum::Global
         } else if !found.converged {
             Optimum::Local(Reason::Ended)
+        } else if refuted {
+            Optimum::Local(Reason::Bound)
         } else if viscous {
             Optimum::Local(Reason::Viscous)
-        } else if scale.bends {
+        } else if bends {
             Optimum::Local(Reason::Losses)
         } else if multiplier < 0.0 {
             Optimum::Local(Reason::LongTime)

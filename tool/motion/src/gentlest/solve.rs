@@ -35,8 +35,6 @@ pub(super) struct Problem<'a> {
     pub(super) cost: Cost,
     /// Load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
-    /// The same of the motion that was found; zero where the torque does not bend.
-    pub(super) smooth: f64,
     /// Length of the way, and where it starts and goes to.
     pub(super) length: f64,
     pub(super) course: [f64; 2],
@@ -229,8 +227,7 @@ impl Problem<'_> {
     /// The torque at a station, in N·m, with speed and acceleration (per s, s²).
     pub(super) fn torque(&self, x: &[f64], station: usize) -> ([f64; 2], Torque) {
         let station = &self.mesh.stations[station];
-        let [w, change] = self.mesh.pace(x, station);
-        let state = self.state(station.path, w, change);
+        let state = station.state(self.mesh.pace(x, station), self.duration);
         (
             state,
             Torque::rounded(self.way, &station.place, state, self.range),
@@ -242,15 +239,6 @@ impl Problem<'_> {
         let torques =
             (0..self.mesh.stations.len()).map(|index| self.torque(x, index).1.value.abs());
         torques.fold(0.0, f64::max)
-    }
-
-    /// Speed and acceleration.
-    pub(super) fn state(&self, [slope, bend]: [f64; 2], w: f64, change: f64) -> [f64; 2] {
-        let t = self.duration;
-        [
-            slope * w.sqrt() / t,
-            (bend * w + 0.5 * slope * change) / (t * t),
-        ]
     }
 
     /// Σ weight·cost

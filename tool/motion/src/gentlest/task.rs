@@ -4,10 +4,10 @@ use jred::{Domain, Reducible as _};
 
 use super::cost::Cost;
 use super::mesh::Mesh;
+use super::scale::Scale;
 use super::solve::{self, Minimum, Problem};
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
-use crate::collocation::torque::Torque;
-use crate::way::{Place, Way};
+use crate::way::Way;
 
 /// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
 const LONGEST: u32 = 60;
@@ -88,17 +88,6 @@ pub(super) struct Stage {
     pub(super) range: f64,
 }
 
-/// A task in numbers of its own: for a time in which it moves.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scale {
-    /// N·m
-    pub(super) unit: f64,
-    /// Largest load (N·m).
-    load: f64,
-    /// Whether the torque bends.
-    pub(super) bends: bool,
-}
-
 /// A solution on a mesh.
 pub(super) struct Solved<'t> {
     pub(super) task: &'t Task<'t>,
@@ -169,50 +158,6 @@ impl Task<'_> {
         Ok(found)
     }
 
-    /// Scale of the torques, from the motion with w = 1.
-    fn scale(&self, mesh: &Mesh, moving: f64) -> Result<Scale, Fault> {
-        let x = mesh.sample(|_, _| [1.0, 0.0]);
-        let mut scale = Scale {
-            unit: 1.0,
-            load: 0.0,
-            bends: false,
-        };
-        let stage = Stage {
-            cost: PLAIN,
-            range: 0.0,
-        };
-        let problem = self.problem(mesh, moving, &scale, &stage);
-        let (mut squares, mut load, mut bends) = (0.0, 0.0f64, false);
-        for (index, station) in mesh.stations.iter().enumerate() {
-            let ([speed, acceleration], torque) = problem.torque(&x, index);
-            if !torque.value.is_finite() {
-                return Err(Fault::Figure("torque", torque.value));
-            }
-            if torque.by_acceleration <= 0.0 {
-                return Err(Fault::NoInertia);
-            }
-            squares += station.weight * torque.value * torque.value;
-            let place = &station.place;
-            let of_speed = 0.5 * place.inertia_slope * speed * speed + place.viscous * speed;
-            load =
-                load.max((place.inertia * acceleration).abs() + place.load.abs() + of_speed.abs());
-            let big = 1e6 * (1.0 + load);
-            let [back, on] = [-big, big].map(|load| {
-                let place = Place { load, ..*place };
-                Torque::exact(self.way, &place, speed, acceleration).by_load
-            });
-            bends |= back < on * (1.0 - 1e-9);
-        }
-        if squares > 0.0 {
-            scale.unit = squares.sqrt();
-        }
-        Ok(Scale {
-            load,
-            bends,
-            ..scale
-        })
-    }
-
     /// The cost that is meant, in numbers of its own.
     fn goal(&self, scale: &Scale, moving: f64) -> Result<Stage, Fault> {
         let cost = match self.objective {
@@ -232,7 +177,7 @@ impl Task<'_> {
                 ..PLAIN
             },
         };
-        let range = if scale.bends { RANGES[1] } else { 0.0 };
+        let range = if self.way.bends() { RANGES[1] } else { 0.0 };
         Ok(Stage { cost, range })
     }
 
@@ -250,11 +195,6 @@ impl Task<'_> {
             unit: scale.unit,
             cost: stage.cost,
             range: stage.range * scale.load,
-            smooth: if scale.bends {
-                RANGES[1] * scale.load
-            } else {
-                0.0
-            },
             length: self.travel.distance.abs(),
             course: [self.travel.start, self.travel.distance],
         }
@@ -272,7 +212,12 @@ impl Task<'_> {
             ..*self.travel
         };
         let mesh = Mesh::new(self.way, &travel, self.ramps, (&self.edges, parts))?;
-        let scale = self.scale(&mesh, moving)?;
+        // All meshes for one time count in the same numbers: their costs are compared.
+        let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
+        let scale = match same {
+            Some(from) => from.scale,
+            None => Scale::new(self.way, &travel, &mesh)?,
+        };
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
         let mut kept = from
@@ -283,7 +228,7 @@ impl Task<'_> {
         let mut rough: Option<(f64, Stage, Minimum)> = None;
         if kept.is_none() {
             let mut x = mesh.sample(|_, _| [1.0, 0.0]);
-            let stages = Self::stages(&scale, &goal);
+            let stages = self.stages(&goal);
             let last = stages.len() - 1;
             for (number, stage) in stages.into_iter().enumerate() {
                 let Some(found) = at(&stage, &x) else {
@@ -324,13 +269,17 @@ impl Task<'_> {
     }
 
     /// From the easiest problem to the one that is meant.
-    fn stages(scale: &Scale, goal: &Stage) -> Vec<Stage> {
+    fn stages(&self, goal: &Stage) -> Vec<Stage> {
         let mut stages = Vec::new();
         let plain = Cost {
             power: 2,
             ..goal.cost
         };
-        let ranges = if scale.bends { &RANGES[..] } else { &[0.0] };
+        let ranges = if self.way.bends() {
+            &RANGES[..]
+        } else {
+            &[0.0]
+        };
         for &range in ranges {
             let cost = Cost {
                 rounding: 1e-1,

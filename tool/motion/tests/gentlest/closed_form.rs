@@ -39,21 +39,25 @@ fn constant_inertia_is_the_cubic() {
     }
 }
 
-/// Between speeds the acceleration is a straight line over the time too.
+/// Between speeds the acceleration is a straight line over the time too, from a kept speed to rest as well; the mesh is soon fine enough.
 #[test]
 fn between_speeds_it_is_a_cubic_as_well() {
     let file = table(2.0, 0.0);
-    let (d, t, [v, w]) = (2.0, 0.5, [1.0, 2.0]);
-    let travel = Travel {
-        speeds: [v, w],
-        ..travel(0.0, d, t)
-    };
-    let gentle = best(&file, &travel, Objective::Rms);
-    let exact = 4.0
-        * (4.0 * (v * v + v * w + w * w) / t - 12.0 * d * (v + w) / (t * t)
-            + 12.0 * d * d / (t * t * t));
-    near("∫T²", gentle.cost, exact, 1e-9);
-    is_global(&gentle);
+    let (d, t) = (2.0, 0.5);
+    for [v, w] in [[1.0, 2.0], [3.0, 3.0], [6.0, 0.0], [0.0, 6.0], [3.0, 0.0]] {
+        let travel = Travel {
+            speeds: [v, w],
+            ..travel(0.0, d, t)
+        };
+        let gentle = best(&file, &travel, Objective::Rms);
+        let exact = 4.0
+            * (4.0 * (v * v + v * w + w * w) / t - 12.0 * d * (v + w) / (t * t)
+                + 12.0 * d * d / (t * t * t));
+        near("∫T²", gentle.cost, exact, 1e-9);
+        near("bound", gentle.bound.unwrap(), exact, 1e-9);
+        assert!(gentle.discretisation < 1e-8, "{}", gentle.discretisation);
+        is_global(&gentle);
+    }
 }
 
 /// Against Coulomb friction C a second more costs C² − 36·J²·D²/T⁴. At rest nothing is held, so the motion takes the time at which this

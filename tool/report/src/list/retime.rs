@@ -408,6 +408,8 @@ fn json(shown: &Shown) -> Value {
     map.insert("contact_lost".into(), json!(shown.broken.map(of_retime)));
     let axis = shown.file.axis();
     map.insert("unit".into(), axis.coordinate.per().into());
+    // The mean of a high power has no unit that says anything.
+    let known = |figure: f64| Some(figure).filter(|_| request.goal != Goal::Peak);
     let moves = retimed.moves.iter().map(|gentle| {
         let Travel {
             start, distance, ..
@@ -420,9 +422,9 @@ fn json(shown: &Shown) -> Value {
             "duration": gentle.travel.duration,
             "moving": gentle.moving,
             "waits_at": axis.position(gentle.waits_at),
-            "cost": gentle.cost,
+            "cost": known(gentle.cost),
             "bound": gentle.bound,
-            "cost_per_second": gentle.per_second,
+            "cost_per_second": known(gentle.per_second),
             "discretisation": gentle.discretisation,
             "elements": gentle.elements,
         })
