@@ -10,6 +10,7 @@ use crate::number::numerics;
 use crate::number::spline::Fault;
 use piece::{Kind, Piece};
 
+mod bends;
 mod course;
 mod limits;
 mod nodes;
