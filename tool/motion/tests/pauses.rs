@@ -174,7 +174,9 @@ fn with_profile(name: &str, made: &Retimed, file: &MachineFile) -> MachineFile {
     let profile = made.trace.of_axis(&file.axis()).profile();
     let of = text.lines().find(|line| line.starts_with("of ="));
     let of = of.unwrap_or_default();
-    kept += &format!("[motion]\ntype = \"profile\"\nfile = \"p.csv\"\ncyclic = {cyclic}\n{of}\n");
+    let motion =
+        format!("[motion]\ntype = \"profile\"\nfile = \"p.csv\"\ncyclic = {cyclic}\n{of}\n");
+    kept += &motion;
     let folder = Folder::new();
     folder.file("p.csv", profile);
     read::read(&folder.file("machine.toml", kept)).unwrap()

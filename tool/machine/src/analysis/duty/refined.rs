@@ -31,7 +31,7 @@ pub(super) fn refine_bends(
         (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
     };
     // Of three instants only, the bend over them is that of both steps.
-    let least = if stretch.len() == 3 { 0 } else { 1 };
+    let least = usize::from(stretch.len() != 3);
     for k in least..stretch.len().saturating_sub(1 + least) {
         let [b, c] = [&stretch[k], &stretch[k + 1]];
         let bends = stretch[k.saturating_sub(1)..].windows(3).take(2).map(bend);

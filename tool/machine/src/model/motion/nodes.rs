@@ -199,23 +199,23 @@ impl Standstill {
 /// rest exactly: friction must not take a rounding of the speed for motion.
 pub(super) fn runs(nodes: &[Node]) -> Vec<Vec<Node>> {
     let still = Standstill::of(nodes);
-    let stands = |k: usize| still.between(&nodes[k], &nodes[k + 1]);
     let mut runs = Vec::new();
     let mut first = 0;
     let mut run = |first: usize, last: usize| {
         let run = &nodes[first..=last];
-        runs.push(if last > first && stands(first) {
+        let stands = run.get(1).is_some_and(|next| still.between(&run[0], next));
+        runs.push(if stands {
             still.settled(run)
         } else {
             run.to_vec()
         });
     };
-    for k in 1..nodes.len().saturating_sub(1) {
-        let [before, after] = nodes[k].alpha;
-        let jumps = (after - before).abs() > still.acceleration;
-        if jumps || stands(k - 1) != stands(k) {
-            run(first, k);
-            first = k;
+    for (k, three) in nodes.windows(3).enumerate() {
+        let [before, node, after] = [&three[0], &three[1], &three[2]];
+        let jumps = (node.alpha[1] - node.alpha[0]).abs() > still.acceleration;
+        if jumps || still.between(before, node) != still.between(node, after) {
+            run(first, k + 1);
+            first = k + 1;
         }
     }
     if let Some(last) = nodes.len().checked_sub(1) {
