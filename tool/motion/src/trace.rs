@@ -74,25 +74,38 @@ impl Trace {
         self.nodes.last().map_or(0.0, |node| node.t)
     }
 
-    /// Goes on with another motion, whose first node lies where this one ends.
+    /// Goes on with another motion, whose first node lies where this one ends. A pause ends where it began, to the last digit.
     pub fn then(&mut self, next: &[Node]) {
+        let pauses = matches!(self.nodes.as_slice(), [.., before, end] if stays(before, end) && before.omega == 0.0);
         let Some(end) = self.nodes.pop() else {
             self.nodes.extend_from_slice(next);
             return;
         };
+        let mut still = pauses;
         for (k, node) in next.iter().enumerate() {
             let (step, before) = if k == 0 {
                 (end.step, end.alpha[0])
             } else {
+                still = still && stays(&next[k - 1], node);
                 (node.step, node.alpha[0])
             };
-            self.nodes.push(Node {
+            let place = if still { end } else { *node };
+            self.push(Node {
                 t: end.t + node.t,
                 step,
                 alpha: [before, node.alpha[1]],
-                ..*node
+                ..place
             });
         }
+    }
+
+    /// One node more. What a motion has left of its speed where it stops is rounding, and a machine with friction would feel its direction
+    /// throughout the pause: it is none.
+    fn push(&mut self, node: Node) {
+        if let Some(before) = self.nodes.last_mut().filter(|before| stays(before, &node)) {
+            before.omega = 0.0;
+        }
+        self.nodes.push(node);
     }
 
     /// Goes on at rest.
@@ -104,10 +117,11 @@ impl Trace {
         let after = Node {
             t: end.t + duration,
             step: duration,
+            omega: 0.0,
             alpha: [0.0; 2],
             ..*end
         };
-        self.nodes.push(after);
+        self.push(after);
     }
 
     /// The state at a time (s), clamped to the motion; where the acceleration jumps, the one after.
@@ -164,7 +178,8 @@ impl Trace {
             } = node;
             let [earlier, later] = *alpha;
             let mut row = |alpha: f64| {
-                // Writing to a string cannot fail.
+                // Nothing is written as -0. Writing to a string cannot fail.
+                let [phi, omega, alpha] = [*phi, *omega, alpha].map(|value| value + 0.0);
                 let _ = writeln!(text, "{t},{phi},{omega},{alpha}");
             };
             if k > 0 {
@@ -208,4 +223,10 @@ impl Trace {
         }
         text
     }
+}
+
+/// Whether a motion stays where it is from one node to the next, where it is at rest.
+fn stays(before: &Node, after: &Node) -> bool {
+    let zeros = [before.alpha[1], after.alpha[0], after.omega];
+    zeros.into_iter().all(|value| value == 0.0) && before.phi.total_cmp(&after.phi).is_eq()
 }

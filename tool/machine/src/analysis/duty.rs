@@ -18,6 +18,7 @@ mod stretches;
 
 use refined::{MOST_INSTANTS, MOST_PARTS, insert_extremes, refine_bends};
 pub use smooth::{MOST_RAISED, Smooth};
+use stretches::{Part, parts};
 pub(crate) use stretches::{passages, smooth_stretches};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
@@ -226,8 +227,8 @@ impl Instant {
 }
 
 impl Duty {
-    /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion is cut into an
-    /// even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
+    /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion, also cut where its acceleration bends,
+    /// is cut into an even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
     /// jump of the acceleration belongs to both sides.
     ///
     /// # Errors
@@ -246,16 +247,17 @@ impl Duty {
             motion,
             last: None,
         };
-        let stretches = smooth_stretches(file, motion, steps);
-        let parts = |(from, to): (f64, f64)| {
-            let share = (steps as f64 * (to - from) / duration / 2.0).ceil();
-            2 * share.max(8.0) as usize
-        };
-        let all: usize = stretches.iter().map(|&stretch| parts(stretch)).sum();
+        let parts = parts(file, motion, Sampling { steps, missed });
+        let all: usize = parts.iter().map(|part| part.steps).sum();
         let most_parts = (MOST_INSTANTS / all as f64).clamp(1.0, MOST_PARTS);
-        for (from, to) in stretches {
+        for Part {
+            from,
+            to,
+            steps: n,
+            inside,
+        } in parts
+        {
             let span = to - from;
-            let n = parts((from, to));
             let step = span / n as f64;
             if let Some(direction) = starts(file, motion, [from, to]) {
                 smooth.begin(instants.len());
@@ -270,7 +272,7 @@ impl Duty {
                     _ => 2.0,
                 } * step
                     / 3.0;
-                let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
+                let place = (k as f64 / n as f64).clamp(inside, 1.0 - inside);
                 instants.push(Instant::new(&mut moving, from + place * span, weight)?);
             }
             refine_bends(&mut moving, first, (missed, most_parts), &mut instants)?;

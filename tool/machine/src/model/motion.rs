@@ -10,6 +10,7 @@ use crate::number::numerics;
 use crate::number::spline::Fault;
 use piece::{Kind, Piece};
 
+mod bends;
 mod course;
 mod limits;
 mod nodes;
@@ -198,16 +199,17 @@ impl Motion {
         ))
     }
 
-    /// A motion through nodes, of which there are two at least, in the order of their times, the first at t = 0.
+    /// A motion through nodes, of which there are two at least, in the order of their times, the first at t = 0. Where speeds and accelerations
+    /// are roundings it stands still.
     pub fn nodes(nodes: &[Node], cyclic: bool) -> Self {
-        let piece = |run: &[Node]| {
+        let piece = |run: Vec<Node>| {
             let [start, end] = [run.first(), run.last()].map(|node| node.map_or(0.0, |n| n.t));
             Piece {
                 segment: 0,
                 of_drive: false,
                 start,
                 duration: end - start,
-                kind: Kind::Nodes(run.to_vec()),
+                kind: Kind::Nodes(run),
             }
         };
         Self {

@@ -24,14 +24,18 @@ pub(super) fn refine_bends(
     let torques = stretch.iter().map(|i| i.input_torque.abs());
     let most = missed * torques.fold(0.0, f64::max);
     let mut fine = Vec::new();
-    for four in stretch.windows(4) {
-        let [a, b, c, d] = four else {
-            continue;
+    let bend = |three: &[Instant]| {
+        let [x, y, z] = three else {
+            return 0.0;
         };
-        let bend = |x: &Instant, y: &Instant, z: &Instant| {
-            (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
-        };
-        let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
+        (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
+    };
+    // Of three instants only, the bend over them is that of both steps.
+    let least = usize::from(stretch.len() != 3);
+    for k in least..stretch.len().saturating_sub(1 + least) {
+        let [b, c] = [&stretch[k], &stretch[k + 1]];
+        let bends = stretch[k.saturating_sub(1)..].windows(3).take(2).map(bend);
+        let missed = bends.fold(0.0, f64::max) / 8.0;
         // A stretch without torque misses nothing.
         let parts = if missed > most {
             (missed / most).sqrt().ceil().min(most_parts) as u32

@@ -3,6 +3,7 @@
 
 use jred::{Domain, Reducible as _};
 
+use super::{INSIDE, Sampling};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
@@ -108,4 +109,48 @@ pub(crate) fn smooth_stretches(
         stretches.push((start, to));
     }
     stretches
+}
+
+/// Fewest steps of a smooth stretch; of a part of one, which is short, two.
+const FEWEST: f64 = 16.0;
+
+/// Share of what a peak of the torque may be missed by, by which the acceleration of a part may differ from a parabola.
+const OF_MISSED: f64 = 0.1;
+
+/// Most of a part's share by which its ends are taken from inside.
+const MOST_INSIDE: f64 = 1e-3;
+
+/// A part of the motion with equal steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    /// Its ends (s).
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// An even number.
+    pub(super) steps: usize,
+    /// Share of it by which its ends are taken from inside: that of its stretch, as in less time there is no speed but a rounding.
+    pub(super) inside: f64,
+}
+
+/// The parts of the motion, one after another: its smooth stretches, and those of a profile of states cut at the rows where its acceleration
+/// bends. A parabola through three instants around a corner is higher than the corner, by more the longer the steps.
+pub(super) fn parts(file: &MachineFile, motion: &Motion, sampling: Sampling) -> Vec<Part> {
+    let Sampling { steps, missed } = sampling;
+    let stretches = smooth_stretches(file, motion, steps);
+    let cuts = motion.cut_at_bends(&stretches, OF_MISSED * missed);
+    let mut parts = Vec::with_capacity(stretches.len());
+    for ((from, to), cuts) in stretches.into_iter().zip(cuts) {
+        let pairs = (steps as f64 * (to - from) / motion.duration() / 2.0).max(FEWEST / 2.0);
+        for ends in cuts.windows(2) {
+            let share = (ends[1] - ends[0]) / (to - from);
+            let pairs = (pairs * share).ceil().max(1.0);
+            parts.push(Part {
+                from: ends[0],
+                to: ends[1],
+                steps: 2 * pairs as usize,
+                inside: (INSIDE / share).min(MOST_INSIDE),
+            });
+        }
+    }
+    parts
 }

@@ -2,6 +2,8 @@
 
 use jred::machine::motion::State;
 
+use super::STANDSTILL;
+
 /// The drive link at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
@@ -21,8 +23,11 @@ pub struct Node {
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const OF_TIME: f64 = 16.0 * f64::EPSILON;
 
-/// Share of the largest acceleration by which it may differ before and after a node: rounding.
+/// Share of the largest acceleration by which it may differ before and after a node, or from none: rounding.
 const CONTINUOUS: f64 = 1e-6;
+
+/// Share of the range of the positions by which they may differ in one place: rounding.
+const PLACE: f64 = 1e-9;
 
 /// The step between two nodes over its share u:
 ///
@@ -98,6 +103,20 @@ impl Node {
         }
     }
 
+    /// The same; where it is nearer to this node than to the one before, the speed is that of the way back from here, so that just before a stop
+    /// its sign is that of the motion and not that of a rounding.
+    pub fn at_share(&self, before: &Self, u: f64) -> State<f64> {
+        let state = self.after(before, u);
+        if u <= 0.5 {
+            return state;
+        }
+        let Step { bend, missed, .. } = Step::between(before, self);
+        let back = 1.0 - u;
+        let curved = 0.5 * bend - missed * (3.0 - 2.0 * back);
+        let omega = self.omega - back * (self.alpha[0] * self.step - back * curved);
+        State { omega, ..state }
+    }
+
     /// The jerk (rad/s³, or m/s³) at a share of the step from the node before.
     pub fn jerk_after(&self, before: &Self, u: f64) -> f64 {
         let step = Step::between(before, self);
@@ -108,10 +127,6 @@ impl Node {
     pub fn missed_since(&self, before: &Self) -> [f64; 2] {
         let step = Step::between(before, self);
         [step.rest(), step.missed]
-    }
-
-    fn rests(&self, before: &Self) -> bool {
-        before.omega == 0.0 && self.omega == 0.0 && self.phi.total_cmp(&before.phi).is_eq()
     }
 }
 
@@ -128,20 +143,83 @@ pub fn step_at(nodes: &[Node], t: f64) -> Option<([&Node; 2], f64)> {
     Some(([before, after], share))
 }
 
-/// Nodes cut where the acceleration jumps and where a rest begins or ends; the node of a cut belongs to both sides.
-pub(super) fn runs(nodes: &[Node]) -> Vec<&[Node]> {
-    let largest = nodes.iter().flat_map(|node| node.alpha);
-    let largest = largest.fold(0.0_f64, |most, alpha| most.max(alpha.abs()));
+/// What counts as standing still in a motion.
+struct Standstill {
+    /// Largest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²).
+    speed: f64,
+    acceleration: f64,
+    /// Within this (rad, or m) two positions are one.
+    place: f64,
+}
+
+impl Standstill {
+    fn of(nodes: &[Node]) -> Self {
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(0.0_f64, |most, value| most.max(value.abs()))
+        };
+        let start = nodes.first().map_or(0.0, |node| node.phi);
+        Self {
+            speed: STANDSTILL * largest(&mut nodes.iter().map(|node| node.omega)),
+            acceleration: CONTINUOUS * largest(&mut nodes.iter().flat_map(|node| node.alpha)),
+            place: PLACE * largest(&mut nodes.iter().map(|node| node.phi - start)),
+        }
+    }
+
+    /// Whether the motion stands still between two nodes: speeds, way and accelerations are roundings.
+    fn between(&self, before: &Node, after: &Node) -> bool {
+        let accelerations = [before.alpha[1], after.alpha[0]].map(f64::abs);
+        let way = (after.phi - before.phi).abs();
+        before.omega.abs() <= self.speed
+            && after.omega.abs() <= self.speed
+            && way <= self.speed * after.step + self.place
+            && accelerations
+                .into_iter()
+                .all(|a| a <= self.acceleration && a * after.step <= self.speed)
+    }
+
+    /// The nodes of a pause, at rest; they stay where the first one is, but for a drift that is more than rounding.
+    fn settled(&self, pause: &[Node]) -> Vec<Node> {
+        let mut at = pause.first().map_or(0.0, |node| node.phi);
+        let settled = pause.iter().map(|node| {
+            if (node.phi - at).abs() > self.place {
+                at = node.phi;
+            }
+            Node {
+                phi: at,
+                omega: 0.0,
+                alpha: [0.0; 2],
+                ..*node
+            }
+        });
+        settled.collect()
+    }
+}
+
+/// Nodes cut where the acceleration jumps and where a pause begins or ends; the node of a cut belongs to both sides. Those of a pause are at
+/// rest exactly: friction must not take a rounding of the speed for motion.
+pub(super) fn runs(nodes: &[Node]) -> Vec<Vec<Node>> {
+    let still = Standstill::of(nodes);
     let mut runs = Vec::new();
     let mut first = 0;
+    let mut run = |first: usize, last: usize| {
+        let run = &nodes[first..=last];
+        let stands = run.get(1).is_some_and(|next| still.between(&run[0], next));
+        runs.push(if stands {
+            still.settled(run)
+        } else {
+            run.to_vec()
+        });
+    };
     for (k, three) in nodes.windows(3).enumerate() {
         let [before, node, after] = [&three[0], &three[1], &three[2]];
-        let jumps = (node.alpha[1] - node.alpha[0]).abs() > CONTINUOUS * largest;
-        if jumps || node.rests(before) != after.rests(node) {
-            runs.push(&nodes[first..=k + 1]);
+        let jumps = (node.alpha[1] - node.alpha[0]).abs() > still.acceleration;
+        if jumps || still.between(before, node) != still.between(node, after) {
+            run(first, k + 1);
             first = k + 1;
         }
     }
-    runs.push(&nodes[first..]);
+    if let Some(last) = nodes.len().checked_sub(1) {
+        run(first, last);
+    }
     runs
 }

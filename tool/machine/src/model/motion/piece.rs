@@ -115,7 +115,7 @@ impl Piece {
             }
             Kind::Nodes(nodes) => step_at(nodes, self.start + t)
                 .map_or(State::default(), |([before, after], share)| {
-                    after.after(before, share)
+                    after.at_share(before, share)
                 }),
         }
     }
