@@ -199,6 +199,31 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
     })
 }
 
+/// The links on which a counterweight of the request has an effect, by their names: each is tried alone.
+pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
+    let Some(asked) = request.counterweights.first() else {
+        return Vec::new();
+    };
+    let mechanism = file.machine.mechanism();
+    let links = mechanism.link_names().iter().enumerate();
+    let links = links.take(mechanism.own_links()).filter(|(link, _)| {
+        let alone = Request {
+            counterweights: vec![Counterweight {
+                link: *link,
+                ..*asked
+            }],
+            springs: Vec::new(),
+            ..request.clone()
+        };
+        let has_effect = || -> Result<(), Fault> {
+            let rows = Rows::new(file, &alone)?;
+            Unknowns::new(file, &alone, &rows, largest(&rows.base)).map(|_| ())
+        };
+        has_effect().is_ok()
+    });
+    links.map(|(_, name)| name.clone()).collect()
+}
+
 /// How hard these springs pull and push at most over the motion, or without one over the range.
 fn efforts(
     file: &MachineFile,

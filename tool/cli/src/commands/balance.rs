@@ -51,7 +51,14 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
             ));
         }
     }
-    let balanced = balance::balance(&file, &request).map_err(|fault| report(options, &fault))?;
+    let balanced = balance::balance(&file, &request).map_err(|fault| {
+        let links = if matches!(fault, Fault::NoEffect) {
+            balance::effective(&file, &request)
+        } else {
+            Vec::new()
+        };
+        report(options, &fault, &links)
+    })?;
     let shown = list::balance::Shown {
         file: &file,
         request: &request,
@@ -61,7 +68,8 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     Ok(Done::Holds)
 }
 
-fn report(options: &options::balance::Balance, fault: &Fault) -> Report {
+/// Why there is no answer; `links` are those that would have an effect.
+fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) -> Report {
     let name = plain::path(&options.file);
     match fault {
         Fault::Machine(error) => core_report(*error),
@@ -86,15 +94,24 @@ fn report(options: &options::balance::Balance, fault: &Fault) -> Report {
             parted.state,
             parted.force
         ),
-        Fault::NoEffect => miette!(
-            help = match options.least {
-                Goal::Inertia => "choose a link whose speed changes over the turn",
-                Goal::Holding =>
-                    "choose a link that rises and falls, or a spring whose length changes",
-                _ => "choose a link that moves, or a spring whose length changes",
-            },
-            "no counterweight and no spring that is sought changes what is to be least"
-        ),
+        Fault::NoEffect => {
+            let (such, or) = match options.least {
+                Goal::Inertia => ("a link whose speed changes over the turn", ""),
+                Goal::Holding => (
+                    "a link that rises and falls",
+                    ", or a spring whose length changes",
+                ),
+                _ => ("a link that moves", ", or a spring whose length changes"),
+            };
+            let named = match links {
+                [] => String::new(),
+                links => format!(" ({})", links.join(", ")),
+            };
+            miette!(
+                help = format!("choose {such}{named}{or}"),
+                "no counterweight and no spring that is sought changes what is to be least"
+            )
+        }
     }
 }
 

@@ -307,6 +307,15 @@ fn rules_and_simulations() {
                 "torque_speed = [",
                 "induction_motor = { synchronous_speed = \"900 rpm\", breakdown_torque = \"60 N m\", breakdown_slip = \"120 %\" }\n# [",
             ),
+            (
+                "torque_speed = [",
+                "induction_motor = { synchronous_speed = \"-900 rpm\", breakdown_torque = \"60 N m\", rated_speed = \"-870 rpm\", rated_power = \"2 kW\" }\n# [",
+            ),
+            (
+                "torque_speed = [",
+                "induction_motor = { synchronous_speed = \"900 rpm\", breakdown_torque = \"60 N m\", rated_speed = \"870 rpm\", rated_power = \"7 kW\" }\n# [",
+            ),
+            ("[simulation]", "[simulation]\nstart_position = \"0 mm\""),
         ],
     );
     mistakes(

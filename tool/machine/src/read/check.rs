@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::PoseError;
 use jred::{Domain, Error, Reducible};
 
 use crate::analysis::duty;
+use crate::model::axis::Axis;
+use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, POSITIONS};
 use crate::number::numerics;
 
@@ -17,7 +18,10 @@ const ZERO: f64 = 1e-12;
 
 /// Checks that the reduced inertia is positive at every angle, drive train included.
 pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
-    let report = |error: &Error| no_inertia(mechanism, error);
+    let report = |error: &Error| {
+        let problem = mechanism.problem(error.to_string(), "in this machine");
+        problem.help(error.cure().to_string())
+    };
     let train = file.train_inertia();
     let inertia = |phi: f64| {
         let reduction = file.bare_reduction(phi).map_err(|error| report(&error))?;
@@ -57,16 +61,28 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
             Domain::Turn => phi.rem_euclid(TAU),
             Domain::Stroke { .. } => phi,
         };
-        return Err(report(&PoseError::NoInertia { phi }.into()));
+        let place = (largest > 0.0).then_some(phi);
+        return Err(no_inertia(file, mechanism, place));
     }
     Ok(())
 }
 
-fn no_inertia(mechanism: &Section, error: &Error) -> Problem {
-    mechanism.problem(error.to_string(), "in this machine").help(
-        "a real drive link has a moment of inertia: give the mass and inertia of the crank or shaft, \
-         or add flywheel = \"0.05 kg m^2\" under [mechanism]",
-    )
+/// The reduced inertia is zero at a position, or at every one; the cure names the links that the mechanism has.
+fn no_inertia(file: &MachineFile, section: &Section, place: Option<f64>) -> Problem {
+    let mechanism = file.machine.mechanism();
+    let drive = Axis::of_drive(mechanism.coordinate());
+    let place = place.map_or_else(|| "every position".to_owned(), |phi| drive.place(phi));
+    let link = mechanism.link_names().first();
+    let link = link.map_or("drive link", String::as_str);
+    let help = if drive.coordinate == Coordinate::Length {
+        format!("a real drive link has a mass: give that of the {link}")
+    } else {
+        format!(
+            "a real drive link has a moment of inertia: give the {link} a mass or an inertia, or add flywheel = \"0.05 kg m^2\" under [mechanism]"
+        )
+    };
+    let what = format!("the reduced inertia is zero at {place}");
+    section.problem(what, "in this machine").help(help)
 }
 
 /// Most passages of the edges of loads and cams in a motion: between two of them it has instants of its own.

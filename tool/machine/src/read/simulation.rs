@@ -11,7 +11,7 @@ use crate::model::simulation::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
-use crate::text::item::Value;
+use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, LENGTH, MASS, TIME};
@@ -138,6 +138,20 @@ fn times(section: &Section) -> Result<[Value; 2]> {
     Ok([duration, output_step])
 }
 
+/// A position of what is prescribed, in a file that prescribes nothing.
+fn no_axis(position: &Item, around: Around) -> Problem {
+    let has = if around.motion.is_some() {
+        "a [motion] without `of`"
+    } else {
+        "no [motion]"
+    };
+    let what = format!("goes with [motion] `of = …`, and the file has {has}");
+    position.problem(&what, "this position").help(format!(
+        "add a [motion] with `of`, the part whose position this is, or give the drive link's own position: start_angle = \"{}\"",
+        around.drive.position().example
+    ))
+}
+
 /// Where the drive link starts (rad, or m), and how fast. A controlled machine that is not told so starts as its motion does.
 fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
     let places = Places::of(around);
@@ -145,6 +159,12 @@ fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
         Some(item) => Some(places.speed(&item)?.drive),
         None => None,
     };
+    if let Some(position) = section
+        .get("start_position")
+        .filter(|_| !places.has_positions())
+    {
+        return Err(no_axis(&position, around));
+    }
     // The drive link's own angle, or the position of what is prescribed.
     let (own, position) = if around.drive.slides() {
         (None, section.get("start_position"))

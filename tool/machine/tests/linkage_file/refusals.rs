@@ -315,5 +315,5 @@ fn nothing_has_a_mass() {
     ] {
         text = text.replacen(&format!("\"{weight}"), "\"0 kg", 1);
     }
-    refuses(&text, &["reduced inertia is not positive", "flywheel"]);
+    refuses(&text, &["the reduced inertia is zero at", "flywheel"]);
 }

@@ -237,7 +237,7 @@ fn machines_that_cannot_work_are_refused_with_figures() {
     }
     refuses(
         &massless,
-        &["reduced inertia is not positive", "flywheel = "],
+        &["the reduced inertia is zero at", "flywheel = "],
     );
     let stage = GEARS.split("[[mechanism.stage]]").nth(1).unwrap();
     let stage = format!("[[mechanism.stage]]{stage}");

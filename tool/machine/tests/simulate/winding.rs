@@ -171,11 +171,19 @@ fn an_induction_motor_by_its_name_plate() {
         ),
         (
             "rated_speed = \"950 rpm\", rated_torque = \"60 N m\"",
-            "0.95 times the rated one",
+            "gives a rated torque of 60 N m, but it must be smaller than the breakdown torque, 57 N m",
         ),
         (
             "rated_speed = \"500 rpm\", rated_torque = \"10 N m\"",
             "breakdown slip of",
+        ),
+        (
+            "rated_speed = \"950 rpm\", rated_torque = \"-20 N m\"",
+            "must have the same sign and not be zero",
+        ),
+        (
+            "rated_speed = \"950 rpm\", rated_power = \"0 kW\"",
+            "must have the same sign and not be zero",
         ),
         (
             "breakdown_slip = \"20 %\", rated_speed = \"950 rpm\", rated_power = \"2.2 kW\"",
@@ -189,6 +197,17 @@ fn an_induction_motor_by_its_name_plate() {
         let report = rendered(&of(plate).unwrap_err());
         assert!(report.contains(says), "{plate}: {report}");
     }
+    // The motor itself comes before its name plate.
+    let backwards = rotor(
+        "",
+        "induction_motor = { synchronous_speed = \"-500 rpm\", breakdown_torque = \"700 N m\", rated_speed = \"-470 rpm\", rated_power = \"12 kW\" }",
+    );
+    let report = rendered(&parse(&backwards).unwrap_err());
+    let says = "is 700 N m with a speed of -500 rpm: they must have the same sign";
+    assert!(
+        report.contains(says) && !report.contains("none"),
+        "{report}"
+    );
 }
 
 /// A motor at a constant voltage has no controller.

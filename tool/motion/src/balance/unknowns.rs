@@ -55,6 +55,9 @@ fn highest(values: &[f64], bound: f64) -> Vec<usize> {
 /// How much a body as large as it may be, or a spring as stiff, counts against what it relieves.
 const DISLIKE: f64 = 1e-10;
 
+/// Below this share of the length that it is of, a length is what the search left of zero.
+const ROUNDED: f64 = 1e-6;
+
 /// Bodies and springs, in the order of the request; `None`: none.
 pub(super) struct Made {
     pub(super) masses: Vec<Option<Attached>>,
@@ -251,12 +254,18 @@ impl<'a> Unknowns<'a> {
                 acts(columns, p).then(|| body(bound, columns, p)).flatten()
             });
         let masses = masses.collect();
-        let made = |((element, p), columns): ((&Element, &[f64]), &[Vec<f64>])| {
+        let made = |(element, longest): (&Element, &f64), p: &[f64], columns: &[Vec<f64>]| {
             let [k, preload] = p else { return Ok(None) };
             if !acts(columns, p) {
                 return Ok(None);
             }
+            // Of a free length that is small against the spring, what the search left.
             let free = preload / k;
+            let free = if free.abs() < ROUNDED * longest {
+                0.0
+            } else {
+                free
+            };
             let between = element.between();
             let spring = if element.is_torsional() {
                 Element::torsion_spring(between, *k, free)
@@ -267,11 +276,14 @@ impl<'a> Unknowns<'a> {
                 .map(Some)
                 .map_err(|error| Fault::Machine(error.into()))
         };
-        let pairs = self.springs.iter().zip(springs.chunks(2));
+        let pairs = self.springs.iter().zip(&rows.longest);
+        let pairs = pairs.zip(springs.chunks(2));
         let pairs = pairs.zip(rows.columns[bodies.len()..].chunks(2));
         Ok(Made {
             masses,
-            springs: pairs.map(made).collect::<Result<_, _>>()?,
+            springs: pairs
+                .map(|((spring, p), columns)| made(spring, p, columns))
+                .collect::<Result<_, _>>()?,
         })
     }
 }
@@ -305,7 +317,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
     // Of a coordinate that is small against the reach, what the search left.
     let coordinate = |moment: f64| {
         let at = moment / mass;
-        if at.abs() < 1e-6 * bound.reach {
+        if at.abs() < ROUNDED * bound.reach {
             0.0
         } else {
             at

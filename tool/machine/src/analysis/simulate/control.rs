@@ -76,14 +76,11 @@ impl<'a> Cascade<'a> {
         let Reference {
             phi, omega, alpha, ..
         } = *reference;
-        let direction = if omega == 0.0 { 0.0 } else { omega.signum() };
         match self.control.feed_forward {
             FeedForward::None => Ok(0.0),
-            FeedForward::MeanInertia => {
-                let inertias = &self.mean_inertia;
-                Ok(plant.accelerating(direction, [omega, alpha], inertias))
-            }
+            FeedForward::MeanInertia => Ok(plant.accelerating(alpha, &self.mean_inertia)),
             FeedForward::Model => {
+                let direction = if omega == 0.0 { 0.0 } else { omega.signum() };
                 let moment = Moment::new(t, direction);
                 plant.required(&moment, [phi, omega, alpha])
             }

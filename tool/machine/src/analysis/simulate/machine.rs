@@ -178,18 +178,24 @@ impl<'a, M: Motor> Plant<'a, M> {
         }))
     }
 
-    /// The torque at the motor shaft that accelerates machines of these inertias, each at its drive link, without loads.
-    pub(super) fn accelerating(
-        &self,
-        direction: f64,
-        [omega, alpha]: [f64; 2],
-        inertias: &[f64],
-    ) -> f64 {
-        let loads = self.machines.all().zip(inertias).map(|(machine, inertia)| {
-            let [.., alpha] = machine.state([0.0, omega, alpha]);
-            (machine, [inertia * alpha, *inertia])
-        });
-        self.through(direction, [omega, alpha], loads).torque
+    /// The torque at the motor shaft that accelerates machines of these inertias, each at its drive link, with the drive trains and the motor:
+    /// without loads and losses.
+    pub(super) fn accelerating(&self, alpha: f64, inertias: &[f64]) -> f64 {
+        let each = self.machines.all().zip(inertias);
+        let machines: f64 = each
+            .map(|(machine, inertia)| inertia * machine.ratio() * machine.ratio())
+            .sum();
+        let ratio = self.machines.first.drive_train.ratio();
+        let at_input = machines / (ratio * ratio) + self.inertia_at_input();
+        at_input * alpha * ratio / self.motor.ratio()
+    }
+
+    /// Inertia of the drive trains and of the motor in front of them, at their input.
+    fn inertia_at_input(&self) -> f64 {
+        let [own, ..] = self.motor.coefficients().0;
+        let machines = self.machines.all();
+        let trains = machines.map(|machine| machine.file.drive_train.inertia_at_input());
+        own * self.motor.ratio() + trains.sum::<f64>()
     }
 
     /// Torque of the motor and of the brake at an instant: the motor's is `driving` until it is switched off.
@@ -244,17 +250,14 @@ impl<'a, M: Motor> Plant<'a, M> {
     pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<Stored, Error> {
         // The motor and the drive trains turn with the drive link.
         let ratio = self.machines.first.drive_train.ratio();
-        let [own, ..] = self.motor.coefficients().0;
-        let mut at_input = own * self.motor.ratio();
         let [mut inertia, mut potential, mut beyond] = [0.0; 3];
         for (machine, point) in self.points(moment, link)?.all() {
-            at_input += machine.file.drive_train.inertia_at_input();
             inertia += point.reduction.inertia * machine.ratio() * machine.ratio();
             potential += point.reduction.potential_energy;
             beyond += point.kinetic_beyond();
         }
         Ok(Stored {
-            inertia: inertia + at_input * ratio * ratio,
+            inertia: inertia + self.inertia_at_input() * ratio * ratio,
             beyond,
             potential,
         })

@@ -136,11 +136,11 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
     let section = item.section("[simulation.induction_motor]".into())?;
     let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
     let torque = section.quantity("breakdown_torque", &TORQUE)?;
+    same_way(&speed, &torque)?;
     let plate = name_plate(&section, &speed, &torque)?;
     let slip = match (section.get("breakdown_slip"), plate) {
         (None, Some(slip)) => {
             section.finish()?;
-            same_way(&speed, &torque)?;
             return Ok(Characteristic::Induction {
                 breakdown_torque: torque.si,
                 breakdown_slip: slip,
@@ -161,7 +161,6 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
         }
     };
     section.finish()?;
-    same_way(&speed, &torque)?;
     if !(slip.si > 0.0 && slip.si <= 1.0) {
         let what = format!("is {}, but must be above 0 % and up to 100 %", slip.shown());
         return Err(slip
@@ -221,21 +220,40 @@ fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Resu
             .help("the synchronous speed is 60·f/p rpm with p pairs of poles, such as 1000 rpm at 50 Hz and p = 3"));
     }
     let excess = breakdown.si / rated;
+    let implausible = |what: &str, help: &str| {
+        let problem = given.problem(what, "of the name plate");
+        Err(problem
+            .at(breakdown.span(), "breakdown torque")
+            .help(help.to_owned()))
+    };
+    let usual = "the breakdown torque is 1.6 to 3.5 times the rated torque, and the breakdown slip below 100 %";
+    if !(excess > 0.0 && excess.is_finite()) {
+        let what = format!(
+            "gives a rated torque of {} with a breakdown torque of {}: they must have the same sign and not be zero",
+            breakdown.show(rated),
+            breakdown.shown()
+        );
+        return implausible(
+            &what,
+            "a rated power is positive; a rated torque has the sign of the breakdown torque",
+        );
+    }
+    if excess <= 1.0 {
+        let what = format!(
+            "gives a rated torque of {}, but it must be smaller than the breakdown torque, {}",
+            breakdown.show(rated),
+            breakdown.shown()
+        );
+        return implausible(&what, usual);
+    }
     let breakdown_slip = slip * (excess + (excess * excess - 1.0).sqrt());
-    if !(excess > 1.0 && breakdown_slip <= 1.0) {
+    if breakdown_slip > 1.0 {
         let what = format!(
             "gives a breakdown torque of {} times the rated one, and a breakdown slip of {}",
             short(excess),
-            if excess > 1.0 {
-                percent(breakdown_slip)
-            } else {
-                "none".to_owned()
-            }
+            percent(breakdown_slip)
         );
-        return Err(given
-            .problem(&what, "of the name plate")
-            .at(breakdown.span(), "breakdown torque")
-            .help("the breakdown torque is 1.6 to 3.5 times the rated torque, and the breakdown slip below 100 %"));
+        return implausible(&what, usual);
     }
     Ok(Some(breakdown_slip))
 }

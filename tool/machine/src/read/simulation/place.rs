@@ -47,6 +47,11 @@ impl Places {
         self.axis != Axis::of_drive(self.drive.coordinate)
     }
 
+    /// Whether `start_position` has a meaning: that of another coordinate, or of a link that slides.
+    pub(super) fn has_positions(&self) -> bool {
+        self.drive.slides() || self.has_axis()
+    }
+
     /// Whether it is a length that they speak of.
     pub(super) fn is_length(&self) -> bool {
         self.axis.coordinate == Coordinate::Length
