@@ -24,8 +24,12 @@ const RANGES: [f64; 2] = [1e-1, 1e-2];
 /// The least power whose mean stands for the peak.
 const LEAST_POWER: i32 = 8;
 
-/// Range of the torque over which the bend of the drawn power is rounded, as a share of the torque's unit.
-const ROUNDING: f64 = 1e-3;
+/// Ranges of the torque over which the bend of the drawn power is rounded, one after another, as shares of the torque's unit.
+const ROUNDINGS: [f64; 3] = [1e-1, 1e-2, 1e-3];
+
+/// Where power is drawn the least energy may lie in a bend for long, as a motion that coasts does: there both are rounded less in the end, if
+/// the search comes to an end so.
+const SHARP: [f64; 2] = [1e-3, 1e-4];
 
 /// The square of the torque.
 const PLAIN: Cost = Cost {
@@ -86,6 +90,13 @@ pub(super) struct Stage {
     pub(super) cost: Cost,
     /// Share of the largest load.
     pub(super) range: f64,
+}
+
+impl Stage {
+    /// Whether its roundings are the last but the sharp ones.
+    fn is_narrow(&self) -> bool {
+        self.cost.rounding <= ROUNDINGS[2] && self.range <= RANGES[1]
+    }
 }
 
 /// A solution on a mesh.
@@ -168,7 +179,7 @@ impl Task<'_> {
                 }
                 Cost {
                     drawn: self.way.motor_speed(1.0) / (copper * scale.unit * moving),
-                    rounding: ROUNDING,
+                    rounding: SHARP[1],
                     ..PLAIN
                 }
             }
@@ -177,7 +188,11 @@ impl Task<'_> {
                 ..PLAIN
             },
         };
-        let range = if self.way.bends() { RANGES[1] } else { 0.0 };
+        let range = match self.objective {
+            _ if !self.way.bends() => 0.0,
+            Objective::Energy { .. } => SHARP[1],
+            Objective::Rms | Objective::Peak => RANGES[1],
+        };
         Ok(Stage { cost, range })
     }
 
@@ -263,9 +278,14 @@ impl Task<'_> {
         }))
     }
 
-    /// Whether a stage before the last will do where that does not come to its end: the mean of a lower power is near the peak as well.
+    /// Whether a stage before the last will do where that does not come to its end: the mean of a lower power is near the peak as well, and
+    /// wider roundings near the least energy.
     fn serves(&self, stage: &Stage) -> bool {
-        self.objective == Objective::Peak && stage.cost.power >= LEAST_POWER
+        match self.objective {
+            Objective::Rms => false,
+            Objective::Energy { .. } => stage.is_narrow(),
+            Objective::Peak => stage.cost.power >= LEAST_POWER,
+        }
     }
 
     /// From the easiest problem to the one that is meant.
@@ -288,9 +308,18 @@ impl Task<'_> {
             stages.push(Stage { cost, range });
         }
         if goal.cost.drawn > 0.0 {
-            for rounding in [1e-1, 1e-2, ROUNDING] {
+            let range = ranges[ranges.len() - 1];
+            for rounding in ROUNDINGS {
                 let cost = Cost { rounding, ..plain };
-                stages.push(Stage { cost, ..*goal });
+                stages.push(Stage { cost, range });
+            }
+            for sharp in SHARP {
+                let cost = Cost {
+                    rounding: sharp,
+                    ..plain
+                };
+                let range = range.min(sharp);
+                stages.push(Stage { cost, range });
             }
         }
         let mut power = 2;

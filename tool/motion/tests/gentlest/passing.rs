@@ -202,6 +202,7 @@ fn no_bump_takes_less_beside_a_kept_speed() {
     let cases = [
         (0.7, Objective::Rms),
         (0.6, Objective::Rms),
+        (0.6, Objective::Energy { copper: 2.0 }),
     ];
     for (duration, objective) in cases {
         let travel = Travel {
