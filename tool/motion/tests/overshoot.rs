@@ -28,11 +28,17 @@ fn table(viscous: f64, segments: &[&str]) -> MachineFile {
          table = { diameter = \"600 mm\", mass = \"20 kg\" }\n"
         .to_owned();
     if viscous > 0.0 {
-        text += &format!("[[load]]\non = \"table\"\nviscous_moment = \"{viscous} N m s/rad\"\n");
+        let load = [
+            "[[load]]\non = \"table\"\nviscous_moment = \"",
+            " N m s/rad\"\n",
+        ];
+        text += &load.join(&viscous.to_string());
     }
     text += "[motion]\ntype = \"point-to-point\"\nstart = \"200 deg\"\n";
     for segment in segments {
-        text += &format!("[[motion.segment]]\n{}\n", segment.replace("; ", "\n"));
+        text += "[[motion.segment]]\n";
+        text += &segment.replace("; ", "\n");
+        text += "\n";
     }
     read::parse("machine.toml", &text, Path::new("")).unwrap()
 }

@@ -3,8 +3,8 @@
 
 use std::convert::Infallible;
 
-use super::Motion;
 use super::piece::{Kind, Piece};
+use super::{Motion, ToolCoordinate};
 use crate::model::coordinate::Coordinate;
 use crate::number::numerics;
 use crate::number::rounding::short;
@@ -46,7 +46,7 @@ impl Overshoot {
     /// What the segment does, for a motion of a machine with this drive link.
     pub fn says(&self, motion: &Motion, drive: Coordinate) -> String {
         let tool = motion.tool().filter(|_| !self.of_drive);
-        let coordinate = tool.map_or(drive, |tool| tool.coordinate());
+        let coordinate = tool.map_or(drive, ToolCoordinate::coordinate);
         let length = |way: f64| format!("{} {}", short(coordinate.shown(way)), coordinate.unit());
         let [before, beyond] = self.by;
         let away = format!("first goes {} the other way", length(before));
