@@ -1,6 +1,9 @@
 //! What `retime`, `fastest` and `size --motion best` keep of the file's motion, and what they say about it.
 
-use crate::support::{Run, jred_with};
+use crate::size_json::schema;
+use crate::support::schema::faults;
+use crate::support::{Folder, Run, jred_with};
+use serde_json::json;
 
 fn machine(name: &str) -> String {
     format!("{}/../../machines/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -68,6 +71,101 @@ fn limits_of_segments_are_not_dropped_without_a_word() {
     );
     let run = jred("retime", "belt-axis", &[]);
     assert!(run.out.contains("max_speed 1.6 m/s"), "{}", run.out);
+}
+
+/// So does `size --motion best`, in its list and for programs.
+#[test]
+fn a_motion_for_a_drive_drops_no_limit_without_a_word() {
+    let options = ["--motion", "best", "--top", "1", "--steps", "64"];
+    let run = jred("size", "belt-axis", &options);
+    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept";
+    assert!(
+        run.out.contains(&format!("\n  limits: {says}\n")),
+        "{}",
+        run.out
+    );
+    let answer = jred(
+        "size",
+        "belt-axis",
+        &[&options[..], &["--format", "json"]].concat(),
+    )
+    .json();
+    let faults = faults(&schema(), &answer);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert_eq!(answer["motion"]["from"], "gentlest");
+    assert_eq!(answer["motion"]["not kept"][0], says);
+    let retimed = jred("retime", "belt-axis", &["--format", "json"]).json();
+    assert_eq!(retimed["not_kept"][0], says);
+}
+
+/// Where every drive that is suitable with a motion of its own is larger than the best one with the file's motion, that motion stays.
+#[test]
+fn a_motion_that_needs_a_larger_drive_is_not_taken() {
+    for more in [&[][..], &["--max-mass", "10 kg"]] {
+        let options = [
+            &["--top", "1", "--steps", "64", "--format", "json"][..],
+            more,
+        ]
+        .concat();
+        let own = jred("size", "belt-conveyor", &options).json();
+        let run = jred(
+            "size",
+            "belt-conveyor",
+            &[&options[..], &["--motion", "best"]].concat(),
+        );
+        assert!(
+            run.message()
+                .contains("Motion: that of the file is kept, with which the best drive is"),
+            "{}",
+            run.err
+        );
+        let made = run.json();
+        let faults = faults(&schema(), &made);
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+        let motion = &made["motion"];
+        assert_eq!(motion["from"], "file");
+        assert!(motion["made for"].is_null() && motion["not kept"] == json!([]));
+        let [before, best] = [
+            "best with the file's motion",
+            "best with a motion of its own",
+        ]
+        .map(|key| motion[key]["rated power [W]"].as_f64().unwrap());
+        assert!(before < best, "{before} {best}");
+        assert_eq!(made["fit"], own["fit"]);
+        assert_eq!(
+            motion["best with the file's motion"]["motor"],
+            own["fit"][0]["motor"]
+        );
+    }
+}
+
+/// A stop whose law goes 0.0042° beyond its end is one move to its end, in every command.
+#[test]
+fn the_overshoot_of_a_law_is_no_move() {
+    let folder = Folder::new();
+    let file = folder.file(
+        "table.toml",
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n\
+         table = { diameter = \"600 mm\", mass = \"20 kg\" }\n\
+         [motion]\ntype = \"point-to-point\"\nstart = \"200 deg\"\n\
+         [[motion.segment]]\nlaw = \"constant-speed\"\nspeed = \"60 rpm\"\nmove = \"20 deg\"\n\
+         [[motion.segment]]\nlaw = \"polynomial-5\"\nmove = \"140 deg\"\nduration = \"1 s\"\n",
+    );
+    let file = file.to_str().unwrap();
+    let says = "segment 2 goes 0.004157 deg beyond its end and comes back";
+    let drive = ["--torque", "100 N m", "--motor-speed", "3000 rpm"];
+    for (command, options) in [("retime", &[][..]), ("fastest", &drive)] {
+        let run = jred_with(&[&[command, file][..], options].concat());
+        assert!(run.out.contains(says), "{}{}", run.out, run.err);
+        assert!(
+            run.out.contains("move 1") && !run.out.contains("move 2"),
+            "{}",
+            run.out
+        );
+    }
+    let run = jred_with(&["check", file]);
+    let whole = [&run.out[..], &run.err].concat();
+    assert!(whole.contains(&format!("warning: {says}")), "{whole}");
 }
 
 /// A move that passes on neither repeats nor stands; too fast an end is answered in the unit it was given in.

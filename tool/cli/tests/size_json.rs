@@ -13,7 +13,7 @@ fn docs(name: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-fn schema() -> Value {
+pub(crate) fn schema() -> Value {
     serde_json::from_str(&docs("size.schema.json")).unwrap()
 }
 

@@ -3,6 +3,7 @@
 mod course;
 mod join;
 mod limits;
+mod overshoot;
 mod repeats;
 mod segments;
 mod tool;

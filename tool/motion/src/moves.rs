@@ -4,7 +4,7 @@
 mod kept;
 mod timeline;
 
-use jred_machine::model::motion::{Motion, Steady};
+use jred_machine::model::motion::{Motion, Overshoot, Steady};
 
 pub(crate) use kept::INSIDE;
 pub use kept::Kept;
@@ -94,6 +94,9 @@ pub struct Chain {
     pub endless: bool,
     /// Time (s) of the motion at which the first part begins. An endless motion is cut where a kept part or a pause begins, or where it turns back.
     pub begins: f64,
+    /// The segments whose law turns back on its own account. That is not kept: such a segment is one move, or a part of one, from its start
+    /// straight to its end.
+    pub overshoots: Vec<Overshoot>,
     /// The constant speed, where the motion consists of nothing else. It is not kept, because then no move would be left to optimise.
     pub given_up: Option<Steady>,
 }

@@ -54,8 +54,8 @@ pub struct Tried<'c> {
 pub struct Suited<'c> {
     /// The drives that were tried, in their order; those that violate a rule last.
     pub tried: Vec<Tried<'c>>,
-    /// The first drive with the motion of the file.
-    pub before: Option<Drive<'c>>,
+    /// The first drive with the motion of the file, and its place.
+    pub before: Option<(Drive<'c>, Order)>,
     /// What the motion of the file is made of.
     pub chain: Chain,
     /// With the motion of the first drive tried, another one that comes before it: its own motion would be worse for it.
@@ -68,9 +68,19 @@ impl<'c> Suited<'c> {
         self.tried.first().filter(|tried| tried.order.is_some())
     }
 
-    /// Its motion.
+    /// The same, if it is as good as the first drive with the motion of the file. `None`: the motion of the file stays. The least RMS torque takes
+    /// another course of speed and torque, which may exceed what a small drive has of them.
+    pub fn better(&self) -> Option<&Tried<'c>> {
+        let as_good = |tried: &&Tried| match (&self.before, &tried.order) {
+            (Some((_, before)), Some(order)) => order.is_as_good_as(before),
+            _ => true,
+        };
+        self.best().filter(as_good)
+    }
+
+    /// The motion of that drive.
     pub fn motion(&self) -> Option<&Motion> {
-        self.best().map(|tried| &tried.motion)
+        self.better().map(|tried| &tried.motion)
     }
 }
 
@@ -93,7 +103,7 @@ impl<'a> Judging<'a> {
         let mut known = BTreeSet::new();
         let mut suited = Suited {
             tried: Vec::new(),
-            before: before.fit.first().map(|(_, drive, _)| *drive),
+            before: before.fit.first().map(|(_, drive, order)| (*drive, *order)),
             chain: moves::chain(self.own, &self.file.process()).map_err(Obstacle::NoMoves)?,
             ahead: None,
         };

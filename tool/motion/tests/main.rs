@@ -8,6 +8,7 @@ mod fastest;
 mod gentlest;
 mod kept;
 mod moves;
+mod overshoot;
 mod pauses;
 mod plan;
 #[path = "../../support/mod.rs"]

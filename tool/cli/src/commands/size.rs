@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use miette::{Report, Result, miette};
+use serde_json::Value;
 
 use crate::commands::core_error::core_report;
 use crate::commands::retime::report;
@@ -49,6 +50,7 @@ pub fn size(options: &Size) -> Result<Done> {
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
+    let mut made = None;
     if options.motion == Moved::Best {
         drive_train::refuse(&file, "size --motion best")?;
         file.refuse_scheduled("size --motion best")?;
@@ -63,8 +65,9 @@ pub fn size(options: &Size) -> Result<Done> {
             steps: options.supply.steps(),
             narrow: &narrow,
         };
-        let best = suited(&judging, options)?;
+        let (best, says) = suited(&judging, options)?;
         file.motion = best.or(file.motion);
+        made = Some(says);
     }
     let motion = file.required_motion()?;
     let duty = Duty::new(&file, motion, options.supply.steps()).map_err(core_report)?;
@@ -103,7 +106,10 @@ pub fn size(options: &Size) -> Result<Done> {
         file: &file,
         duty: &duty,
         selection: &selection,
-        warnings: &warnings,
+        notes: listing::Notes {
+            warnings: &warnings,
+            motion: made.as_ref(),
+        },
         asked,
         explanation,
         meter,
@@ -122,7 +128,7 @@ struct Answer<'a, 'c> {
     file: &'a MachineFile,
     duty: &'a Duty,
     selection: &'a Selection<'c>,
-    warnings: &'a [String],
+    notes: listing::Notes<'a>,
     asked: Option<&'a listing::Asked<'c>>,
     explanation: Option<&'a listing::Explanation>,
     /// Whether limits for the duty meter were written.
@@ -145,7 +151,7 @@ impl Answer<'_, '_> {
                     self.file,
                     self.duty,
                     self.selection,
-                    self.warnings,
+                    self.notes.warnings,
                     self.asked,
                     self.explanation,
                 ))?;
@@ -168,7 +174,7 @@ impl Answer<'_, '_> {
                     self.file,
                     self.duty,
                     self.selection,
-                    self.warnings,
+                    &self.notes,
                     self.asked,
                     self.explanation,
                 );
@@ -179,8 +185,8 @@ impl Answer<'_, '_> {
     }
 }
 
-/// The motion that suits the best drive, said before the list; `None`: the file's stays.
-fn suited(judging: &Judging, options: &Size) -> Result<Option<Motion>> {
+/// The motion that suits the best drive, said before the list, and what is said of it to programs; `None`: the file's stays.
+fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, Value)> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
@@ -191,7 +197,8 @@ fn suited(judging: &Judging, options: &Size) -> Result<Option<Motion>> {
     } else {
         output::say(&says);
     }
-    Ok(suited.motion().cloned())
+    let json = list::suited::json(judging.file, &suited);
+    Ok((suited.motion().cloned(), json))
 }
 
 /// The Pareto front of the drives that violate no rule.

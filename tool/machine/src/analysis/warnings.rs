@@ -7,6 +7,7 @@ use crate::model::machine::MachineFile;
 mod driving;
 mod endless;
 mod near_centre;
+mod overshoot;
 
 /// The warnings, in sentences.
 ///
@@ -16,5 +17,6 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mut warnings = driving::of(file)?;
     warnings.extend(endless::of(file)?);
     warnings.extend(near_centre::of(file)?);
+    warnings.extend(overshoot::of(file));
     Ok(warnings)
 }

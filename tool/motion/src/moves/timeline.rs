@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use jred_machine::model::motion::{Motion, Steady};
+use jred_machine::model::motion::{Motion, Overshoot, Steady};
 use jred_machine::number::numerics::edge;
 
 use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
@@ -30,6 +30,8 @@ pub(super) struct Timeline<'a> {
     /// Its largest speed.
     largest: f64,
     spans: Vec<Span>,
+    /// The segments whose overshoot is left out.
+    overshoots: Vec<Overshoot>,
 }
 
 impl<'a> Timeline<'a> {
@@ -50,7 +52,9 @@ impl<'a> Timeline<'a> {
             process,
             largest,
             spans: Vec::new(),
+            overshoots: Vec::new(),
         };
+        line.overshoots = line.overshoots();
         let mut spans = Vec::new();
         for stretch in stretches {
             let (from, to) = stretch;
@@ -67,6 +71,15 @@ impl<'a> Timeline<'a> {
                 });
                 continue;
             }
+            if let Some(sign) = line.straight(middle) {
+                spans.push(Span {
+                    from,
+                    to,
+                    sign,
+                    kept: None,
+                });
+                continue;
+            }
             for k in 0..SAMPLES {
                 let [from, to] = [time(stretch, k), time(stretch, k + 1)];
                 let inner = [k > 0, k + 1 < SAMPLES];
@@ -77,6 +90,26 @@ impl<'a> Timeline<'a> {
         spans.retain(|span| span.sign != 0 || span.to - span.from > shortest);
         line.spans = spans;
         Ok(line)
+    }
+
+    /// The overshoots that are left out: blemishes of laws, in segments of which nothing is kept.
+    fn overshoots(&self) -> Vec<Overshoot> {
+        let untouched = |overshoot: &Overshoot| {
+            let [from, to] = overshoot.span;
+            let apart = |steady: &Steady| steady.span[1] <= from || to <= steady.span[0];
+            self.process.iter().all(apart)
+        };
+        let all = self.motion.overshoots().into_iter();
+        all.filter(|overshoot| overshoot.is_of_law() && untouched(overshoot))
+            .collect()
+    }
+
+    /// The direction of the segment at this time, if its overshoot is left out.
+    fn straight(&self, t: f64) -> Option<i8> {
+        let within = |overshoot: &&Overshoot| overshoot.span[0] < t && t < overshoot.span[1];
+        let overshoot = self.overshoots.iter().find(within)?;
+        let [from, to] = overshoot.span.map(|t| self.state(t)[0]);
+        Some(if to > from { 1 } else { -1 })
     }
 
     fn sign(&self, t: f64) -> i8 {
@@ -131,6 +164,7 @@ impl<'a> Timeline<'a> {
                     parts: vec![Part::Move(step)],
                     endless: true,
                     begins: 0.0,
+                    overshoots: self.overshoots,
                     given_up,
                 });
             };
@@ -161,6 +195,7 @@ impl<'a> Timeline<'a> {
             parts: self.parts(begins, turns),
             endless: false,
             begins,
+            overshoots: self.overshoots,
             given_up,
         })
     }

@@ -39,6 +39,16 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
         );
         lines.push(("not kept", says));
     }
+    if let Some(motion) = &file.motion {
+        let drive = file.machine.mechanism().coordinate();
+        for overshoot in &chain.overshoots {
+            let says = format!(
+                "the turning back of the law: {}; its move goes straight to its end",
+                overshoot.says(motion, drive)
+            );
+            lines.push(("not kept", says));
+        }
+    }
     if chain.begins > 0.0 {
         let says = format!(
             "{} s after the start of the cycle in the file, which is in the middle of a move",
@@ -47,6 +57,20 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
         lines.push(("begins", says));
     }
     lines
+}
+
+/// All that is said of what is kept, where no options are given for the limits of segments.
+pub(crate) fn all_lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
+    let mut all = lines(file, chain);
+    all.extend(limits(file, None).map(|says| ("limits", says)));
+    all
+}
+
+/// What is not kept, in sentences, where no options are given for the limits of segments.
+pub(crate) fn lost(file: &MachineFile, chain: &Chain) -> Value {
+    let all = all_lines(file, chain).into_iter();
+    let lost = all.filter(|(name, _)| ["not kept", "limits"].contains(name));
+    lost.map(|(_, says)| says).collect()
 }
 
 /// The limits of the file's segments that a motion made anew does not keep. `asked` are the options that were given; none where there are no such options.

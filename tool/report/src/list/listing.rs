@@ -12,6 +12,6 @@ pub(crate) use choice::ranked;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;
-pub use json::{SCHEMA, json};
+pub use json::{Notes, SCHEMA, json};
 pub use text::text;
 pub(crate) use text::{class_text, gap_text, margin, smaller};

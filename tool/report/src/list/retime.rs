@@ -180,11 +180,8 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     }
     line(text, "least", &says);
     line(text, "optimum", &optimum(shown, words));
-    for (name, says) in kept::lines(shown.file, &retimed.chain) {
+    for (name, says) in kept::all_lines(shown.file, &retimed.chain) {
         line(text, name, &says);
-    }
-    if let Some(says) = kept::limits(shown.file, None) {
-        line(text, "limits", &says);
     }
     for (k, gentle) in retimed.moves.iter().enumerate() {
         line(
@@ -431,6 +428,7 @@ fn json(shown: &Shown) -> Value {
     });
     map.insert("moves".into(), moves.collect());
     map.insert("kept".into(), kept::json(shown.file, &retimed.chain));
+    map.insert("not_kept".into(), kept::lost(shown.file, &retimed.chain));
     let trace = retimed.trace.of_axis(&axis);
     let nodes = trace.nodes().iter();
     let nodes =

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use serde_json::{Value, json};
+
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
@@ -17,6 +19,11 @@ pub fn words(file: &MachineFile, suited: &Suited) -> String {
     let Some(best) = suited.best() else {
         return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
     };
+    if suited.better().is_none()
+        && let Some((before, _)) = &suited.before
+    {
+        return stays(before, &best.drive);
+    }
     let torque = best.drive.motor.kind.vocabulary().torque;
     let says = format!(
         "Motion: the gentlest for {}, with {} less RMS {torque} than the file's; `jred retime` writes it",
@@ -25,10 +32,10 @@ pub fn words(file: &MachineFile, suited: &Suited) -> String {
     );
     let saved = match &suited.before {
         None => "With the motion of the file no drive is suitable".to_owned(),
-        Some(before) if before.name() == best.drive.name() => {
+        Some((before, _)) if before.name() == best.drive.name() => {
             "With the motion of the file the same drive is the best one".to_owned()
         }
-        Some(before) => format!(
+        Some((before, _)) => format!(
             "With the motion of the file the best drive is {}",
             named(before)
         ),
@@ -40,10 +47,56 @@ pub fn words(file: &MachineFile, suited: &Suited) -> String {
         )
     });
     let mut kept = String::new();
-    for (name, says) in kept::lines(file, &suited.chain) {
+    for (name, says) in kept::all_lines(file, &suited.chain) {
         let _ = write!(kept, "\n  {name}: {says}");
     }
     format!("{says}{kept}\n{saved}{ahead}")
+}
+
+/// Why the motion of the file is kept.
+fn stays(before: &Drive, best: &Drive) -> String {
+    let why = if before.name() == best.name() {
+        "With its own gentlest motion the same drive is suitable as well, but with a warning"
+            .to_owned()
+    } else {
+        format!(
+            "With a gentlest motion of its own no drive that was tried is as good, by its size and warnings; the first suitable one is {}",
+            named(best)
+        )
+    };
+    format!(
+        "Motion: that of the file is kept, with which the best drive is {}\n{why}",
+        named(before)
+    )
+}
+
+/// The same for programs.
+pub fn json(file: &MachineFile, suited: &Suited) -> Value {
+    let drive = |drive: &Drive| {
+        json!({
+            "motor": drive.motor.key,
+            "gearbox": drive.gearbox.map(|gearbox| &gearbox.key),
+            "rated power [W]": drive.motor.rated_power(),
+        })
+    };
+    let before = suited.before.as_ref().map(|(before, _)| drive(before));
+    let better = suited.better();
+    // With the motion of the file all is kept.
+    let (kept, lost) = better.map_or((json!([]), json!([])), |_| {
+        (
+            kept::json(file, &suited.chain),
+            kept::lost(file, &suited.chain),
+        )
+    });
+    json!({
+        "from": if better.is_some() { "gentlest" } else { "file" },
+        "made for": better.map(|tried| drive(&tried.drive)),
+        "saving of RMS torque": better.map(saving),
+        "best with the file's motion": before,
+        "best with a motion of its own": suited.best().map(|tried| drive(&tried.drive)),
+        "kept": kept,
+        "not kept": lost,
+    })
 }
 
 /// The drives that were tried, each with its own motion, and what that saves.

@@ -15,6 +15,15 @@ use jred_sizing::select::size::{Candidate, Certainty, Selection};
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
 pub const SCHEMA: &str = "jred-size/3";
 
+/// What is said beside the drives.
+#[derive(Debug)]
+pub struct Notes<'a> {
+    /// What may be a mistake in the machine file.
+    pub warnings: &'a [String],
+    /// Which motion the drives are judged with, if one was made for them.
+    pub motion: Option<&'a Value>,
+}
+
 /// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
 /// all drives of a catalogue is many times larger than they are.
 pub fn json<'c>(
@@ -22,7 +31,7 @@ pub fn json<'c>(
     file: &MachineFile,
     duty: &Duty,
     selection: &'c Selection,
-    warnings: &[String],
+    notes: &Notes,
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> impl Iterator<Item = String> {
@@ -74,7 +83,7 @@ pub fn json<'c>(
         "holding torque [N m]": duty.hold_torque,
         "supply": { "mains voltage [V]": file.site.mains_voltage, "bus voltage [V]": file.site.bus_voltage },
         "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
-        "warnings": warnings,
+        "warnings": notes.warnings,
         "ranking": selection.ranking(kind.vocabulary()),
         "counts": {
             "drives": selection.fit.len() + selection.refused.len(),
@@ -94,6 +103,9 @@ pub fn json<'c>(
     }
     if let (Some(explanation), Some(map)) = (explanation, value.as_object_mut()) {
         map.insert("explanation".to_owned(), object!(explanation));
+    }
+    if let (Some(motion), Some(map)) = (notes.motion, value.as_object_mut()) {
+        map.insert("motion".to_owned(), motion.clone());
     }
     let text = format!("{value:#}\n");
     let (before, rest) = split_at_entry(&text, "fit");

@@ -54,6 +54,11 @@ impl Order {
         Self::from(&candidate.drive, &candidate.outcome, candidate.id)
     }
 
+    /// Whether a drive that fits is as certain as another one that does, its motor no larger and without more warnings, whatever margin it leaves.
+    pub fn is_as_good_as(&self, other: &Self) -> bool {
+        (self.certainty, self.first) <= (other.certainty, other.first)
+    }
+
     /// Which drive.
     pub(super) const fn id(&self) -> DriveId {
         self.id
