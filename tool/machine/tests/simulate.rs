@@ -7,6 +7,7 @@ mod branches;
 mod columns;
 mod control;
 mod emergency;
+mod ends;
 mod losses;
 mod missing;
 mod narrow;

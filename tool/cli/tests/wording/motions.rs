@@ -2,6 +2,49 @@
 
 use super::{Desk, compare};
 
+/// A screw that is not switched off before it comes to the end of its stroke.
+const SCREW: &str = r#"title = "spindle"
+gravity = { inclination = "0 deg" }
+[mechanism]
+type = "ball-screw"
+lead = "10 mm"
+stroke = ["-40 mm", "400 mm"]
+[mechanism.screw]
+inertia = "5 kg cm^2"
+[mechanism.nut]
+mass = "100 kg"
+[simulation]
+start_angle = "0 deg"
+duration = "3 s"
+output_step = "1 s"
+"#;
+
+/// A press that turns the wrong way: its blanking force drives it.
+const BACKWARDS: &str = r#"title = "backwards"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "slider-crank"
+flywheel = "6 kg m^2"
+crank = { length = "60 mm", mass = "60 kg", inertia = "0.4 kg m^2" }
+rod = { length = "420 mm", mass = "45 kg", inertia = "1.1 kg m^2", com = ["140 mm", "0 mm"] }
+slider = { mass = "250 kg" }
+[[load]]
+name = "blanking"
+on = "slider"
+force = ["-1.2 kN", "0 N"]
+between = ["335 deg", "358 deg"]
+ramp = "4 deg"
+[[load]]
+on = "crank"
+viscous_moment = "2 N m s/rad"
+[simulation]
+start_angle = "180 deg"
+start_speed = "-100 rpm"
+duration = "2 s"
+output_step = "1 s"
+torque_speed = [["-110 rpm", "0 N m"], ["-90 rpm", "-700 N m"], ["0 rpm", "-700 N m"]]
+"#;
+
 #[test]
 fn simulate() {
     let short = |name: &str| {
@@ -20,6 +63,13 @@ fn simulate() {
             format!("{}\n{punched}", short("variator-press.toml")),
         )
         .with("gripper.toml", Desk::machine("linear-gripper.toml"))
+        .with("never-off.toml", format!("{SCREW}torque = \"1 N m\"\nstop = {{ time = \"2 s\", brake_torque = \"1 N m\" }}\n"))
+        .with(
+            "drop.toml",
+            format!("{SCREW}torque = \"0 N m\"\nstart_speed = \"-100 rad/s\"\nend_stops = {{ at = [\"-1000 deg\", \"9000 deg\"], restitution = 0.5 }}\n")
+                .replace("0 deg\" }", "-30 deg\" }"),
+        )
+        .with("backwards.toml", BACKWARDS)
         .with(
             "axis.toml",
             Desk::machine("vertical-axis.toml").replace("output_step = \"5 ms\"", "output_step = \"100 ms\""),
@@ -63,6 +113,9 @@ fn simulate() {
             &["simulate", "press.toml", "gripper.toml"],
             &["simulate", "press.toml", "--drive", "sgm7j-a5a"],
             &["simulate", "lift.toml"],
+            &["simulate", "never-off.toml"],
+            &["simulate", "drop.toml"],
+            &["simulate", "backwards.toml"],
             &["simulate", "variator-punch.toml"],
             &["steady", "lift.toml"],
         ]),

@@ -26,7 +26,10 @@ pub use error::SimulationError;
 pub use geared::{Geared, Together};
 pub use machine::beside_name;
 pub use observe::{Nobody, Observer, Working};
-pub use simulated::{Effort, Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit};
+pub use simulated::{
+    BRIEFEST_FLIGHT, Effort, Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit,
+    Turned,
+};
 
 use crate::model::by_motion::ByMotion;
 use crate::model::machine::MachineFile;

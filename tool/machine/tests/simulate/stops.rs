@@ -85,6 +85,11 @@ fn a_bouncing_slide_comes_to_rest_at_its_stop() {
     within("its place", impacts.position, 1.0, budget::CLOSED_MOTION);
     // Flights of 2⁻ᵏ of the first down to a microsecond: the one of 2⁻²⁰ is none.
     assert!((19..=22).contains(&impacts.count), "{}", impacts.count);
+    assert!(impacts.settled, "the rest of the series is left out");
+    let soon = text.replace("\"3 s\"", "\"2 s\"");
+    let file = parse(&soon).unwrap();
+    let begun = analysis::simulate::simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
+    assert!(!begun.impacts.unwrap().settled, "it still bounces");
     // All of the work is lost in impacts.
     let lost = found.get("losses [J]");
     near(

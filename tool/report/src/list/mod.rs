@@ -5,6 +5,7 @@ pub mod balance;
 pub mod bus_json;
 pub mod bus_text;
 pub mod contact;
+mod driven;
 pub mod fastest;
 pub mod front;
 pub mod inspection;

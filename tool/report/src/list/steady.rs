@@ -4,15 +4,13 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use super::driven::{Turns, driven};
 use crate::table::output::{Format, json_parts, parts};
 use jred_machine::analysis::simulate::Together;
 use jred_machine::analysis::steady::{Cycle, Flywheel, Place, Start, Steady, Wheel};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::RPM;
-
-/// Share of the energy turned over from which the work of process loads drives the machine.
-const DRIVING: f64 = 1e-3;
 
 /// Name and version of the form in JSON.
 const SCHEMA: &str = "jred-steady/1";
@@ -146,8 +144,13 @@ fn describe(text: &mut String, cycle: &Cycle) {
             figures.imbalance.max(1e-16)
         ),
     );
-    if let Some(warning) = driven(cycle) {
-        line(text, "process loads", &warning);
+    let turns = Turns {
+        works: figures.works,
+        kinetic: 0.0,
+        is_backwards: figures.mean_speed < 0.0,
+    };
+    if let Some(driven) = driven(&turns) {
+        line(text, "process loads", &format!("warning: they {driven}"));
     }
     let left = if cycle.left_over < 1e-3 {
         "less than 0.1 %".to_owned()
@@ -169,25 +172,6 @@ fn describe(text: &mut String, cycle: &Cycle) {
         &format!("{left} of a small deviation is left after a turn{caught}"),
     );
     line(text, "start from rest", &started(&cycle.start));
-}
-
-/// A warning where the process loads do more work on the machine than they take.
-fn driven(cycle: &Cycle) -> Option<String> {
-    let figures = &cycle.figures;
-    let [motor, process, losses] = figures.works;
-    let turned_over = motor.abs().max(losses.abs());
-    if process <= DRIVING * turned_over {
-        return None;
-    }
-    let why = if figures.mean_speed < 0.0 {
-        "φ falls, and a load keeps the sign of its file: give a motor torque of the other sign, or, if the load should resist this way, turn its sign"
-    } else {
-        "if they should resist, turn their sign"
-    };
-    Some(format!(
-        "warning: they drive the machine, by {} J a turn; {why}",
-        short(process)
-    ))
 }
 
 fn started(start: &Start) -> String {

@@ -54,7 +54,7 @@ pub enum SimulationError {
     /// The drive link has passed the end of its stroke.
     #[error("the drive link hits the end of its stroke, {end}, at t = {t:.6} s, at {speed}")]
     #[diagnostic(help(
-        "no stop is given: add end_stops to [simulation], reduce its `duration`, start elsewhere, or add a spring or damper as a \
+        "the machine has no end stop: add end_stops to [simulation], reduce its `duration`, start elsewhere, or add a spring or damper as a \
          buffer and a longer stroke"
     ))]
     EndOfStroke {

@@ -18,6 +18,9 @@ use crate::model::machine::MachineFile;
 use crate::model::schedule::Schedule;
 use crate::model::simulation::{Shaft, Simulation};
 
+/// A number of turns is whole within this share: some roundings.
+const WHOLE: f64 = 1e-9;
+
 /// A machine, and how its drive link goes with that of the first one: φ_k = offset + ratio·φ.
 #[derive(Clone, Copy, Debug)]
 pub struct Geared<'a> {
@@ -163,6 +166,13 @@ impl<'a> Together<'a> {
             has(|schedule| !schedule.payloads().is_empty()),
             has(Schedule::flows),
         ]
+    }
+
+    /// Whether all machines are where they were after a turn of the first drive link.
+    pub(super) fn go_by_turns(&self) -> bool {
+        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= WHOLE * (1.0 + ratio.abs());
+        self.all()
+            .all(|machine| machine.file.machine.domain() == Domain::Turn && whole(machine.ratio()))
     }
 
     /// The machines beside the first.

@@ -1,6 +1,7 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
 mod edges;
+mod integrate;
 mod look;
 mod plant;
 mod rows;
@@ -8,6 +9,7 @@ mod setup;
 mod start;
 mod stops;
 mod stretch;
+mod turned;
 
 use edges::Edges;
 pub(in crate::analysis) use plant::Plant;
@@ -19,9 +21,8 @@ use jred::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, EDGE};
-use super::error::stopped;
 use super::observe::{Controlling, Giving, Observer};
-use super::simulated::{Impacts, Rest, Simulated, Stuck};
+use super::simulated::{Impacts, Rest, Simulated, Stuck, Turned};
 use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
@@ -30,9 +31,6 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
-
-/// The most steps in all, beside some for each row: some ten seconds.
-const MOST_IN_ALL: u64 = 1_000_000;
 
 /// How often the drive link may turn round within one output step.
 const MOST_TURNS: u32 = 10_000;
@@ -56,6 +54,7 @@ pub(super) fn run<const N: usize>(
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
     let [begin, speed] = plant.link(0.0, &y)?;
+    run.begin = (machines.go_by_turns()).then_some(begin);
     if run.to_speed.is_some_and(|to| speed.abs() >= to) {
         run.reached = Some([0.0, begin]);
     }
@@ -106,6 +105,7 @@ pub(super) fn run<const N: usize>(
         let works = run.works(&y, terms);
         columns.push(cells(t, row, works, start).0);
     }
+    let runs_down = run.halt.is_none() && simulation.control.is_none() && ended.is_none();
     let since_start = |[time, phi]: [f64; 2]| Rest {
         time,
         way: phi - begin,
@@ -113,7 +113,8 @@ pub(super) fn run<const N: usize>(
     Ok(Simulated {
         columns,
         halted_at: run.halt.map(|[_, phi]| phi),
-        held: (run.held).filter(|_| run.halt.is_none()).map(since_start),
+        held: run.held.filter(|_| runs_down).map(since_start),
+        turned: run.turned,
         effort: run.giving.effort(),
         reached: run.reached.map(since_start),
         rest: run.rest,
@@ -138,6 +139,10 @@ struct Run<'a, P> {
     /// Where its way ends.
     ends: Option<[f64; 2]>,
     impacts: Option<Impacts>,
+    /// What has been done in whole turns.
+    turned: Option<Turned>,
+    /// Where it starts, if the drive link can turn round and round.
+    begin: Option<f64>,
     direction: f64,
     /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
     inside: [f64; 2],
@@ -159,7 +164,7 @@ struct Run<'a, P> {
     to_speed: Option<f64>,
     /// When and where that speed was reached.
     reached: Option<[f64; 2]>,
-    /// When and where friction held the drive link first.
+    /// Since when friction holds the drive link, and where.
     held: Option<[f64; 2]>,
     observer: &'a mut dyn Observer,
 }
@@ -216,7 +221,7 @@ impl<P> Run<'_, P> {
             }
             // What was held may go now, or a brake hold what was at rest.
             if before == Some(t) && self.plant.link(t, &y)?[1] == 0.0 {
-                self.direction = self.start_direction(t, &y)?;
+                self.leave_rest(t, &y)?;
             }
             if t >= end {
                 return Ok(y);
@@ -317,7 +322,7 @@ impl<P> Run<'_, P> {
             y = self.plant.with_link(t, &y, [phi, 0.0])?;
             self.rests([t, phi]);
             self.misses(t, &y)?;
-            self.direction = self.start_direction(t, &y)?;
+            self.leave_rest(t, &y)?;
             if self.direction == 0.0 {
                 self.held = self.held.or(Some([t, phi]));
             }
@@ -326,55 +331,6 @@ impl<P> Run<'_, P> {
             t,
             reason: "the drive link turns round again and again",
         })
-    }
-
-    /// The integrator's steps from `t` to `end`, up to the one in which friction changes or an edge is passed.
-    fn integrate<const N: usize>(
-        &self,
-        t: f64,
-        end: f64,
-        y: &[f64; N],
-    ) -> Result<Vec<Point<N>>, SimulationError>
-    where
-        P: Plant<N>,
-    {
-        self.integrate_until(t, end, y, |t, y| {
-            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?[0]))
-        })
-    }
-
-    fn integrate_until<const N: usize>(
-        &self,
-        t: f64,
-        end: f64,
-        y: &[f64; N],
-        enough: impl Fn(f64, &[f64; N]) -> Result<bool, Error>,
-    ) -> Result<Vec<Point<N>>, SimulationError>
-    where
-        P: Plant<N>,
-    {
-        if end <= t {
-            return Ok(vec![(t, *y)]);
-        }
-        // Counted from here, short intervals keep all their digits.
-        let steps = self.accuracy.steps(
-            |x, y| self.plant.slope(&self.moment(t + x), y),
-            *y,
-            end - t,
-            |x, y| enough(t + x, y),
-        );
-        let mut steps = steps.map_err(|error| stopped(t, error))?;
-        for (x, _) in &mut steps {
-            *x += t;
-        }
-        self.steps.set(self.steps.get() + steps.len() as u64);
-        if self.steps.get() > MOST_IN_ALL {
-            return Err(SimulationError::Integrator {
-                t,
-                reason: "too many steps would be needed",
-            });
-        }
-        Ok(steps)
     }
 
     /// Whether the drive link has turned round, or friction does not hold it any more.
@@ -417,6 +373,7 @@ impl<P> Run<'_, P> {
             self.plant.check(&self.moment(*t), y)?;
         }
         self.observe(from, to)?;
+        self.count_turns(from, to)?;
         if self.watch.is_idle() || self.direction == 0.0 {
             return Ok(());
         }

@@ -15,12 +15,15 @@ pub struct Simulated {
     pub rest: Option<Rest>,
     /// Where it was when the motor was switched off (rad, or m).
     pub halted_at: Option<f64>,
-    /// Where the drive link came to rest first and friction holds it, if the motor was not switched off; since the start.
+    /// Where friction holds the drive link to the end, if no controller acts and the motor was not switched off: when and where it came to
+    /// rest, since the start.
     pub held: Option<Rest>,
     /// What the motor gave until it was switched off, or to the end; not behind a variator.
     pub effort: Option<Effort>,
     /// Where the speed of [`Simulation::to_speed`](crate::model::simulation::Simulation::to_speed) was reached.
     pub reached: Option<Rest>,
+    /// What was done in the whole turns that a machine makes whose drive link turns.
+    pub turned: Option<Turned>,
     /// The impacts on end stops.
     pub impacts: Option<Impacts>,
     /// Where the motor has not driven the machine on.
@@ -70,6 +73,27 @@ pub struct Impacts {
     pub speed: f64,
     /// Number of impacts.
     pub count: u32,
+    /// Whether the machine came to rest at a stop because a rebound would have been back within [`BRIEFEST_FLIGHT`], as the series of
+    /// ever smaller ones has no end.
+    pub settled: bool,
+}
+
+/// A rebound from an end stop that is back within this time (s) is none.
+pub const BRIEFEST_FLIGHT: f64 = 1e-6;
+
+/// Works in whole turns of the drive link, from the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned {
+    /// How many turns; negative: φ falls.
+    pub turns: f64,
+    /// Work at the motor's shaft (J).
+    pub motor: f64,
+    /// Work of the signed process loads on the machine (J).
+    pub process: f64,
+    /// Losses (J).
+    pub losses: f64,
+    /// Kinetic energy at their end (J).
+    pub kinetic: f64,
 }
 
 /// Torque of a motor at rest, and what the machine needs to go on.

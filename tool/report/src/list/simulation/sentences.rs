@@ -1,6 +1,6 @@
 //! What happened in a simulated motion, sentence by sentence.
 
-use jred_machine::analysis::simulate::{Rest, Stop, beside_name};
+use jred_machine::analysis::simulate::{BRIEFEST_FLIGHT, Rest, Stop, beside_name};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -9,6 +9,7 @@ use jred_machine::units::RPM;
 use jred_motion::driven::{Loads, Peak};
 
 use super::Shown;
+use crate::list::driven::{Turns, driven};
 
 impl Shown<'_> {
     /// What happened on the way, sentence by sentence.
@@ -42,6 +43,7 @@ impl Shown<'_> {
         if let Some((_, loads)) = self.drive {
             lines.extend(drive_sentences(loads, &axis, self.machines.first));
         }
+        lines.extend(self.driven());
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
         lines.extend(self.worst_stop(&axis));
@@ -122,6 +124,9 @@ impl Shown<'_> {
                 self.way(axis, reached.way),
                 axis.coordinate.unit()
             ),
+            None if self.found.ended.is_some() => {
+                format!("{speed} are not reached before the run ends")
+            }
             None => format!(
                 "{speed} are not reached in {} s",
                 short(self.simulation.duration)
@@ -138,20 +143,47 @@ impl Shown<'_> {
         } else {
             format!("{} rpm", short(effort.speed[0] / RPM))
         };
-        let until = if self.simulation.halt.is_some() {
+        let until = if self.found.halted_at.is_some() {
             " until it is switched off"
         } else {
             ""
         };
+        let speed = if effort.speed[0] == 0.0 {
+            "it does not turn".to_owned()
+        } else {
+            format!(
+                "its largest speed is {speed} at {} s",
+                short(effort.speed[1])
+            )
+        };
+        let [torque, at] = effort.torque;
+        if torque == 0.0 {
+            let what = if self.slides() { "force" } else { "torque" };
+            return Some(format!("the motor gives no {what}{until}; {speed}"));
+        }
+        let power = match effort.power {
+            [0.0, _] => "no power".to_owned(),
+            [power, at] => format!("up to {} W at {} s", short(power), short(at)),
+        };
         Some(format!(
-            "the motor gives up to {} {unit} at {} s, RMS {} {unit}{until}, and up to {} W at {} s; its largest speed is {speed} at {} s",
-            short(effort.torque[0]),
-            short(effort.torque[1]),
-            short(effort.rms),
-            short(effort.power[0]),
-            short(effort.power[1]),
-            short(effort.speed[1]),
+            "the motor gives up to {} {unit} at {} s, RMS {} {unit}{until}, and {power}; {speed}",
+            short(torque),
+            short(at),
+            short(effort.rms)
         ))
+    }
+
+    /// A warning where the process loads drive the machine over its whole turns.
+    fn driven(&self) -> Option<String> {
+        let turned = self.found.turned?;
+        let works = [turned.motor, turned.process, turned.losses, turned.kinetic];
+        let [motor, process, losses, kinetic] = works.map(|work| work / turned.turns.abs());
+        let driven = driven(&Turns {
+            works: [motor, process, losses],
+            kinetic,
+            is_backwards: turned.turns < 0.0,
+        })?;
+        Some(format!("warning: the process loads {driven}"))
     }
 
     fn torque_limit(&self, axis: &Axis) -> Option<String> {
@@ -173,6 +205,10 @@ impl Shown<'_> {
         let impacts = self.found.impacts?;
         let all = match impacts.count {
             1 => String::new(),
+            count if impacts.settled => format!(
+                "; {count} impacts in all until it rests: flights shorter than {} µs are not counted",
+                short(BRIEFEST_FLIGHT * 1e6)
+            ),
             count => format!("; {count} impacts in all"),
         };
         Some(format!(
@@ -196,6 +232,9 @@ impl Shown<'_> {
             ));
         };
         let off = format!("the motor is switched off at {} s", short(halt.time));
+        if self.found.halted_at.is_none() {
+            return Some(format!("the run ends before {off}"));
+        }
         Some(match self.found.rest {
             Some(rest) => format!(
                 "{off}; the machine comes to rest {} s and {} {} later",

@@ -96,19 +96,33 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         let (edge, direction) = (self.edge, self.direction);
+        let (t, y) = self.on_place(edge, start, last)?;
+        let [_, omega] = self.plant.link(t, &y)?;
+        let behind = edge + direction * HAIR * (1.0 + edge.abs());
+        Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
+    }
+
+    /// The state at a position that the drive link reaches in the integrator's step between these two.
+    pub(super) fn on_place<const N: usize>(
+        &self,
+        place: f64,
+        start: Point<N>,
+        last: Point<N>,
+    ) -> Result<Point<N>, SimulationError>
+    where
+        P: Plant<N>,
+    {
+        let direction = self.direction;
         let at = |x: f64| -> Result<Point<N>, SimulationError> {
             let steps = self.integrate_until(start.0, start.0 + x, &start.1, |_, _| Ok(false))?;
             Ok(steps.last().copied().unwrap_or(start))
         };
         let beyond = |(t, y): &Point<N>| -> Result<f64, SimulationError> {
-            Ok((self.plant.link(*t, y)?[0] - edge) * direction)
+            Ok((self.plant.link(*t, y)?[0] - place) * direction)
         };
         let ends = [beyond(&start)?, beyond(&last)?];
         let length = last.0 - start.0;
         let x = numerics::zero(|x| beyond(&at(x)?), [0.0, length], ends, 1e-15)?;
-        let (t, y) = at(x)?;
-        let [_, omega] = self.plant.link(t, &y)?;
-        let behind = edge + direction * HAIR * (1.0 + edge.abs());
-        Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
+        at(x)
     }
 }

@@ -39,6 +39,8 @@ impl<'a, P> Run<'a, P> {
                 [from - slack, to + slack]
             }),
             impacts: None,
+            turned: None,
+            begin: None,
             direction: 0.0,
             inside: [f64::NEG_INFINITY, f64::INFINITY],
             edges: Edges::of(machines),

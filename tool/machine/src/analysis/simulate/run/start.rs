@@ -39,6 +39,18 @@ impl<P> Run<'_, P> {
         Ok(0.0)
     }
 
+    /// From rest the drive link goes the way it will start; if it starts, nothing has held it to the end.
+    pub(super) fn leave_rest<const N: usize>(&mut self, t: f64, y: &[f64; N]) -> Result<(), Error>
+    where
+        P: Plant<N>,
+    {
+        self.direction = self.start_direction(t, y)?;
+        if self.direction != 0.0 {
+            self.held = None;
+        }
+        Ok(())
+    }
+
     /// The drive link is at rest: whether the motor drives it on.
     pub(super) fn misses<const N: usize>(&mut self, time: f64, y: &[f64; N]) -> Result<(), Error>
     where

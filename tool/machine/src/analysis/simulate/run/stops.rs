@@ -2,11 +2,8 @@
 
 use super::{Plant, Run};
 use crate::analysis::simulate::clock::Moment;
-use crate::analysis::simulate::{Impacts, SimulationError};
+use crate::analysis::simulate::{BRIEFEST_FLIGHT, Impacts, SimulationError};
 use crate::number::rounding::short;
-
-/// A rebound from an end stop that is back within this time (s) is none.
-const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 impl<P> Run<'_, P> {
     /// The end of its way that a drive link in motion has passed: an end stop, or the end of the stroke.
@@ -61,6 +58,7 @@ impl<P> Run<'_, P> {
             position: stop,
             speed: omega.abs(),
             count: 0,
+            settled: false,
         });
         impact.count += 1;
         let row = |y: &[f64; N]| self.plant.row(&self.moment(t), y);
@@ -82,6 +80,9 @@ impl<P> Run<'_, P> {
             after[at + 1] += left.beyond - hit.beyond;
         }
         if rests {
+            if let Some(impacts) = &mut self.impacts {
+                impacts.settled |= restitution != 0.0;
+            }
             self.rests([t, stop]);
             self.direction = self.start_direction(t, &after)?;
         } else {
