@@ -47,6 +47,7 @@ pub use obstacle::NoMotion;
 pub use phases::Phase;
 pub use programme::{Price, Start, Warm};
 pub use rms::Rms;
+pub use slowed::Slowing;
 use sweep::{Obstacle, Piece};
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::{Ends, Track};

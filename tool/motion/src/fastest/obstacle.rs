@@ -13,6 +13,7 @@ use jred_sizing::select::fit::input_kind;
 
 use super::field::{Binding, Field, speed};
 use super::joint_force::{JointForce, Spot};
+use super::slowed::Slowing;
 use super::sweep::Obstacle;
 use super::track::Track;
 
@@ -40,7 +41,7 @@ pub enum NoMotion {
         /// In words, with the joint whose force it is.
         name: Box<str>,
         /// A limit of speed or acceleration that keeps the machine from taking the kinetic energy that would carry it on.
-        eased: Option<Binding>,
+        eased: Option<Slowing>,
         /// Torque that keeps the machine moving there (N·m), and that the limit gives.
         torques: [f64; 2],
         /// Their unit: N of a motor that slides.
@@ -248,7 +249,7 @@ impl NoMotion {
         field: &Field,
         track: &Track,
         obstacle: Obstacle,
-        eased: Option<Binding>,
+        eased: Option<Slowing>,
     ) -> Self {
         let axis = field.way.file.axis();
         let unit = input(field.way.file);

@@ -6,37 +6,68 @@ use super::sweep::{self, Obstacle};
 use super::tool_speed::ToolSpeeds;
 use super::track::{Ends, Track};
 
+/// A limit that an option asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slowing {
+    /// Of the speed of the drive link.
+    Speed,
+    /// Of the tool's speed.
+    ToolSpeed,
+    /// Of the acceleration.
+    Acceleration,
+}
+
+impl Slowing {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Speed => Binding::Speed.name(),
+            Self::ToolSpeed => Binding::ToolSpeed.name(),
+            Self::Acceleration => Binding::Acceleration.name(),
+        }
+    }
+
+    /// The option that asks for it.
+    pub const fn option(self) -> &'static str {
+        match self {
+            Self::Speed => "--max-speed",
+            Self::ToolSpeed => "--max-tool-speed",
+            Self::Acceleration => "--max-acceleration",
+        }
+    }
+}
+
 /// The first limit of speed or acceleration without which the machine does not stop; the first one that was asked for where it takes all of
 /// them; `None`: it stops without them as well.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub(super) fn by(field: &Field, ends: &Ends, count: usize) -> Result<Option<Binding>, NoMotion> {
+pub(super) fn by(field: &Field, ends: &Ends, count: usize) -> Result<Option<Slowing>, NoMotion> {
     let limits = field.limits;
     let none = ToolSpeeds::default();
     let asked = [
-        (Binding::Speed, limits.speed.is_some()),
-        (Binding::ToolSpeed, limits.tool != none),
-        (Binding::Acceleration, limits.acceleration.is_some()),
+        (Slowing::Speed, limits.speed.is_some()),
+        (Slowing::ToolSpeed, limits.tool != none),
+        (Slowing::Acceleration, limits.acceleration.is_some()),
     ];
-    let asked: Vec<Binding> = asked
+    let asked: Vec<Slowing> = asked
         .into_iter()
         .filter_map(|(limit, is_asked)| is_asked.then_some(limit))
         .collect();
-    let passes = |without: &[Binding]| {
-        let is_kept = |limit: Binding| !without.contains(&limit);
+    let passes = |without: &[Slowing]| {
+        let is_kept = |limit: Slowing| !without.contains(&limit);
         let field = Field {
             way: field.way,
             limits: Limits {
-                speed: limits.speed.filter(|_| is_kept(Binding::Speed)),
-                tool: if is_kept(Binding::ToolSpeed) {
+                speed: limits.speed.filter(|_| is_kept(Slowing::Speed)),
+                tool: if is_kept(Slowing::ToolSpeed) {
                     limits.tool
                 } else {
                     none
                 },
                 acceleration: limits
                     .acceleration
-                    .filter(|_| is_kept(Binding::Acceleration)),
+                    .filter(|_| is_kept(Slowing::Acceleration)),
                 ..limits
             },
         };

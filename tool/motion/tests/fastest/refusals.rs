@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use jred_machine::number::numerics::least;
-use jred_motion::fastest::{Binding, Limits, NoMotion, Task, solve};
+use jred_motion::fastest::{Binding, Limits, NoMotion, Slowing, Task, solve};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -126,13 +126,13 @@ fn what_keeps_the_machine_slow_is_named() {
     );
     // With a motor that passes from rest a limit is.
     for (limits, named) in [
-        (slow, Binding::Acceleration),
+        (slow, Slowing::Acceleration),
         (
             Limits {
                 speed: Some(0.5),
                 ..Limits::default()
             },
-            Binding::Speed,
+            Slowing::Speed,
         ),
     ] {
         let asked = Task {

@@ -10,31 +10,18 @@ const LARGER_FORCE: &str =
     "allow a larger force in the joint (--max-reaction), or take weight or load off it";
 
 impl NoMotion {
-    /// What to do about it.
-    pub fn cure(&self) -> String {
+    /// What to do where the machine stops on its way.
+    fn of_a_stop(&self) -> String {
         match self {
-            Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
-            Self::NoWay => "give two different positions".to_owned(),
-            Self::NoTorqueLimit => {
-                "take a motor with a peak torque, or give --torque".to_owned()
-            }
-            Self::NoSpeedLimit => "give --max-speed".to_owned(),
-            Self::SelfLocking => "take another gearbox".to_owned(),
             Self::Stops {
                 eased: Some(eased),
                 at_start: false,
                 ..
-            } => {
-                let option = match eased {
-                    Binding::Speed => "--max-speed",
-                    Binding::ToolSpeed => "--max-tool-speed",
-                    _ => "--max-acceleration",
-                };
-                format!(
-                    "raise the {} ({option}), or take a motor with more torque at low speed or a larger gear ratio",
-                    eased.name()
-                )
-            }
+            } => format!(
+                "raise the {} ({}), or take a motor with more torque at low speed or a larger gear ratio",
+                eased.name(),
+                eased.option()
+            ),
             Self::Stops {
                 limit,
                 torques,
@@ -56,6 +43,21 @@ impl NoMotion {
                     ),
                 }
             }
+            _ => String::new(),
+        }
+    }
+
+    /// What to do about it.
+    pub fn cure(&self) -> String {
+        match self {
+            Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
+            Self::NoWay => "give two different positions".to_owned(),
+            Self::NoTorqueLimit => {
+                "take a motor with a peak torque, or give --torque".to_owned()
+            }
+            Self::NoSpeedLimit => "give --max-speed".to_owned(),
+            Self::SelfLocking => "take another gearbox".to_owned(),
+            Self::Stops { .. } => self.of_a_stop(),
             Self::RunsAway { limit, .. } => match limit {
                 Binding::Deceleration => "allow a larger deceleration".to_owned(),
                 Binding::JointForce(_) => LARGER_FORCE.to_owned(),

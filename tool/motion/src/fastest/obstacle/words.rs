@@ -37,6 +37,49 @@ impl NoMotion {
         }
     }
 
+    /// Where the machine stops on its way, and what is missing.
+    fn stops(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stops {
+                phi,
+                at_start,
+                limit,
+                name,
+                eased,
+                torques,
+                unit,
+                axis,
+            } => {
+                let place = axis.place(*phi);
+                let [needed, given] = told_apart(*torques);
+                let unit = unit.effort_unit();
+                let what = match eased {
+                    _ if *at_start => "the machine cannot start at".to_owned(),
+                    Some(eased) => format!(
+                        "the {} leaves the machine too little kinetic energy to pass; it stops at",
+                        eased.name()
+                    ),
+                    None => "with the largest acceleration all the way, the machine still stops at"
+                        .to_owned(),
+                };
+                match limit {
+                    Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
+                        write!(f, "{what} {place}: the {name} is in the way")
+                    }
+                    Binding::GearboxTorque => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the gearbox output to keep moving, its limit is {given} {unit}"
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} are needed at the motor to keep moving, it gives {given} {unit}"
+                    ),
+                }
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Why a motion that may exist is not computed.
     fn not_computed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -203,42 +246,7 @@ impl fmt::Display for NoMotion {
         match self {
             Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
             Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
-            Self::Stops {
-                phi,
-                at_start,
-                limit,
-                name,
-                eased,
-                torques,
-                unit,
-                axis,
-            } => {
-                let place = axis.place(*phi);
-                let [needed, given] = told_apart(*torques);
-                let unit = unit.effort_unit();
-                let what = match eased {
-                    _ if *at_start => "the machine cannot start at".to_owned(),
-                    Some(eased) => format!(
-                        "the {} leaves the machine too little kinetic energy to pass; it stops at",
-                        eased.name()
-                    ),
-                    None => "with the largest acceleration all the way, the machine still stops at"
-                        .to_owned(),
-                };
-                match limit {
-                    Binding::Acceleration | Binding::Deceleration | Binding::JointForce(_) => {
-                        write!(f, "{what} {place}: the {name} is in the way")
-                    }
-                    Binding::GearboxTorque => write!(
-                        f,
-                        "{what} {place}: {needed} {unit} are needed at the gearbox output to keep moving, its limit is {given} {unit}"
-                    ),
-                    _ => write!(
-                        f,
-                        "{what} {place}: {needed} {unit} are needed at the motor to keep moving, it gives {given} {unit}"
-                    ),
-                }
-            }
+            Self::Stops { .. } => self.stops(f),
             Self::Stiff { phi, axis } => write!(
                 f,
                 "the machine follows its friction so closely that the motion would take more than {MOST_STEPS} steps: it was followed to {}",
