@@ -289,10 +289,11 @@ fn from_end_to_end(
         }
         let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
-        // What is left of a cost that can be none is rounding.
+        // What is left of a torque that can be none is rounding.
+        let torque = cost.powf(1.0 / f64::from(powers[1]));
         change = if powers[0] != powers[1] {
             f64::INFINITY
-        } else if cost > 1e-20 {
+        } else if torque > 1e-10 {
             ((cost - before) / cost).abs()
         } else {
             0.0

@@ -186,3 +186,35 @@ driven = { radius = "60 mm", inertia = "0 kg m^2" }
         within("balance", rest, 0.0, budget::BALANCE * given);
     }
 }
+
+/// A mass on a rope, wound upwards at 20 rad/s: when the motor is switched off, it stops after ω·J/M and falls back. A brake that closes later
+/// holds it; without one it does not come to rest.
+#[test]
+fn what_is_not_held_turns_back() {
+    let (omega, weight) = (20.0, 5.0);
+    for (brake, held) in [
+        ("", false),
+        (", brake_torque = \"50 N m\", brake_delay = \"2 s\"", true),
+    ] {
+        let load = format!("[[load]]\non = \"shaft-1\"\nmoment = \"-{weight} N m\"\n");
+        let simulation = format!(
+            "start_speed = \"20 rad/s\"\nduration = \"4 s\"\noutput_step = \"0.1 s\"\ntorque = \"{weight} N m\"\nstop = {{ time = \"0.35 s\"{brake} }}"
+        );
+        let file = parse(&turntable(&load, &simulation)).unwrap();
+        let found = analysis::simulate::simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
+        let stops = omega * J / weight;
+        let first = found.turned_back.unwrap();
+        near("time", first.time, stops, budget::CLOSED_MOTION);
+        near("way", first.way, 0.5 * omega * stops, budget::CLOSED_MOTION);
+        assert_eq!(found.rest.is_some(), held);
+        if let Some(rest) = found.rest {
+            // It falls until the brake closes, which stops it.
+            let falls = 2.0 - stops;
+            let fall = 0.5 * weight / J * falls * falls;
+            let braking = weight * falls / (50.0 - weight);
+            let way = 0.5 * omega * stops - fall - 0.5 * weight / J * falls * braking;
+            near("time", rest.time, 2.0 + braking, budget::CLOSED_MOTION);
+            near("way", rest.way, way, budget::CLOSED_MOTION);
+        }
+    }
+}

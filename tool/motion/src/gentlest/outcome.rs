@@ -80,6 +80,8 @@ impl Solved<'_> {
             bound = value.filter(|bound| *bound >= 0.0);
         }
         let cost = size * moving * cost + held;
+        // Above it by rounding at most: more is refuted.
+        let bound = bound.map(|bound| bound.min(cost));
         let bends = way.bends();
         let convex = !viscous && !bends && !refuted && multiplier >= -1e-9 * found.cost;
         let proved =

@@ -118,6 +118,7 @@ pub(super) fn run<const N: usize>(
         effort: run.giving.effort(),
         reached: run.reached.map(since_start),
         rest: run.rest,
+        turned_back: run.turned_back,
         impacts: run.impacts,
         missing: run.stuck,
         torque_limit: run.controlling.limit,
@@ -156,6 +157,7 @@ struct Run<'a, P> {
     /// Work of the motor until then (J).
     driven: Option<f64>,
     rest: Option<Rest>,
+    turned_back: Option<Rest>,
     stuck: Option<Stuck>,
     controlling: Controlling,
     has_payloads: bool,
@@ -216,7 +218,7 @@ impl<P> Run<'_, P> {
                 self.halt = Some([t, phi]);
                 self.driven = Some(y[N - 3]);
                 if omega == 0.0 {
-                    self.rests([t, phi]);
+                    self.stands([t, phi]);
                 }
             }
             // What was held may go now, or a brake hold what was at rest.
@@ -236,13 +238,19 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// The drive link is at rest.
-    fn rests(&mut self, [t, phi]: [f64; 2]) {
-        if let (Some([time, way]), None) = (self.halt, self.rest) {
-            self.rest = Some(Rest {
-                time: t - time,
-                way: phi - way,
-            });
+    /// The drive link stands still: held, or on its way back.
+    fn stands(&mut self, [t, phi]: [f64; 2]) {
+        let Some([time, way]) = self.halt else {
+            return;
+        };
+        let rest = Rest {
+            time: t - time,
+            way: phi - way,
+        };
+        if self.direction == 0.0 {
+            self.rest = self.rest.or(Some(rest));
+        } else if t > time {
+            self.turned_back = self.turned_back.or(Some(rest));
         }
     }
 
@@ -320,9 +328,9 @@ impl<P> Run<'_, P> {
             };
             let [phi, _] = self.plant.link(t, &y)?;
             y = self.plant.with_link(t, &y, [phi, 0.0])?;
-            self.rests([t, phi]);
             self.misses(t, &y)?;
             self.leave_rest(t, &y)?;
+            self.stands([t, phi]);
             if self.direction == 0.0 {
                 self.held = self.held.or(Some([t, phi]));
             }

@@ -11,8 +11,10 @@ use crate::number::columns::Columns;
 pub struct Simulated {
     /// A row for each output step.
     pub columns: Columns,
-    /// Where the drive link came to rest first after the motor was switched off.
+    /// Where the drive link came to rest to stay after the motor was switched off.
     pub rest: Option<Rest>,
+    /// Where it first stood still before, and moved on because nothing held it.
+    pub turned_back: Option<Rest>,
     /// Where it was when the motor was switched off (rad, or m).
     pub halted_at: Option<f64>,
     /// Where friction holds the drive link to the end, if no controller acts and the motor was not switched off: when and where it came to

@@ -1,6 +1,6 @@
 //! What happened in a simulated motion, as JSON.
 
-use jred_machine::analysis::simulate::{Effort, Stop};
+use jred_machine::analysis::simulate::{Effort, Rest, Stop};
 use jred_machine::model::axis::Axis;
 use jred_machine::units::RPM;
 use jred_motion::driven::{Loads, Peak};
@@ -33,10 +33,11 @@ impl Shown<'_> {
             add("impacts", json!({ "count": impacts.count, "first": first }));
         }
         if self.simulation.halt.is_some() {
-            let rest = (self.found.rest).map(
-                |rest| json!({ "time [s]": rest.time, way.as_str(): axis.shown_way(rest.way) }),
-            );
-            add("rest", json!(rest));
+            let place = |rest: Rest| json!({ "time [s]": rest.time, way.as_str(): axis.shown_way(rest.way) });
+            add("rest", json!(self.found.rest.map(place)));
+            if let Some(first) = self.found.turned_back {
+                add("turned_back", place(first));
+            }
         }
         if let Some(stops) = self.stops {
             let stop = |stop: &Stop| {

@@ -235,14 +235,26 @@ impl Shown<'_> {
         if self.found.halted_at.is_none() {
             return Some(format!("the run ends before {off}"));
         }
-        Some(match self.found.rest {
-            Some(rest) => format!(
-                "{off}; the machine comes to rest {} s and {} {} later",
+        let later = |rest: Rest| {
+            let way = short(axis.shown_way(rest.way));
+            format!(
+                "{} s and {way} {} later",
                 short(rest.time),
-                short(axis.shown_way(rest.way)),
                 axis.coordinate.unit()
+            )
+        };
+        Some(match (self.found.turned_back, self.found.rest) {
+            (None, Some(rest)) => format!("{off}; the machine comes to rest {}", later(rest)),
+            (None, None) => format!("{off}; the machine has not come to rest by the end"),
+            (Some(first), Some(rest)) => format!(
+                "{off}; the machine stands still {}, turns back, and comes to rest {}",
+                later(first),
+                later(rest)
             ),
-            None => format!("{off}; the machine has not come to rest by the end"),
+            (Some(first), None) => format!(
+                "{off}; warning: the machine stands still {}, but nothing holds it there: it turns back, and has not come to rest by the end; a brake holds it (brake_torque in `stop`)",
+                later(first)
+            ),
         })
     }
 }

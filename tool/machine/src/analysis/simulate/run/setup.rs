@@ -49,6 +49,7 @@ impl<'a, P> Run<'a, P> {
             halt: None,
             driven: None,
             rest: None,
+            turned_back: None,
             stuck: None,
             controlling: Controlling::default(),
             has_payloads,

@@ -47,6 +47,7 @@ impl<P> Run<'_, P> {
         self.direction = self.start_direction(t, y)?;
         if self.direction != 0.0 {
             self.held = None;
+            self.rest = None;
         }
         Ok(())
     }

@@ -83,8 +83,8 @@ impl<P> Run<'_, P> {
             if let Some(impacts) = &mut self.impacts {
                 impacts.settled |= restitution != 0.0;
             }
-            self.rests([t, stop]);
             self.direction = self.start_direction(t, &after)?;
+            self.stands([t, stop]);
         } else {
             self.direction = away;
         }
