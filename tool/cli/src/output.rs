@@ -170,11 +170,9 @@ fn is_same(one: IoResult<Metadata>, other: IoResult<Metadata>) -> bool {
 /// # Errors
 /// It cannot be written; then it is as it was, unless it has another owner.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    let written = Output::create(path).and_then(|mut output| {
-        output.write_all(bytes)?;
-        output.finish()
-    });
-    written.map_err(|error| failed(path, &error))
+    let mut files = Files::default();
+    files.add(path, bytes)?;
+    files.finish()
 }
 
 /// Files that belong together: each is written in full before the first takes its place.

@@ -47,6 +47,7 @@ pub struct Tried<'c> {
     /// Its place among drives with their own motions; `None`: with its own motion it violates a rule.
     pub order: Option<Order>,
     motion: Motion,
+    cycle: Cycle,
 }
 
 /// The drive that comes first with its own motion, and what is said beside it.
@@ -115,7 +116,7 @@ impl<'a> Judging<'a> {
         // With the motion of the best drive another one may come first, which was not tried.
         for _ in 0..TRIED {
             let Some(best) = suited.best() else { break };
-            let listed = self.first(&self.cycle(&best.motion)?);
+            let listed = self.first(&best.cycle);
             let ahead = listed.fit.first();
             let Some((id, drive, _)) = ahead.filter(|(.., order)| Some(*order) < best.order) else {
                 break;
@@ -141,6 +142,7 @@ impl<'a> Judging<'a> {
             own: request.figures(own),
             gentlest: request.figures(&cycle),
             motion,
+            cycle,
         })
     }
 

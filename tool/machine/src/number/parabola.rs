@@ -90,7 +90,7 @@ pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Re
 }
 
 /// Whether a peak is higher than another one: the first of two that differ by rounding is kept.
-pub fn is_higher(peak: f64, other: f64) -> bool {
+fn is_higher(peak: f64, other: f64) -> bool {
     peak - other > 1e-14 * other.abs()
 }
 
@@ -98,7 +98,7 @@ pub fn is_higher(peak: f64, other: f64) -> bool {
 /// most promising ones, in order. Two summits may be nearly as high as each other, and the places may lie nearer to the top of the lower one.
 ///
 /// `around` gives the place `k` and two others, in order, all in one smooth part of the curve.
-pub fn summits(
+fn summits(
     count: usize,
     value: impl Fn(usize) -> f64,
     around: impl Fn(usize) -> Option<[usize; 3]>,
@@ -131,4 +131,32 @@ pub fn summits(
     let mut places: Vec<[usize; 3]> = found.into_iter().map(|(_, around)| around).collect();
     places.sort_unstable();
     places
+}
+
+/// The highest peak of a curve, if it is higher than `above`: the three known places around it, and where it is. The first of those that differ
+/// by rounding.
+///
+/// `value` is that of a known place, of which there are `count`, `place` says where it is, and `around` gives it with two others, in order, all in one
+/// smooth part of the curve; `f` is the curve.
+///
+/// # Errors
+/// Those of `f`.
+pub fn highest<E>(
+    (count, value): (usize, impl Fn(usize) -> f64),
+    around: impl Fn(usize) -> Option<[usize; 3]>,
+    place: impl Fn(usize) -> f64,
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    above: f64,
+) -> Result<Option<([usize; 3], f64)>, E> {
+    let mut best = above;
+    let mut found = None;
+    for around in summits(count, value, around) {
+        let at = peak(&mut f, around.map(&place))?;
+        let value = f(at)?;
+        if is_higher(value, best) {
+            best = value;
+            found = Some((around, at));
+        }
+    }
+    Ok(found)
 }

@@ -73,24 +73,17 @@ pub(super) fn insert_extremes(
         for sign in [-1.0, 1.0] {
             let value = |instant: &Instant| sign * quantity(instant);
             let most = instants.iter().map(value).max_by(f64::total_cmp);
-            let mut best = most.unwrap_or(f64::INFINITY);
-            let mut peak = None;
             let count = instants.len();
-            let around = |k: usize| smooth.around(k, count);
-            for around in parabola::summits(count, |k| value(&instants[k]), around) {
-                let mut at = |t: f64| Instant::new(moving, t, 0.0);
-                let t = parabola::peak(
-                    |t| Ok::<_, Error>(value(&at(t)?)),
-                    around.map(|k| instants[k].t),
-                )?;
-                let instant = at(t)?;
-                if parabola::is_higher(value(&instant), best) {
-                    best = value(&instant);
-                    peak = Some(instant);
-                }
-            }
-            if let Some(peak) = peak {
-                let place = instants.partition_point(|i| i.t < peak.t);
+            let found = parabola::highest(
+                (count, |k| value(&instants[k])),
+                |k| smooth.around(k, count),
+                |k| instants[k].t,
+                |t| Ok::<_, Error>(value(&Instant::new(moving, t, 0.0)?)),
+                most.unwrap_or(f64::INFINITY),
+            )?;
+            if let Some((_, t)) = found {
+                let peak = Instant::new(moving, t, 0.0)?;
+                let place = instants.partition_point(|i| i.t < t);
                 smooth.insert(place);
                 instants.insert(place, peak);
             }

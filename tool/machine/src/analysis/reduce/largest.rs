@@ -111,23 +111,20 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
         if largest <= 1e-12 * scale {
             continue;
         }
-        let mut best = None;
-        for around in parabola::summits(sizes.len(), |place| sizes[place], around) {
-            let stretch = &stretches[places[around[0]].0];
-            let around = around.map(|place| stretch.place(places[place].1));
-            let x = parabola::peak(|x| Ok::<_, Error>(search.at(x)?[k].abs()), around)?;
-            let value = search.at(x)?[k];
-            let higher = |(most, ..): (f64, _, _)| parabola::is_higher(value.abs(), most.abs());
-            if best.is_none_or(higher) {
-                best = Some((value, stretch, x));
-            }
-        }
-        let Some((value, stretch, x)) = best else {
+        let peak = parabola::highest(
+            (sizes.len(), |place| sizes[place]),
+            around,
+            |place| stretches[places[place].0].place(places[place].1),
+            |x| Ok::<_, Error>(search.at(x)?[k].abs()),
+            0.0,
+        )?;
+        let Some(([first, ..], x)) = peak else {
             continue;
         };
+        let stretch = &stretches[places[first].0];
         found.push(Largest {
             quantity: head.clone(),
-            value,
+            value: search.at(x)?[k],
             over: match request.over {
                 Over::Time => super::time_column(),
                 Over::Angle => source.coordinate.column(),
