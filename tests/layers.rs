@@ -136,7 +136,7 @@ fn a_layer_uses_those_before_it_only() {
 }
 
 /// The packages of the tool, and the modules of each in the order of its data: each uses those before it only.
-const TOOL: [(&str, &[&str]); 5] = [
+const TOOL: [(&str, &[&str]); 6] = [
     (
         "enclosure",
         &[
@@ -174,6 +174,24 @@ const TOOL: [(&str, &[&str]); 5] = [
             "study",
             "explain",
             "meter",
+        ],
+    ),
+    (
+        "motion",
+        &[
+            "skyline",
+            "balance",
+            "way",
+            "moves",
+            "trace",
+            "collocation",
+            "fastest",
+            "gentlest",
+            "retime",
+            "suited",
+            "driven",
+            "contact",
+            "plan",
         ],
     ),
     ("report", &["table", "list", "plot", "drawing", "page"]),

@@ -1,11 +1,11 @@
 //! Machines as data: the texts that describe them, what they say, and what can be worked out from that alone.
 //!
-//! The first of the packages behind the command `jred`:
+//! One of the packages behind the command `jred`; each knows those to its left:
 //!
 //! ```text
-//! jred ─► jred-machine ─► jred-sizing ─► jred-report ─► jred-cli
-//! core    machine files,   catalogue,     tables, plots,  the command
-//!         analysis         drives         pages
+//! jred ─► jred-enclosure ─► jred-machine ─► jred-sizing ─► jred-motion ─► jred-report ─► jred-cli
+//! core    curves in         machine files,   catalogue,     motions for a   tables, plots,  the command
+//!         intervals         analysis         drives         drive           pages
 //! ```
 //!
 //! The way of the data is that of the folders, each knows those before it:
