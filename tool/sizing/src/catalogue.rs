@@ -7,6 +7,7 @@
 mod amplifier;
 mod cell;
 mod column;
+mod derating;
 #[cfg(feature = "fs")]
 mod disk;
 mod drive;
@@ -29,6 +30,7 @@ mod voltage;
 pub use amplifier::{Amplifier, Resistor};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
+pub use derating::{Basis as DeratingBasis, Derated, Derating};
 pub use drive::{Drive, DriveId};
 pub use fault::{CatalogueError, SHOWN, Several};
 pub use gearbox::Gearbox;

@@ -12,6 +12,10 @@ pub const fn cure(rule: Rule) -> &'static str {
             "the standstill rating of the motor in the catalogue"
         }
         Rule::BrakeTorque => "the columns of the holding brake of the motor in the catalogue",
+        Rule::BrakeWork => "brake_closing_time and brake_work of the motor in the catalogue",
+        Rule::AmbientTemperature => "temperature_derating of the motor in the catalogue",
+        Rule::CabinetTemperature => "temperature_derating of the amplifier in the catalogue",
+        Rule::Altitude => "altitude_derating in the catalogue",
         Rule::InertiaRatio => "inertia_ratio in [rules]",
         Rule::WindingTemperature | Rule::HousingTemperature => {
             "thermal resistances, time constants and winding data of the motor in the catalogue"
