@@ -28,9 +28,9 @@ mod toml_table;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
+pub use derating::{Basis as DeratingBasis, Derated, Derating};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
-pub use derating::{Basis as DeratingBasis, Derated, Derating};
 pub use drive::{Drive, DriveId};
 pub use fault::{CatalogueError, SHOWN, Several};
 pub use gearbox::Gearbox;

@@ -218,15 +218,17 @@ impl<'a> Context<'a> {
     fn words(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
         use Rule::{
             Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeTorque, BrakeWork,
-            CabinetTemperature, ConstantTorque, GearboxCubicMean,
-            GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
-            HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
-            PeakTorque, RmsTorque, Speed, WindingTemperature,
+            CabinetTemperature, ConstantTorque, GearboxCubicMean, GearboxCycles, GearboxEmergency,
+            GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque, HousingTemperature,
+            InertiaRatio, MotorVoltage, NaturalFrequency, PeakTorque, RmsTorque, Speed,
+            WindingTemperature,
         };
         match rule {
             BrakeTorque | BrakeWork => brake::words(self, rule, finding),
             AmbientTemperature | CabinetTemperature | Altitude => site::words(self, rule),
-            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio => motor::words(self, rules, rule, finding),
+            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio => {
+                motor::words(self, rules, rule, finding)
+            }
             GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
             | GearboxCycles => gearbox::words(self, rules, rule, finding),
             WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),

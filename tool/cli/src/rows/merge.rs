@@ -172,12 +172,7 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
 }
 
 /// Writes the rows in order, each exactly once.
-fn rows(
-    parts: &mut [Part],
-    header: &Header,
-    study: &str,
-    out: &mut impl Write,
-) -> Result<u64> {
+fn rows(parts: &mut [Part], header: &Header, study: &str, out: &mut impl Write) -> Result<u64> {
     let count = header.rows;
     let mut heap = BinaryHeap::new();
     for (k, part) in parts.iter_mut().enumerate() {
@@ -185,7 +180,9 @@ fn rows(
             heap.push(Reverse((index, k, line)));
         }
     }
-    let is_csv = parts.first().is_some_and(|part| part.form == RowFormat::Csv);
+    let is_csv = parts
+        .first()
+        .is_some_and(|part| part.form == RowFormat::Csv);
     let mut expected = 0;
     while let Some(Reverse((index, k, line))) = heap.pop() {
         if index > expected {

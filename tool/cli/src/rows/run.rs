@@ -97,7 +97,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             Some(Box::new(out))
         }
     };
-    busy::end();
+    busy::rows(done, of);
     let bar = bar(of, done);
     let block = BLOCK * rayon::current_num_threads() as u64;
     while done < of && !STOP.load(Ordering::Relaxed) {
@@ -106,6 +106,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             .map(|k| {
                 let row = (!STOP.load(Ordering::Relaxed)).then(|| task.row(shard.row(k)));
                 bar.inc(1);
+                busy::row();
                 row
             })
             .collect();
@@ -128,6 +129,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         }
     }
     bar.finish_and_clear();
+    busy::end();
     Ok(Ended { rows: done, of })
 }
 

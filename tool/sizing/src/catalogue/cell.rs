@@ -104,9 +104,7 @@ pub(super) fn points(
         }
         if points.last().is_some_and(|last| x_value <= last[0]) {
             return Err(Fault::new(
-                format!(
-                    "has the point \"{shown}\", which is not above the previous point"
-                ),
+                format!("has the point \"{shown}\", which is not above the previous point"),
                 "write the points in increasing order, each once",
             ));
         }

@@ -27,7 +27,10 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
 /// The worst stop by the brake alone; `None`: its closing time is not given.
 fn stop(context: &Context, brake: &Brake) -> Option<Stopped> {
     let closing = Closing::new(
-        [brake.dynamic_torque.unwrap_or(brake.torque), brake.closing_time?],
+        [
+            brake.dynamic_torque.unwrap_or(brake.torque),
+            brake.closing_time?,
+        ],
         [context.coefficients.0[0] / context.ratio, context.ratio],
     );
     Some(context.cycle.mechanics().run_on.worst(&closing))
@@ -67,7 +70,9 @@ fn of_work(context: &Context, finding: Finding, words: &Vocabulary) -> Words {
     let rating = match (finding.value.is_nan(), finding.rating.is_nan()) {
         (false, false) => "work of the brake in one emergency stop",
         (true, false) => "closing time of the brake, brake_closing_time in the catalogue",
-        (false, true) => "work that the brake bears in one emergency stop, brake_work in the catalogue",
+        (false, true) => {
+            "work that the brake bears in one emergency stop, brake_work in the catalogue"
+        }
         (true, true) => {
             "closing time of the brake and its work in one emergency stop, brake_closing_time and brake_work in the catalogue"
         }

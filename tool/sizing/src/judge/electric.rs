@@ -143,7 +143,9 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
 fn reduced(context: &Context) -> String {
     let derated = (context.drive.amplifier).map(|a| a.derated(&context.site.surroundings));
     match derated.map(|derated| derated.factor) {
-        Some(factor) if factor < 1.0 => format!(", reduced to {} % at the site", short(100.0 * factor)),
+        Some(factor) if factor < 1.0 => {
+            format!(", reduced to {} % at the site", short(100.0 * factor))
+        }
         _ => String::new(),
     }
 }
@@ -189,7 +191,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     let (unit, rating) = match rule {
         Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier (none chosen)")),
         Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => ("A", constant()),
-        Rule::RmsCurrent => ("A", format!("rated current of the amplifier{}", reduced(context))),
+        Rule::RmsCurrent => (
+            "A",
+            format!("rated current of the amplifier{}", reduced(context)),
+        ),
         Rule::PeakCurrent => {
             let motor = context.drive.motor.winding.peak_current;
             let most = amplifier.map(|a| a.currents(&context.site.surroundings)[1]);

@@ -8,9 +8,7 @@
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
 
 use super::outcome::Tally;
-use super::{
-    Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage,
-};
+use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;

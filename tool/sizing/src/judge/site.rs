@@ -45,14 +45,21 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
         Rule::AmbientTemperature => (
             "degC",
             match motor.temperature {
-                DeratingBasis::Maker => "highest ambient temperature of the motor's temperature_derating",
+                DeratingBasis::Maker => {
+                    "highest ambient temperature of the motor's temperature_derating"
+                }
                 _ if motor.hottest < HOTTEST => "maximum temperature of the winding",
-                _ => "highest ambient temperature for which IEC 60034-1 has a rule; above it, ask the maker for temperature_derating",
+                _ => {
+                    "highest ambient temperature for which IEC 60034-1 has a rule; above it, ask the maker for temperature_derating"
+                }
             },
             format!(
                 "the S1 {torque} is reduced to {} % ({})",
                 share(&motor),
-                heat(motor.temperature, "1 % per K above 40 °C; max_winding_temperature or temperature_derating in the catalogue is more exact")
+                heat(
+                    motor.temperature,
+                    "1 % per K above 40 °C; max_winding_temperature or temperature_derating in the catalogue is more exact"
+                )
             ),
         ),
         Rule::CabinetTemperature => {
@@ -64,13 +71,20 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
             (
                 "degC",
                 match amplifier.temperature {
-                    DeratingBasis::Maker => "highest temperature of the amplifier's temperature_derating",
-                    _ => "temperature to which makers' practice reaches; above it, ask the maker for temperature_derating",
+                    DeratingBasis::Maker => {
+                        "highest temperature of the amplifier's temperature_derating"
+                    }
+                    _ => {
+                        "temperature to which makers' practice reaches; above it, ask the maker for temperature_derating"
+                    }
                 },
                 format!(
                     "the currents of the amplifier are reduced to {} % ({}){assumed}",
                     share(&amplifier),
-                    heat(amplifier.temperature, "2.5 % per K above 40 °C; temperature_derating in the catalogue is more exact")
+                    heat(
+                        amplifier.temperature,
+                        "2.5 % per K above 40 °C; temperature_derating in the catalogue is more exact"
+                    )
                 ),
             )
         }
@@ -94,7 +108,10 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
             (
                 "m",
                 rating,
-                format!("the S1 {torque} is reduced to {} %{currents}", share(&motor)),
+                format!(
+                    "the S1 {torque} is reduced to {} %{currents}",
+                    share(&motor)
+                ),
             )
         }
     };

@@ -196,6 +196,53 @@ pub fn constant_loads(file: &MachineFile, instants: &[Instant]) -> Result<Vec<f6
     };
     let rests = |instant: &Instant| instant.omega == 0.0 && !loads.is_empty();
     (instants.iter())
-        .map(|instant| if rests(instant) { torque(instant.phi) } else { Ok(0.0) })
+        .map(|instant| {
+            if rests(instant) {
+                torque(instant.phi)
+            } else {
+                Ok(0.0)
+            }
+        })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every stretch of every length, one by one.
+    #[test]
+    fn lengths_are_those_of_every_stretch() {
+        let mut seed = 7u32;
+        for _ in 0..200 {
+            let mut next = |below: u32| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                seed >> 16 & (below - 1)
+            };
+            let (mut t, mut run) = (0.0, Vec::new());
+            for _ in 0..12 {
+                run.push([t, f64::from(next(8))]);
+                t += f64::from(next(4));
+            }
+            let mut spans = Vec::new();
+            lengths(&run, &mut spans);
+            for level in 1..8 {
+                let level = f64::from(level);
+                let mut longest = None;
+                for (from, to) in (0..12).flat_map(|from| (from..12).map(move |to| (from, to))) {
+                    let stays = run.iter().skip(from).take(to - from).all(|p| p[1] >= level);
+                    // A torque lasts until the next instant, at which it may be another one.
+                    if stays && to > from {
+                        longest =
+                            f64::max(longest.unwrap_or(0.0), run[to][0] - run[from][0]).into();
+                    }
+                }
+                let found = spans.iter().filter(|span| span[1] >= level);
+                let found = found.map(|span| span[0]).reduce(f64::max);
+                let last = run.last().is_some_and(|p| p[1] >= level);
+                let expected = longest.or_else(|| last.then_some(0.0));
+                assert_eq!(found, expected, "{level} in {run:?}");
+            }
+        }
+    }
 }
