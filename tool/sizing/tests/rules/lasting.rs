@@ -22,6 +22,7 @@ name = "pressing"
 on = "shaft-2"
 moment = "300 N m"
 between = ["340 deg", "20 deg"]
+ramp = "5 deg"
 [[drive_train]]
 type = "belt"
 driver = {{ radius = "40 mm", inertia = "0 kg m^2" }}
