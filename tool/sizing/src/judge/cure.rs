@@ -35,10 +35,12 @@ pub const fn cure(rule: Rule) -> &'static str {
         Rule::AmplifierVoltage => {
             "mains_voltage or bus_voltage of the amplifier in the catalogue, and mains_voltage in [supply]"
         }
-        Rule::BusVoltage => "mains_voltage, capacitance and max_voltage in [supply]",
+        Rule::BusVoltage => {
+            "mains_voltage, capacitance, chopper_voltage and max_voltage in [supply], or of the amplifier in the catalogue"
+        }
         Rule::BrakeResistance => "min_resistance in [supply], or of the amplifier",
         Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse => {
-            "power, peak_power and pulse_energy of brake_resistor in [supply]"
+            "power, peak_power and pulse_energy of brake_resistor in [supply], and the figures of the DC bus there or of the amplifier"
         }
         Rule::NaturalFrequency => {
             "stiffness of the gearbox in the catalogue; for a direct drive shaft in [stiffness]"

@@ -79,12 +79,18 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         }
         return;
     }
-    if missing(&data).is_some() {
+    let known = figures(context, &data).filter(|_| missing(&data).is_none());
+    let Some(figures) = known else {
         findings.set(Rule::BusVoltage, Finding::UNKNOWN);
-        return;
-    }
-    let Some(figures) = figures(context, &data) else {
-        findings.set(Rule::BusVoltage, Finding::UNKNOWN);
+        // What a resistor has to bear follows from the bus: without its figures none of its rules is checked.
+        if data.resistor.is_some() {
+            for rule in [Rule::ResistorPower, Rule::ResistorPeak, Rule::ResistorPulse] {
+                findings.set(rule, Finding::UNKNOWN);
+            }
+            if data.min_resistance.is_none() {
+                findings.set(Rule::BrakeResistance, Finding::UNKNOWN);
+            }
+        }
         return;
     };
     let voltage = Finding::against(figures.highest, data.max_voltage);
@@ -225,6 +231,17 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
                 "V",
                 known(missing.unwrap_or("maximum voltage of the DC bus")),
             )
+        }
+        Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse
+            if finding.value.is_nan() =>
+        {
+            let unit = if rule == Rule::ResistorPulse {
+                "J"
+            } else {
+                "W"
+            };
+            let missing = missing(&data(context)).unwrap_or("figures of the DC bus");
+            (unit, known(missing))
         }
         Rule::BrakeResistance => ("Ohm", known("minimum resistance of the chopper")),
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),

@@ -188,7 +188,7 @@ fn every_rule_has_its_unit_and_names_its_limit() {
 #[test]
 fn a_missing_figure_is_named() {
     type Change = fn(&mut Stand, &mut Amplifier);
-    let changes: [(Rule, Change, &str); 13] = [
+    let changes: [(Rule, Change, &str); 14] = [
         (
             Rule::Speed,
             |s, _| {
@@ -245,6 +245,11 @@ fn a_missing_figure_is_named() {
             Rule::WindingTemperature,
             |s, _| s.motor.thermal.max_temperature = None,
             "maximum temperature of the winding",
+        ),
+        (
+            Rule::ResistorPower,
+            |s, a| (s.file.site.supply.chopper_voltage, a.chopper_voltage) = (None, None),
+            "chopper",
         ),
         (
             Rule::ResistorPeak,
