@@ -249,7 +249,7 @@ fn a_missing_figure_is_named() {
         (
             Rule::ResistorPower,
             |s, a| (s.file.site.supply.chopper_voltage, a.chopper_voltage) = (None, None),
-            "chopper",
+            "voltage at which the brake resistor switches on",
         ),
         (
             Rule::ResistorPeak,
