@@ -25,7 +25,8 @@ fn study(folder: &Folder, name: &str, more: &[&str]) -> (i32, String) {
         .args(more)
         .arg("--out")
         .arg(path)
-        .env("NO_COLOR", "1");
+        .env("NO_COLOR", "1")
+        .env("JRED_PROGRESS", "never");
     let output = command.output().unwrap();
     let message = String::from_utf8(output.stderr).unwrap();
     let words = message.split_whitespace().filter(|w| *w != "│");
