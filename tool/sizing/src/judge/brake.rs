@@ -1,5 +1,7 @@
 //! The holding brake: what it holds, and what it takes to stop the machine when the supply fails.
 
+use std::fmt::Write as _;
+
 use super::motor::{braked, falls, locks};
 use super::{Context, Record, Words};
 use crate::catalogue::Brake;
@@ -82,10 +84,13 @@ fn of_work(context: &Context, finding: Finding, words: &Vocabulary) -> Words {
         place = run_on(context, &stop);
         if brake.dynamic_torque.is_none() {
             let torque = words.torque;
-            place += &format!("; brake_dynamic_{torque} not given, using the static {torque}");
+            let _ = write!(
+                place,
+                "; brake_dynamic_{torque} not given, using the static {torque}"
+            );
         }
         if let Some(stops) = brake.stops_per_hour {
-            place += &format!("; at most {} such stops per hour", short(stops));
+            let _ = write!(place, "; at most {} such stops per hour", short(stops));
         }
     }
     Words {

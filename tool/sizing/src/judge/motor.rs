@@ -1,5 +1,7 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
+use std::fmt::Write as _;
+
 use super::{Context, Record, Words};
 use crate::cycle::Cycle;
 use crate::motor::envelope::Prepared;
@@ -161,7 +163,8 @@ fn held(context: &Context, finding: Finding) -> String {
             None => ", which is not given",
         };
         let before = if place.is_empty() { "" } else { "; " };
-        place += &format!(
+        let _ = write!(
+            place,
             "{before}process loads in a dwell, held for at most {} s, are judged by RMS {torque} and temperature, \
              because the time constant of the winding is {} s{whose}",
             short(longest),
