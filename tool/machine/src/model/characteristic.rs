@@ -50,6 +50,25 @@ impl Characteristic {
         }
     }
 
+    /// Speeds (rad/s) at which the curve has a corner, or crosses zero.
+    pub fn bends(&self) -> Vec<f64> {
+        match self {
+            Self::Points(points) => {
+                let crossing = points.windows(2).filter_map(|pair| {
+                    let [(from, a), (to, b)] = [pair[0], pair[1]];
+                    (a * b < 0.0).then(|| from + (to - from) * a / (a - b))
+                });
+                let corners = points.iter().map(|(speed, _)| *speed);
+                let corners = corners.filter(|_| points.len() > 1);
+                corners.chain(crossing).collect()
+            }
+            Self::Dc { no_load_speed, .. } => vec![*no_load_speed],
+            Self::Induction {
+                synchronous_speed, ..
+            } => vec![*synchronous_speed],
+        }
+    }
+
     /// Speeds (rad/s) at which the curve bends or has an extreme, and the one at which it crosses zero.
     pub fn marks(&self) -> Vec<f64> {
         match self {

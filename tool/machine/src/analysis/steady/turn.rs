@@ -183,8 +183,14 @@ impl<'a> Turning<'a> {
             ];
             Ok(std::array::from_fn(|i| rates[i] / speed / sizes[i]))
         };
+        let bends = |x: f64, y: &State| -> Result<Vec<f64>, Error> {
+            let speed = self.direction * (2.0 * (y[0] * full).max(least)).sqrt();
+            let [torque, _] = self.plant.motor(speed);
+            let link = [self.at(from + x), speed];
+            self.plant.bends_under(&self.moment(), link, torque)
+        };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = ACCURACY.steps(slope, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = ACCURACY.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
         let steps = steps.map_err(|why| match why {
             Stopped::Function(error) => SteadyError::Machine(error),
             Stopped::TooManySteps { .. } | Stopped::StepTooSmall { .. } => SteadyError::Integrator,
