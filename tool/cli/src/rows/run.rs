@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::store;
 use crate::busy;
+use crate::output;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
@@ -90,7 +91,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         Some(path) => Some(Box::new(store::begin(path, &store::lines(&header, form)?)?)),
         None if form == RowFormat::Table => None,
         None => {
-            let mut out = std::io::stdout();
+            let mut out = output::stdout()?;
             let _ = out.write_all(store::lines(&header, form)?.as_bytes());
             Some(Box::new(out))
         }

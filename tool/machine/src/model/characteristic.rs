@@ -30,6 +30,24 @@ impl Characteristic {
         Self::Points(vec![(0.0, torque)])
     }
 
+    /// So many times the torque at every speed.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Self::Points(points) => {
+                for (_, torque) in points {
+                    *torque *= factor;
+                }
+            }
+            Self::Dc { stall_torque, .. } => *stall_torque *= factor,
+            Self::Induction {
+                breakdown_torque, ..
+            } => *breakdown_torque *= factor,
+        }
+        scaled
+    }
+
     /// Torque (N·m) at a speed (rad/s).
     pub fn torque(&self, speed: f64) -> f64 {
         match self {

@@ -329,9 +329,11 @@ impl<'a, M: Motor> Plant<'a, M> {
             let [_, omega, alpha] = machine.state([phi, omega, alpha]);
             let direction = sign(direction * machine.ratio());
             let reduction = &point.reduction;
-            process_power += reduction.process * omega;
+            let [viscous, coulomb] = point.working;
+            let working = (viscous * omega + coulomb * direction) * omega;
+            process_power += reduction.process * omega - working;
             carriage_power += point.carriage_power(alpha);
-            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega;
+            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega - working;
         }
         Instant {
             alpha,

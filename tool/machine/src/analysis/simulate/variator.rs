@@ -148,6 +148,8 @@ impl<'a> Plant<'a> {
             Shaft::DriveLink => (0.0, torque),
         };
         let friction = point.viscous * omega + point.coulomb * direction;
+        let [viscous, coulomb] = self.file.working(&self.file.machine, y[2])?;
+        let working = (viscous * omega + coulomb * direction) * omega;
         let behind = Behind {
             plant: self,
             inertia: point.inertia,
@@ -162,7 +164,7 @@ impl<'a> Plant<'a> {
             ratio: i,
             motor_torque: torque,
             motor_power: torque * speed,
-            process_power: point.process * omega,
+            process_power: point.process * omega - working,
             inertia: point.inertia,
             resisting: behind.resisting,
             potential: point.potential_energy,
@@ -199,7 +201,7 @@ impl<'a> Plant<'a> {
             now.contact_loss = torque * (force - j) * y[1];
         }
         let [.., train] = behind.torque(now.alpha[2]);
-        now.loss = now.contact_loss + train + friction * omega;
+        now.loss = now.contact_loss + train + friction * omega - working;
         Ok(now)
     }
 }

@@ -1,7 +1,6 @@
 //! The steady cycle: the fixed point of a turn.
 
-use std::f64::consts::TAU;
-
+use super::aim::{Ended, Held};
 use super::figures::Figures;
 use super::start::Start;
 use super::turn::{Reached, Turning};
@@ -30,31 +29,39 @@ pub struct Cycle {
     pub figures: Figures,
     /// What is left of a small deviation of the energy after a turn, as a share: below 1 the cycle is stable.
     pub left_over: f64,
-    /// |E(2π) − E(0)|/E(0).
+    /// |E(end) − E(0)|/E(0).
     pub residual: f64,
     /// The lowest speed at the start of a turn from which the machine comes to this cycle (rad/s); `None`: from every one.
     pub caught_from: Option<f64>,
     /// How it starts from rest.
     pub start: Start,
+    /// What was found for a mean speed that is prescribed.
+    pub held: Option<Held>,
 }
 
 impl Cycle {
-    /// The cycle with the highest speed, if there are several: it is the stable one.
-    pub(super) fn of(turning: &Turning, positions: usize) -> Result<Self, SteadyError> {
-        match search(turning) {
-            Ok(Found::Cycle(begin)) => Self::at(turning, begin, positions),
-            Ok(Found::Loses(from)) => Err(standstill(turning, from)?),
-            // Loads that are far too large end each motion within a tiny way.
-            Err(SteadyError::Integrator) => Err(held(turning)?.unwrap_or(SteadyError::Integrator)),
-            Err(error) => Err(error),
+    /// The cycle that was found, or why there is none.
+    pub(super) fn of(
+        turning: &Turning,
+        ended: Ended,
+        positions: usize,
+    ) -> Result<Self, SteadyError> {
+        match ended.found {
+            Found::Cycle(begin) => Self::at(turning, begin, ended.held, positions),
+            Found::Loses(from) => Err(standstill(turning, from)?),
         }
     }
 
     /// The cycle that begins with this speed.
-    pub(super) fn at(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
+    pub(super) fn at(
+        turning: &Turning,
+        begin: f64,
+        held: Option<Held>,
+        positions: usize,
+    ) -> Result<Self, SteadyError> {
         let figures = Figures::of(turning, begin, positions)?;
         figures.check_contacts(turning)?;
-        // E(2π) from a share of E(0), both as shares of the cycle's.
+        // E at the end from a share of E(0), both as shares of the cycle's.
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
@@ -63,6 +70,7 @@ impl Cycle {
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
+            held,
             figures,
         })
     }
@@ -95,11 +103,11 @@ fn speeds(turning: &Turning) -> Vec<f64> {
 pub(super) enum Found {
     /// The speed at the start of the turn (rad/s) with which it also ends.
     Cycle(f64),
-    /// At every speed a turn loses energy; this is the lowest one at which the machine still comes round.
+    /// At every speed a cycle loses energy; this is the lowest one at which the machine still comes round.
     Loses(f64),
 }
 
-/// The fixed point with the highest speed.
+/// The fixed point with the highest speed, if there are several: it is the stable one.
 fn search(turning: &Turning) -> Result<Found, SteadyError> {
     let speeds = speeds(turning);
     let mut above = None;
@@ -164,14 +172,25 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
 
 /// The fixed point near `guess`, else wherever it is.
 pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
+    // Away from a guess in steps that grow, towards the side on which energy is won or lost.
     if let Some(guess) = guess {
-        let ends = [guess / 1.1, guess * 1.1];
-        let gains = [turning.gain(ends[0])?, turning.gain(ends[1])?];
-        if gains[0] > 0.0 && gains[1] < 0.0 {
-            return between(turning, ends, gains).map(Found::Cycle);
+        let mut last = (guess, turning.gain(guess)?);
+        let wins = last.1 > 0.0;
+        for step in [1e-3, 1e-2, 0.1] {
+            let at = guess * if wins { 1.0 + step } else { 1.0 - step };
+            let next = (at, turning.gain(at)?);
+            if (next.1 > 0.0) != wins {
+                let [low, high] = if wins { [last, next] } else { [next, last] };
+                return between(turning, [low.0, high.0], [low.1, high.1]).map(Found::Cycle);
+            }
+            last = next;
         }
     }
-    search(turning)
+    match search(turning) {
+        // Loads that are far too large end each motion within a tiny way.
+        Err(SteadyError::Integrator) => Err(held_up(turning)?.unwrap_or(SteadyError::Integrator)),
+        found => found,
+    }
 }
 
 /// The lowest speed at the start of a turn from which the machine gains up to this cycle.
@@ -214,7 +233,7 @@ pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, St
 }
 
 /// What is missing at the place where the motor is the weakest at rest; `None`: it can start the machine everywhere.
-fn held(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
+fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
     let side = turning.plant.ratio().signum() * turning.direction;
     let mut worst: Option<Missing> = None;
     for (x, _) in turning.places(360) {
@@ -228,7 +247,7 @@ fn held(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
 }
 
 /// What is missing at the place where the machine stopped.
-fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
+pub(super) fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
     Ok(lacks(Missing::at(turning, x)?))
 }
 
@@ -246,7 +265,7 @@ fn lacks(missing: Missing) -> SteadyError {
 pub struct Missing {
     /// The place in words.
     pub place: String,
-    /// Position there (rad, from 0 to 2π).
+    /// Position there (rad), within the cycle.
     pub phi: f64,
     /// Motor torque at rest (N·m).
     pub given: f64,
@@ -256,7 +275,7 @@ pub struct Missing {
 
 impl Missing {
     pub(super) fn at(turning: &Turning, x: f64) -> Result<Self, SteadyError> {
-        let phi = turning.at(x).rem_euclid(TAU);
+        let phi = turning.at(x).rem_euclid(turning.span());
         let state = [phi, turning.direction * HAIR];
         let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {
