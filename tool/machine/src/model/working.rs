@@ -33,7 +33,9 @@ impl MachineFile {
     /// The mechanism cannot be placed at `phi`.
     pub fn working(&self, machine: &Machine<AnyMechanism>, phi: f64) -> Result<[f64; 2], Error> {
         let loads = machine.loads().iter().enumerate();
-        let mut loads = loads.filter(|(k, load)| self.is_working(*k, load)).peekable();
+        let mut loads = loads
+            .filter(|(k, load)| self.is_working(*k, load))
+            .peekable();
         let mut sum = [0.0; 2];
         if loads.peek().is_none() {
             return Ok(sum);

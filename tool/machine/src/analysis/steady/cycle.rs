@@ -13,6 +13,9 @@ use crate::number::rounding::short;
 const FASTEST: f64 = 1e5;
 const SLOWEST: f64 = 1e-3;
 
+/// Share of the energy below which a rise has few digits.
+const LOST: f64 = 1e-6;
+
 /// From one speed to the next one.
 const STEP: f64 = 1.25;
 
@@ -114,7 +117,7 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
     let mut best: Option<(usize, f64)> = None;
     let mut comes_round = FASTEST;
     for (k, &at) in speeds.iter().enumerate() {
-        let gain = turning.gain(at)?;
+        let gain = turning.about_gain(at)?;
         match above {
             None if gain > 0.0 => {
                 let [inertia, _] = turning.plant.inertia(turning.at(0.0))?;
@@ -162,29 +165,48 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
         });
     }
     let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
-    if rises[0] > 0.0 && rises[1] < 0.0 {
+    if rises[0] > LOST && rises[1] < -LOST {
         numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
     } else {
-        // The work of a turn is lost in the digits of the energy.
+        // The work of a cycle is lost in the digits of the energy.
         numerics::zero(|at| turning.gain(at), ends, gains, 1e-15)
     }
 }
 
+/// The stable fixed point beside a guess by the secant's method, if that ends there.
+fn secant(turning: &Turning, guess: f64) -> Result<Option<f64>, SteadyError> {
+    let mut last = (guess, turning.gain(guess)?);
+    let mut now = (guess * (1.0 + FIRST * last.1.signum()), 0.0);
+    for _ in 0..MOST_SECANTS {
+        now.1 = turning.gain(now.0)?;
+        let slope = (now.1 - last.1) / (now.0 - last.0);
+        if now.1 == 0.0 && slope < 0.0 {
+            return Ok(Some(now.0));
+        }
+        let step = -now.1 / slope;
+        if !(slope < 0.0 && step.abs() < MOST_AWAY * guess) {
+            return Ok(None);
+        }
+        last = now;
+        now.0 += step;
+        if step.abs() <= 1e-15 * guess {
+            return Ok(Some(now.0));
+        }
+    }
+    Ok(None)
+}
+
+/// First step away from a guess, the most steps, and the furthest one, as shares of it.
+const FIRST: f64 = 1e-5;
+const MOST_SECANTS: u32 = 10;
+const MOST_AWAY: f64 = 0.1;
+
 /// The fixed point near `guess`, else wherever it is.
 pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
-    // Away from a guess in steps that grow, towards the side on which energy is won or lost.
-    if let Some(guess) = guess {
-        let mut last = (guess, turning.gain(guess)?);
-        let wins = last.1 > 0.0;
-        for step in [1e-3, 1e-2, 0.1] {
-            let at = guess * if wins { 1.0 + step } else { 1.0 - step };
-            let next = (at, turning.gain(at)?);
-            if (next.1 > 0.0) != wins {
-                let [low, high] = if wins { [last, next] } else { [next, last] };
-                return between(turning, [low.0, high.0], [low.1, high.1]).map(Found::Cycle);
-            }
-            last = next;
-        }
+    if let Some(guess) = guess
+        && let Some(begin) = secant(turning, guess)?
+    {
+        return Ok(Found::Cycle(begin));
     }
     match search(turning) {
         // Loads that are far too large end each motion within a tiny way.
@@ -198,17 +220,16 @@ fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError
     let mut gains = begin;
     while gains > 1e-3 * begin {
         let next = gains / STEP;
-        if turning.gain(next)? <= 0.0 {
-            let (mut low, mut high) = (next, gains);
-            while high - low > 1e-7 * high {
-                let middle = low.midpoint(high);
-                if turning.gain(middle)? > 0.0 {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
+        let lost = turning.about_gain(next)?;
+        if lost <= 0.0 {
+            let ends = [next, gains];
+            let values = [lost, turning.about_gain(gains)?];
+            // The cycle itself neither gains nor loses.
+            if values[1] <= 0.0 {
+                return Ok(Some(gains));
             }
-            return Ok(Some(high));
+            let found = numerics::zero(|at| turning.about_gain(at), ends, values, 1e-7)?;
+            return Ok(Some(found));
         }
         gains = next;
     }

@@ -308,7 +308,7 @@ impl Classical {
             Ok(plant.resisting(&turning.moment(), state)? * turning.direction)
         };
         let places = turning.places(720);
-        let size = turning.effort(speed);
+        let size = turning.largest(&places, speed, asked)?;
         let work = |from: f64, to: f64| numerics::integral(asked, [from, to], 1, 1e-12 * size);
         let mut works = vec![0.0];
         for pair in places.windows(2) {

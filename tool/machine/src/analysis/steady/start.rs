@@ -72,7 +72,8 @@ impl Start {
         let cycles = MOST_TURNS / cycle.turns;
         for turn in 0..cycles {
             for (to, z) in &places {
-                match turning.advance(y, [x, *to], cycle.fastest[0])? {
+                let speed = cycle.fastest[0];
+                match turning.advance_by(turn::ROUGH, y, [x, *to], speed, &mut |_, _| ())? {
                     Reached::End(end) => y = end,
                     Reached::Stopped(at) => {
                         return Ok(Self::Stuck {

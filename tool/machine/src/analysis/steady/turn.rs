@@ -19,10 +19,19 @@ use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
 pub(super) type State = [f64; 7];
 
 /// The accuracy of each step. Steps beyond these many are those of a machine that follows its motor at once.
-const ACCURACY: Accuracy = Accuracy {
+pub(super) const FINE: Accuracy = Accuracy {
     tolerance: 1e-14,
     most_steps: 200_000,
 };
+
+/// That of a question of yes or no, or of a figure to some digits.
+pub(super) const ROUGH: Accuracy = Accuracy {
+    tolerance: 1e-9,
+    ..FINE
+};
+
+/// Share of the works of a cycle below which what is won is asked again with more accuracy.
+const CLOSE: f64 = 1e-6;
 
 /// Below this share of z at full speed, a three-thousandth of the speed, the drive link has stopped.
 pub(super) const STOPPED: f64 = 1e-7;
@@ -153,11 +162,12 @@ impl<'a> Turning<'a> {
         [from, to]: [f64; 2],
         speed: f64,
     ) -> Result<Reached, SteadyError> {
-        self.advance_by(y, [from, to], speed, &mut |_, _| ())
+        self.advance_by(FINE, y, [from, to], speed, &mut |_, _| ())
     }
 
-    fn advance_by(
+    pub(super) fn advance_by(
         &self,
+        accuracy: Accuracy,
         y: State,
         [from, to]: [f64; 2],
         speed: f64,
@@ -167,7 +177,7 @@ impl<'a> Turning<'a> {
         let mut x = from;
         let edges = self.edges.iter().copied();
         for next in edges.filter(|e| *e > from && *e < to).chain([to]) {
-            match self.smooth(y, [x, next], speed, seen)? {
+            match self.smooth(accuracy, y, [x, next], speed, seen)? {
                 Reached::End(end) => y = end,
                 stopped @ Reached::Stopped(_) => return Ok(stopped),
             }
@@ -179,6 +189,7 @@ impl<'a> Turning<'a> {
     /// From one place to the next one, between which nothing jumps; `seen` is shown each step's end.
     fn smooth(
         &self,
+        accuracy: Accuracy,
         y: State,
         [from, to]: [f64; 2],
         speed: f64,
@@ -219,7 +230,7 @@ impl<'a> Turning<'a> {
             self.plant.bends_under(&self.moment(), link, torque)
         };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = ACCURACY.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
         let steps = steps.map_err(|why| match why {
             Stopped::Function(error) => SteadyError::Machine(error),
             Stopped::TooManySteps { .. } | Stopped::StepTooSmall { .. } => SteadyError::Integrator,
@@ -247,7 +258,7 @@ impl<'a> Turning<'a> {
     pub(super) fn course(&self, speed: f64) -> Result<(Reached, Vec<(f64, State)>), SteadyError> {
         let mut course = vec![(0.0, starting(speed))];
         let ends = [0.0, self.span()];
-        let reached = self.advance_by(starting(speed), ends, speed, &mut |x, y| {
+        let reached = self.advance_by(FINE, starting(speed), ends, speed, &mut |x, y| {
             course.push((x, *y));
         })?;
         Ok((reached, course))
@@ -260,12 +271,27 @@ impl<'a> Turning<'a> {
             let state = [self.at(x), self.direction * speed];
             self.plant.keeping(&self.moment(), state)
         };
-        let size = self.effort(speed);
+        let places = self.places(90);
+        let size = self.largest(&places, speed, |x| Ok(needed(x)?))?;
         let mut work = 0.0;
-        for pair in self.places(90).windows(2) {
+        for pair in places.windows(2) {
             work += numerics::integral(needed, [pair[0].0, pair[1].0], 1, 1e-9 * size)?;
         }
         Ok(work / self.span() * self.sense())
+    }
+
+    /// What an integral of a torque over these places is measured by: what is turned over, or what the links exchange at this speed.
+    pub(super) fn largest(
+        &self,
+        places: &[(f64, bool)],
+        speed: f64,
+        torque: impl Fn(f64) -> Result<f64, SteadyError>,
+    ) -> Result<f64, SteadyError> {
+        let mut most = self.effort(speed);
+        for (x, _) in places {
+            most = most.max(torque(*x)?.abs());
+        }
+        Ok(most)
     }
 
     /// The sign of a motor torque that drives.
@@ -284,16 +310,34 @@ impl<'a> Turning<'a> {
     /// Energy won in a cycle from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive
     /// link stops. What is rounding is 0.
     pub(super) fn gain(&self, speed: f64) -> Result<f64, SteadyError> {
-        let Reached::End([_, _, motor, process, losses, ..]) = self.turn(speed)? else {
-            return Ok(-1.0);
+        Ok(self.gain_by(FINE, speed)?[0])
+    }
+
+    /// The same with its sign for certain, and some digits.
+    pub(super) fn about_gain(&self, speed: f64) -> Result<f64, SteadyError> {
+        let [gain, works] = self.gain_by(ROUGH, speed)?;
+        if gain.abs() > CLOSE * works {
+            Ok(gain)
+        } else {
+            self.gain(speed)
+        }
+    }
+
+    /// With the sum of the works by magnitude, as the same share.
+    fn gain_by(&self, accuracy: Accuracy, speed: f64) -> Result<[f64; 2], SteadyError> {
+        let ends = [0.0, self.span()];
+        let reached = self.advance_by(accuracy, starting(speed), ends, speed, &mut |_, _| ())?;
+        let Reached::End([_, _, motor, process, losses, ..]) = reached else {
+            return Ok([-1.0, 0.0]);
         };
         let [inertia, before] = self.plant.inertia(self.at(0.0))?;
         let [_, after] = self.plant.inertia(self.at(self.span()))?;
         let won = motor + process - losses - (after - before);
         // Rounding of the sums.
-        let noise = 1e-14 * (motor.abs() + process.abs() + losses.abs() + self.effort(speed));
-        let won = if won.abs() <= noise { 0.0 } else { won };
-        Ok(won / (0.5 * inertia * speed * speed))
+        let works = motor.abs() + process.abs() + losses.abs() + self.effort(speed);
+        let won = if won.abs() <= 1e-14 * works { 0.0 } else { won };
+        let energy = 0.5 * inertia * speed * speed;
+        Ok([won, works].map(|work| work / energy))
     }
 }
 
