@@ -1,6 +1,7 @@
 //! Steady cycles and flywheels against closed forms, simulations and a search by hand.
 
 mod flywheel;
+mod process;
 mod refusals;
 mod simulated;
 mod together;
