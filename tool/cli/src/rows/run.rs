@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::store;
 use crate::busy;
+use crate::output;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
@@ -92,7 +93,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         Some(path) => Some(Box::new(store::begin(path, &front)?)),
         None if form == RowFormat::Table => None,
         None => {
-            let mut out = std::io::stdout();
+            let mut out = output::stdout()?;
             let _ = out.write_all(front.as_bytes());
             Some(Box::new(out))
         }

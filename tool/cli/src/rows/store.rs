@@ -98,23 +98,24 @@ pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> R
 /// A file that exists or cannot be written.
 pub fn begin(path: &Path, lines: &str) -> Result<File> {
     let device = path.metadata().is_ok_and(|old| !old.is_file());
-    let mut file = OpenOptions::new()
-        .write(true)
-        .create_new(!device)
-        .open(path)
-        .map_err(|error| match error.kind() {
-            std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
-                help = "name the file itself, or remove the link",
-                "{} is a symbolic link that leads nowhere: no file begins behind it",
-                plain::path(path)
-            ),
-            std::io::ErrorKind::AlreadyExists => miette!(
-                help = "continue it with --resume, or choose another file",
-                "{} already exists: not overwritten",
-                plain::path(path)
-            ),
-            _ => output::failed(path, &error),
-        })?;
+    let file = if device {
+        output::patiently(path, output::PATIENCE)
+    } else {
+        OpenOptions::new().write(true).create_new(true).open(path)
+    };
+    let mut file = file.map_err(|error| match error.kind() {
+        std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
+            help = "name the file itself, or remove the link",
+            "{} is a symbolic link that leads nowhere: no file begins behind it",
+            plain::path(path)
+        ),
+        std::io::ErrorKind::AlreadyExists => miette!(
+            help = "continue it with --resume, or choose another file",
+            "{} already exists: not overwritten",
+            plain::path(path)
+        ),
+        _ => output::failed(path, &error),
+    })?;
     file.write_all(lines.as_bytes())
         .map_err(|error| output::failed(path, &error))?;
     Ok(file)
