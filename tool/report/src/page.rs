@@ -36,7 +36,7 @@ use section::MotionPage;
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, retime_page, steady_page};
 
-/// Most ranked drives that the page lists.
+/// Most motors that the page lists, each with its first gearbox and amplifier.
 const LISTED: usize = 25;
 
 /// Most refused drives that the page lists.
@@ -151,13 +151,14 @@ impl Page {
         };
         let mean_speed = duty.integral(|i| i.omega.abs()) / duty.duration;
         let (checked, open) = split_checks(best);
+        let fit = ranked(selection);
         let all_count = selection.fit.len() + selection.refused.len();
         Ok(Self {
             title: file.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
             file: name.to_owned(),
             found,
-            answer: notes::answer(best, found),
+            answer: notes::answer(best, selection),
             cards: cards(best, duty, words),
             drive: best.drive.name(),
             checks: checked,
@@ -205,8 +206,8 @@ impl Page {
             ),
             fit_count: selection.fit.len(),
             all_count,
-            fit: ranked(selection),
-            fit_more: selection.fit.len().saturating_sub(LISTED),
+            fit_more: selection.fit.len() - fit.len(),
+            fit,
             ranking: selection.ranking(words),
             smaller: listing::smaller(selection),
             classes: selection
@@ -231,7 +232,14 @@ impl Page {
 }
 
 fn ranked(selection: &Selection) -> Vec<FitRow> {
-    let listed = listing::ranked(selection, LISTED).into_iter();
+    let list = listing::List {
+        top: LISTED,
+        nearest: 0,
+        refused: false,
+        all: false,
+        all_gearboxes: false,
+    };
+    let listed = list.ranked(selection).into_iter();
     listed
         .map(|(rank, candidate)| FitRow::of(rank, &selection.judged(&candidate)))
         .collect()

@@ -4,9 +4,13 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::rounding::{rounded, short};
 use jred_sizing::judge::Judged;
+use jred_sizing::select::size::Selection;
+
+use crate::list::listing::violations;
 
 /// The answer in HTML: the one piece of the page that is put together by hand.
-pub(super) fn answer(best: &Judged, found: bool) -> String {
+pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
+    let all = selection.fit.len() + selection.refused.len();
     let motor = best.drive.motor;
     let gearbox = best
         .drive
@@ -18,14 +22,24 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
     let amplifier = amplifier.map_or(String::new(), |a| format!(" on {} {}", a.maker, a.model));
     let drive = format!("{} {} {gearbox}{amplifier}", motor.maker, motor.model);
     let drive = escape(&drive);
-    if found {
+    let resistor = best.resistor.map_or_else(String::new, |r| {
+        format!(
+            "<br>Brake resistor: {}, the smallest of the catalogue that fits.",
+            escape(&format!("{} {} ({})", r.maker, r.model, r.key))
+        )
+    });
+    if !selection.fit.is_empty() {
         let named = |verdict: Verdict| {
             let checks = best.checks.iter().filter(|c| c.verdict == verdict);
             let names: Vec<&str> = checks.map(|c| c.rule).collect();
             names.join(", ")
         };
-        let mut answer =
-            format!("<b>{drive}</b><br>is the best drive in the catalogue that violates no rule.");
+        let mut answer = match all {
+            1 => format!("<b>{drive}</b><br>violates no rule.{resistor}"),
+            _ => format!(
+                "<b>{drive}</b><br>violates no rule and is the first of the {all} drives that were compared.{resistor}"
+            ),
+        };
         for (what, names) in [
             ("Warning", named(Verdict::Warn)),
             ("Not checked, data missing", named(Verdict::NotChecked)),
@@ -37,8 +51,16 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
         answer
     } else {
         let reasons = escape(&best.reasons());
+        if all == 1 {
+            return format!("<b>{drive}</b><br>violates a rule: {reasons}.");
+        }
+        let lines = violations(selection);
+        let lines = lines
+            .iter()
+            .map(|line| format!("<br>{}", escape(line.trim())));
         format!(
-            "<b>No drive in the catalogue satisfies every rule.</b><br>{drive} comes closest: {reasons}."
+            "<b>None of the {all} drives satisfies every rule.</b><br>{drive} comes closest: {reasons}.<br>Violated:{}",
+            lines.collect::<String>()
         )
     }
 }

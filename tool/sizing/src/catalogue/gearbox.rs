@@ -51,6 +51,13 @@ pub struct Gearbox {
     pub source: String,
 }
 
+impl Gearbox {
+    /// Its size: the rated output torque, else the acceleration torque (N·m).
+    pub fn size(&self) -> Option<f64> {
+        self.rated_torque.or(self.peak_torque)
+    }
+}
+
 impl Default for Gearbox {
     /// A plain shaft: ratio 1, no inertia, no losses, no limits.
     fn default() -> Self {

@@ -185,6 +185,11 @@ impl Remedy {
         O: Fn(f64) -> Option<State>,
     {
         let mut grid = lever.grid();
+        if !judge.holds(now) {
+            let [least, most] = lever.choices(now);
+            grid.retain(|value| (least..=most).contains(value));
+            grid.extend([least, most]);
+        }
         grid.push(now);
         grid.sort_by(f64::total_cmp);
         grid.dedup();

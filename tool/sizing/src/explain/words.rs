@@ -45,15 +45,16 @@ impl Remedy {
                 format!("{name} {now}: may be {range}")
             };
         }
+        let [least, most] = self.lever.choices(self.now).map(shown);
         let Some(best) = &self.best else {
-            return format!("{name} {now}: no value helps");
+            return format!("{name} {now}: no value from {least} to {most} helps");
         };
         let rule = best.rule.map_or("a rule", |rule| rule.named(words));
         let used = self.best_use.map_or(String::new(), |used| {
             format!(" at {} of its limit", percent(used))
         });
         format!(
-            "{name} {now}: no value helps; at {}, the best, {rule} is still violated{used}",
+            "{name} {now}: no value from {least} to {most} helps; at {}, the best, {rule} is still violated{used}",
             shown(best.value)
         )
     }

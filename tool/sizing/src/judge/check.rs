@@ -23,7 +23,7 @@ pub struct Check {
     /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
     #[serde(skip)]
     pub used: f64,
-    /// Margin as a share of the limit; `None` if there is no limit.
+    /// Margin as a share of the limit; `None` if there is no limit, or if the rule only asks yes or no.
     pub margin: Option<f64>,
     /// Verdict.
     pub verdict: Verdict,
@@ -84,7 +84,7 @@ impl Check {
             note += ", ";
             note += &place;
         }
-        let margin = bound.is_some() && used.is_finite();
+        let margin = bound.is_some() && used.is_finite() && !rule.is_yes_or_no();
         Self {
             rule: rule.name(),
             id: rule,
@@ -126,7 +126,7 @@ impl Check {
     /// Use of the limit as text.
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
-            _ if self.limit.is_none() => String::new(),
+            _ if self.limit.is_none() || self.id.is_yes_or_no() => String::new(),
             percent if self.verdict == Verdict::Fail && percent > 100.0 && percent < 100.5 => {
                 "> 100 %".to_owned()
             }

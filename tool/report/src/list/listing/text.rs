@@ -1,5 +1,7 @@
 //! A selection as text.
 
+use std::fmt::Write as _;
+
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
 use super::{Asked, Explanation, List};
@@ -65,8 +67,9 @@ pub fn text(
         parts.push(asked_text(asked, selection));
     } else if let Some(best) = selection.fit.first() {
         let best = &selection.judged(best);
+        let which = if all == 1 { "Drive" } else { "Best drive" };
         parts.push(format!(
-            "Best drive: {}\n{}",
+            "{which}: {}\n{}",
             best.drive.name(),
             drive_text(best)
         ));
@@ -77,12 +80,15 @@ pub fn text(
         parts.extend(smaller(selection));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
-        parts.push(format!(
-            "None of {} satisfies every rule. The closest one: {}\n{}",
-            counted(all, "drive", "drives"),
-            nearest.drive.name(),
-            drive_text(nearest)
-        ));
+        let (name, text) = (nearest.drive.name(), drive_text(nearest));
+        parts.push(match all {
+            1 => format!("Drive: {name}, which violates a rule\n{text}"),
+            _ => format!(
+                "None of {} satisfies every rule. Violated:\n{}\n\nThe closest one: {name}\n{text}",
+                counted(all, "drive", "drives"),
+                violations(selection).join("\n"),
+            ),
+        });
     }
     if let Some(explanation) = explanation {
         parts.push(explanation.text(duty.duration));
@@ -133,6 +139,21 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     )
 }
 
+/// For each rule that is violated how many drives violate it, and the one of them that is refused by least.
+pub(crate) fn violations(selection: &Selection) -> Vec<String> {
+    let lines = selection.violations().into_iter().map(|violation| {
+        let closest = &selection.judged(&violation.closest);
+        let check = closest.checks.iter().find(|c| c.id == violation.rule);
+        format!(
+            "  by {}, of which {} misses by least: {}",
+            counted(violation.count, "drive", "drives"),
+            closest.drive.name(),
+            check.map_or_else(String::new, Check::sentence)
+        )
+    });
+    lines.collect()
+}
+
 /// How many drives violate no rule, and how certain their data are; the first drive of each certainty.
 fn counts(selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
@@ -174,6 +195,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
+        Certainty::Pairing => "whose amplifier nobody pairs with the motor (†), of known voltage",
         Certainty::Voltage => "of unknown voltage (–)",
     }
 }
@@ -185,6 +207,7 @@ const fn doubt(certainty: Certainty) -> &'static str {
         Certainty::Others => {
             "its figures are not all the makers' own; check them against the data sheets"
         }
+        Certainty::Pairing => "nobody states that this amplifier runs this motor; ask the makers",
         Certainty::Voltage => {
             "the catalogue does not state what voltage it is made for; ask the makers"
         }
@@ -260,20 +283,41 @@ fn next_smaller(selection: &Selection) -> Option<String> {
 }
 
 fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
-    let mut table = text_table(&[
+    let shown = list.ranked(selection);
+    let judged = shown.iter();
+    let judged: Vec<(usize, Judged)> = judged
+        .map(|(rank, candidate)| (*rank, selection.judged(candidate)))
+        .collect();
+    let resistors = judged.iter().any(|(_, judged)| judged.resistor.is_some());
+    let mut head = vec![
         "rank",
         "motor",
         "made for",
         "gearbox",
+        "ratio",
+        "amplifier",
         "rated [kW]",
+        "mass [kg]",
+        "price",
         "RMS used",
         "peak used",
         "speed used",
         "λ max",
-    ]);
-    let shown = list.ranked(selection);
-    for (rank, candidate) in &shown {
-        table.add_row(rank_row(*rank, &selection.judged(candidate)));
+    ];
+    if resistors {
+        head.push("brake resistor");
+    }
+    let mut table = text_table(&head);
+    for (rank, judged) in &judged {
+        let mut row = rank_row(*rank, judged).to_vec();
+        if resistors {
+            row.push(
+                judged
+                    .resistor
+                    .map_or("–".to_owned(), |r| marked(&r.key, r.from_maker)),
+            );
+        }
+        table.add_row(row);
     }
     let drives = || shown.iter().map(|(_, candidate)| candidate.drive);
     let mut remarks = String::new();
@@ -282,6 +326,21 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     }
     if drives().any(|drive| drive.motor.made_for().is_none()) {
         remarks += "\n– voltage that the motor is made for not stated in the catalogue";
+    }
+    if drives().any(|drive| !drive.is_paired()) {
+        remarks += "\n† nobody states that this amplifier runs this motor; ask the makers";
+    }
+    if resistors {
+        remarks +=
+            "\nbrake resistor: the smallest of the catalogue that fits; the price contains it";
+    }
+    let more = selection.fit.len() - shown.len();
+    if more > 0 && !list.all && !list.all_gearboxes {
+        let _ = write!(
+            remarks,
+            "\n{} more: other gearboxes and amplifiers, or larger motors; --all-gearboxes lists every gearbox, --top N more motors",
+            counted(more, "drive that fits", "drives that fit")
+        );
     }
     format!("{table}\nranked: {}{remarks}", selection.ranking(words))
 }
@@ -383,7 +442,12 @@ pub(crate) fn margin(check: &Check) -> String {
     }
 }
 
-fn rank_row(rank: usize, judged: &Judged) -> [String; 9] {
+/// A figure of the catalogue, or a dash where it has none.
+pub(crate) fn figure(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), short)
+}
+
+fn rank_row(rank: usize, judged: &Judged) -> [String; 13] {
     let drive = &judged.drive;
     let power = judged.rated_power();
     [
@@ -393,7 +457,14 @@ fn rank_row(rank: usize, judged: &Judged) -> [String; 9] {
         drive
             .gearbox
             .map_or("direct".to_owned(), |g| marked(&g.key, g.from_maker)),
+        rounded(drive.ratio()),
+        drive.amplifier.map_or("–".to_owned(), |a| {
+            let mark = if drive.is_paired() { "" } else { " †" };
+            marked(&a.key, a.from_maker) + mark
+        }),
         power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
+        figure(drive.mass()),
+        figure(judged.price()),
         judged.used(Rule::RmsTorque),
         judged.used(Rule::PeakTorque),
         judged.used(Rule::Speed),
