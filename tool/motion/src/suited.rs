@@ -186,11 +186,7 @@ impl<'a> Judging<'a> {
             drives.filter(|(id, _)| wanted.contains(id)).collect();
         let with_order = fit.iter().filter_map(|candidate| {
             let drive = tried.get(&candidate.id())?;
-            Some((
-                candidate.id(),
-                *drive,
-                Order::of(candidate).on(*drive),
-            ))
+            Some((candidate.id(), *drive, Order::of(candidate).on(*drive)))
         });
         First {
             fit: with_order.collect(),

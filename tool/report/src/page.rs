@@ -11,7 +11,7 @@ use crate::list::listing::{self, Explanation};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{rounded, short};
+use jred_machine::number::rounding::{cleared, rounded, short, shown};
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
@@ -202,7 +202,10 @@ impl Page {
                 "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
                  most the latter.",
                 rounded(best.duty.motoring_energy),
-                rounded(best.duty.regenerative_energy)
+                rounded(cleared(
+                    best.duty.regenerative_energy,
+                    best.duty.motoring_energy
+                ))
             ),
             fit_count: selection.fit.len(),
             all_count,
@@ -294,7 +297,10 @@ fn cards(
         ),
         card(
             "regenerative energy".to_owned(),
-            format!("{} J per cycle", short(motor.regenerative_energy)),
+            format!(
+                "{} J per cycle",
+                shown(motor.regenerative_energy, motor.motoring_energy)
+            ),
         ),
     ]
 }

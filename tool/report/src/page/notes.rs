@@ -2,7 +2,7 @@
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::{rounded, short};
+use jred_machine::number::rounding::{cleared, rounded, shown};
 use jred_sizing::judge::Judged;
 use jred_sizing::select::size::Selection;
 
@@ -76,13 +76,23 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let work = duty.integral(|i| i.terms.total() * i.omega);
     let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
     let potential = duty.integral(|i| i.terms.potential * i.omega);
+    let moved = duty.integral(|i| {
+        let terms = &i.terms;
+        let parts = [
+            terms.acceleration,
+            terms.velocity,
+            terms.potential,
+            terms.process,
+        ];
+        parts.iter().map(|part| part.abs()).sum::<f64>() * i.omega.abs()
+    });
     let mut notes = vec![
         format!(
             "Self-check over the cycle: work at the drive link {} J, of which {} J into kinetic energy and {} J into \
              potential energy (zero for a closed cycle, unless a payload varies with the position).",
-            rounded(work),
-            short(kinetic),
-            short(potential)
+            rounded(cleared(work, moved)),
+            shown(kinetic, moved),
+            shown(potential, moved)
         ),
         "Losses: an efficiency divides the torque where power flows to the machine and multiplies it where power flows \
          back."

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::judge::Words;
 use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::number::rounding::{short, told_apart};
+use jred_machine::number::rounding::{cleared, short, told_apart};
 
 /// A rule with its value, limit and verdict.
 #[derive(Clone, Debug, Serialize)]
@@ -92,7 +92,10 @@ impl Check {
             limit: bound.map(shown),
             unit,
             used,
-            margin: margin.then_some(1.0 - used),
+            margin: margin.then_some(match verdict {
+                Verdict::Fail => 1.0 - used,
+                _ => cleared(1.0 - used, 1.0),
+            }),
             verdict,
             note,
             source: rules.source(rule).to_owned(),

@@ -286,10 +286,12 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     if let Some(need) = need.or_else(|| Need::of(&data, &curve).filter(|_| rises)) {
         words += ", ";
         words += &need.words();
-        if !context.resistors.is_empty() {
-            words += "; ";
-            words += &need.misses(context.resistors);
-        }
+        words += "; ";
+        words += &if context.resistors.is_empty() {
+            "neither [supply] nor the catalogue has one".to_owned()
+        } else {
+            need.misses(context.resistors)
+        };
     } else if data.chopper_voltage.is_none() && finding.value > finding.rating {
         words += "; no data for the voltage at which a brake resistor switches on, chopper_voltage of the amplifier or of [supply], so that none can be chosen";
     }

@@ -95,7 +95,11 @@ impl Record for Tally<'_> {
         if fails {
             outcome.violated.add(rule);
         }
-        let used = self.rules.use_of_limit(rule, finding);
+        let mut used = self.rules.use_of_limit(rule, finding);
+        // What a brake resistor mends is nearer than anything that another motor or gearbox must mend.
+        if fails && rule == Rule::BusVoltage {
+            used = 1.0;
+        }
         // No change of machine or motion brings a part nearer to a supply that it is not made for.
         let by_parts = rule.is_of_voltage() || rule == Rule::BrakeResistance;
         if used.is_infinite() || fails && by_parts {

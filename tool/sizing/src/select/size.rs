@@ -97,6 +97,8 @@ pub struct Violation<'c> {
     pub rule: Rule,
     /// Number of drives.
     pub count: usize,
+    /// Number of those that violate nothing else.
+    pub alone: usize,
     /// The one of them that is refused by least.
     pub closest: Candidate<'c>,
 }
@@ -294,12 +296,13 @@ impl<'c> Selection<'c> {
     pub fn violations(&self) -> Vec<Violation<'c>> {
         let all = self.first_refused(usize::MAX);
         let of = |rule: Rule| {
-            let mut violate = all.iter().filter(|c| c.outcome.violated.has(rule));
-            let closest = *violate.next()?;
+            let violate = all.iter().filter(|c| c.outcome.violated.has(rule));
+            let alone = violate.clone().filter(|c| c.outcome.violated.count() == 1);
             Some(Violation {
                 rule,
-                count: 1 + violate.count(),
-                closest,
+                count: violate.clone().count(),
+                alone: alone.count(),
+                closest: *violate.clone().next()?,
             })
         };
         let mut found: Vec<_> = Rule::ALL.into_iter().filter_map(of).collect();

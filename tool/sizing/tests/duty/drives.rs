@@ -295,8 +295,9 @@ fn ranking() {
             (
                 Certainty::of(&c.drive, &c.outcome),
                 c.drive.motor.rated_power(),
+                c.drive.motor.rated_torque,
                 c.outcome.warnings > 0,
-                c.outcome.worst_use,
+                c.drive.gearbox.map_or(Some(0.0), |g| g.rated_torque),
             )
         };
         assert!(
@@ -307,7 +308,8 @@ fn ranking() {
         );
     }
     for pair in refused.windows(2) {
-        let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
+        // With the digits of a data sheet.
+        let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use as f32);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }
 }

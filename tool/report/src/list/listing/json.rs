@@ -80,6 +80,7 @@ pub fn json<'c>(
             "rule": violation.rule.named(kind.vocabulary()),
             "id": violation.rule,
             "drives": violation.count,
+            "drives, nothing else": violation.alone,
         })
     });
     let violated: Vec<Value> = violated.collect();

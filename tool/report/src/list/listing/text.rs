@@ -12,7 +12,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
 use jred_machine::number::figures::Figures;
-use jred_machine::number::rounding::{rounded, short, significant};
+use jred_machine::number::rounding::{cleared, rounded, short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
@@ -74,7 +74,9 @@ pub fn text(
             drive_text(best)
         ));
         parts.push(String::new());
-        parts.push(counts(selection));
+        if all > 1 {
+            parts.push(counts(selection));
+        }
         parts.extend(not_checked(selection, words));
         parts.push(ranking(list, selection, words));
         parts.extend(smaller(selection));
@@ -144,11 +146,28 @@ pub(crate) fn violations(selection: &Selection) -> Vec<String> {
     let lines = selection.violations().into_iter().map(|violation| {
         let closest = &selection.judged(&violation.closest);
         let check = closest.checks.iter().find(|c| c.id == violation.rule);
+        let figures = check.map_or_else(String::new, |check| {
+            let limit = check
+                .bound()
+                .map_or_else(String::new, |b| format!(", limit {b}"));
+            // A part is missing, and the note says which.
+            let note = if check.id.is_yes_or_no() {
+                format!(" ({})", check.note)
+            } else {
+                String::new()
+            };
+            format!("{}{limit}{note}", check.figure())
+        });
+        let words = closest.drive.motor.kind.vocabulary();
+        let alone = match violation.alone {
+            0 => String::new(),
+            n => format!(", {n} by nothing else"),
+        };
         format!(
-            "  by {}, of which {} misses by least: {}",
+            "  {}: {}{alone}; the closest, {}: {figures}",
+            violation.rule.named(words),
             counted(violation.count, "drive", "drives"),
             closest.drive.name(),
-            check.map_or_else(String::new, Check::sentence)
         )
     });
     lines.collect()
@@ -338,11 +357,14 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     if more > 0 && !list.all && !list.all_gearboxes {
         let _ = write!(
             remarks,
-            "\n{} more: other gearboxes and amplifiers, or larger motors; --all-gearboxes lists every gearbox, --top N more motors",
-            counted(more, "drive that fits", "drives that fit")
+            "\n{}: other gearboxes and amplifiers, or larger motors; --all-gearboxes lists every gearbox, --top N more motors",
+            counted(more, "more drive fits", "more drives fit")
         );
     }
-    format!("{table}\nranked: {}{remarks}", selection.ranking(words))
+    if selection.fit.len() + selection.refused.len() > 1 {
+        remarks = format!("\nranked: {}{remarks}", selection.ranking(words));
+    }
+    format!("{table}{remarks}")
 }
 
 /// A key of the catalogue, marked if its figures are not from the maker's own document.
@@ -386,7 +408,7 @@ fn drive_text(judged: &Judged) -> String {
     format!(
         "{figures}\nper cycle: {} J supplied, {} J regenerated\n\n{}",
         rounded(duty.motoring_energy),
-        rounded(duty.regenerative_energy),
+        rounded(cleared(duty.regenerative_energy, duty.motoring_energy)),
         rules_table(judged)
     )
 }
