@@ -30,7 +30,7 @@ mod thinned;
 
 use chart::Chart;
 use drive::{Subject, TOP};
-use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
+use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, NO_PART, ShareRow};
 use section::MotionPage;
 
 pub use mechanism::mechanism_page;
@@ -90,6 +90,8 @@ struct Page {
     fit_count: usize,
     all_count: usize,
     fit: Vec<FitRow>,
+    /// Whether a brake resistor was chosen for one of them.
+    resistors: bool,
     fit_more: usize,
     ranking: String,
     smaller: Vec<String>,
@@ -210,6 +212,7 @@ impl Page {
             fit_count: selection.fit.len(),
             all_count,
             fit_more: selection.fit.len() - fit.len(),
+            resistors: fit.iter().any(|row| row.resistor != NO_PART),
             fit,
             ranking: selection.ranking(words),
             smaller: listing::smaller(selection),

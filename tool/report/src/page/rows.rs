@@ -53,6 +53,9 @@ impl CheckRow {
     }
 }
 
+/// In the place of a part that a drive does not have.
+pub(super) const NO_PART: &str = "–";
+
 /// A ranked drive.
 pub(super) struct FitRow {
     pub(super) rank: usize,
@@ -102,10 +105,10 @@ impl FitRow {
             ratio: rounded(drive.ratio()),
             amplifier: drive
                 .amplifier
-                .map_or("–".into(), |a| format!("{} {}", a.maker, a.model)),
+                .map_or(NO_PART.into(), |a| format!("{} {}", a.maker, a.model)),
             resistor: judged
                 .resistor
-                .map_or("–".into(), |r| format!("{} {}", r.maker, r.model)),
+                .map_or(NO_PART.into(), |r| format!("{} {}", r.maker, r.model)),
             mass: figure(drive.mass()),
             price: figure(judged.price()),
             power: power.map_or("–".to_owned(), |p| {

@@ -189,8 +189,8 @@ impl Breakdown {
         };
         let total = share(&format!("motor {}", words.torque), &whole);
         let cleared = |share: Share| share.cleared(&total, stored);
-        let (effects, parts) = (effects.map(cleared), parts.map(cleared));
-        let (effects, parts) = (effects.filter(acts).collect(), parts.filter(acts).collect());
+        let effects = effects.filter(acts).map(cleared).collect();
+        let parts = parts.filter(acts).map(cleared).collect();
         let inertias = contributions.inertias.iter();
         let inertias = inertias.map(|(name, values)| inertia(name, values));
         Self {

@@ -160,7 +160,7 @@ fn fed<'a>(context: &Context<'a>) -> Fed<'a> {
         chosen: None,
         need: None,
     };
-    let free = data.resistor.is_none() && !data.regenerative;
+    let free = data.resistor.is_none() && !data.regenerative && data.chopper_voltage.is_some();
     if !free || context.resistors.is_empty() || !context.cycle.regenerates(&context.coefficients) {
         return fed;
     }
