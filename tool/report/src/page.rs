@@ -216,9 +216,8 @@ impl Page {
             fit,
             ranking: selection.ranking(words),
             smaller: listing::smaller(selection),
-            classes: selection
-                .classes()
-                .iter()
+            // Of one drive there is nothing to compare.
+            classes: (selection.classes().iter().filter(|_| all_count > 1))
                 .map(listing::class_text)
                 .collect(),
             warnings: Vec::new(),

@@ -120,11 +120,11 @@ pub struct Remedy {
 pub struct Miss {
     /// The rule.
     pub rule: Rule,
-    /// The share of its limit that is used; `None`: the limit is zero there.
+    /// The share of its limit that is used; `None`: the limit is zero there, or the rule only asks yes or no.
     pub used: Option<f64>,
     /// The limit as a share of the rating.
     pub limit: f64,
-    /// The limit that the drive would satisfy; `None`: no limit would be sufficient.
+    /// The limit that the drive would satisfy; `None`: no limit would be sufficient, or the rule only asks yes or no.
     pub needed: Option<f64>,
 }
 
@@ -261,13 +261,13 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let mut misses: Vec<Miss> = broken
         .filter_map(|(rule, finding)| {
             let limit = rules.limit(rule).fail?;
-            let used = Some(rules.use_of_limit(rule, finding)).filter(|used| used.is_finite());
-            let needed = finding.value / finding.rating;
+            // Another limit would make no part fit for a supply that it is not made for.
+            let share = |x: f64| Some(x).filter(|x| x.is_finite() && !rule.is_yes_or_no());
             Some(Miss {
                 rule,
-                used,
+                used: share(rules.use_of_limit(rule, finding)),
                 limit,
-                needed: Some(needed).filter(|needed| needed.is_finite()),
+                needed: share(finding.value / finding.rating),
             })
         })
         .collect();

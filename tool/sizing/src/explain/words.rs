@@ -72,6 +72,7 @@ impl Miss {
                     percent(used)
                 )
             }
+            _ if self.rule.is_yes_or_no() => format!("{name} is beyond its limit"),
             _ => format!("{name} is required, but there is none"),
         }
     }
