@@ -191,6 +191,7 @@ jred_machine::words! {
 #[command(
     after_help = "Exit codes: 0 a drive satisfies every rule; 1 no drive in the catalogue does; 2 bad input."
 )]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,

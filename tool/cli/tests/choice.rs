@@ -148,20 +148,18 @@ fn what_is_zero_is_zero_for_programs() {
     for machine in ["lift.toml", "screw.toml", "knife.toml", "table.toml"] {
         let json = with_catalogue("size", machine, &["--explain", "--format", "json"]).json();
         let mut small = Vec::new();
-        collect(&json, String::new(), &mut small);
+        collect(&json, "", &mut small);
         assert!(small.is_empty(), "{machine}: {small:?}");
     }
 }
 
 /// Numbers so close to zero that they are rounding: every figure of these machines is of the order of one in SI.
-fn collect(value: &Value, place: String, found: &mut Vec<String>) {
+fn collect(value: &Value, place: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(map) => map
             .iter()
-            .for_each(|(key, value)| collect(value, format!("{place}/{key}"), found)),
-        Value::Array(all) => all
-            .iter()
-            .for_each(|value| collect(value, place.clone(), found)),
+            .for_each(|(key, value)| collect(value, &format!("{place}/{key}"), found)),
+        Value::Array(all) => all.iter().for_each(|value| collect(value, place, found)),
         Value::Number(number) => {
             let number = number.as_f64().unwrap();
             if number != 0.0 && number.abs() < 1e-10 {

@@ -28,7 +28,8 @@ pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
             escape(&format!("{} {} ({})", r.maker, r.model, r.key))
         )
     });
-    if !selection.fit.is_empty() {
+    let found = !selection.fit.is_empty();
+    if found {
         let named = |verdict: Verdict| {
             let checks = best.checks.iter().filter(|c| c.verdict == verdict);
             let names: Vec<&str> = checks.map(|c| c.rule).collect();

@@ -10,6 +10,9 @@ use jred_machine::model::supply::BrakeResistor;
 use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 
+/// What a resistor may miss, and whether it does.
+type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
+
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Need {
@@ -113,7 +116,6 @@ impl Need {
     /// Why no resistor of a catalogue meets these requirements: how many miss each of them.
     pub fn misses(&self, resistors: &[Resistor]) -> String {
         let least = self.smallest_resistance.unwrap_or(0.0);
-        type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
         let reasons: [Misses; 6] = [
             (
                 "too small a resistance",

@@ -47,7 +47,7 @@ fn one_part_in_two_rows() {
     let motors = format!(
         "{MOTOR}m2,MAKER,model-1,8.5,2000,36,8.5,Sheet\nm3,Other,Model 1,9,2000,36,8.5,Sheet\n"
     );
-    let header = TP050.split_inclusive("\n").next().unwrap();
+    let header = TP050.split_inclusive('\n').next().unwrap();
     let found = warnings(
         &(header.to_owned() + "g,G,G,3,50,90,6000,1,97,,S\n"),
         &motors,

@@ -12,6 +12,7 @@ use jred_machine::model::supply::BrakeResistor;
 use jred_machine::read;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Context, Judged};
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::select::rank::{Objective, rank};
@@ -104,9 +105,12 @@ fn buyer(a: &(Keys, bool), b: &(Keys, bool)) -> Ordering {
         ]
     };
     // Sums of decimal figures that differ in their last digit only are equal.
-    let near = |x: f64, y: f64| match (x - y).abs() <= 1e-9 * x.abs() {
-        true => Ordering::Equal,
-        false => x.total_cmp(&y),
+    let near = |x: f64, y: f64| {
+        if (x - y).abs() <= 1e-9 * x.abs() {
+            Ordering::Equal
+        } else {
+            x.total_cmp(&y)
+        }
     };
     let pairs = figures(a).into_iter().zip(figures(b));
     let order = pairs.map(|(x, y)| near(x, y));
@@ -344,9 +348,7 @@ fn what_the_parts_are_made_for_is_no_margin() {
         let margins = checks
             .iter()
             .filter(|check| file.rules.limit(check.id).fail.is_some());
-        let least = margins
-            .filter_map(|check| check.margin())
-            .fold(1.0, f64::min);
+        let least = margins.filter_map(Check::margin).fold(1.0, f64::min);
         let margin = Objective::Margin.value(&selection, candidate).unwrap();
         assert!((margin - least).abs() < 1e-12, "{margin} {least}");
     }

@@ -26,11 +26,11 @@ pub struct Notes<'a> {
 
 /// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
 /// all drives of a catalogue is many times larger than they are.
-pub fn json<'c>(
+pub fn json(
     list: List,
     file: &MachineFile,
     duty: &Duty,
-    selection: &'c Selection,
+    selection: &Selection,
     notes: &Notes,
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
@@ -70,20 +70,6 @@ pub fn json<'c>(
             "cure": cure(gap.rule),
         })
     });
-    // Where a drive fits, nobody asks, and it would mean judging all drives in full.
-    let violations = match selection.fit.first() {
-        Some(_) => Vec::new(),
-        None => selection.violations(),
-    };
-    let violated = violations.into_iter().map(|violation| {
-        object!({
-            "rule": violation.rule.named(kind.vocabulary()),
-            "id": violation.rule,
-            "drives": violation.count,
-            "drives, nothing else": violation.alone,
-        })
-    });
-    let violated: Vec<Value> = violated.collect();
     let mut value = object!({
         "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),
@@ -107,7 +93,7 @@ pub fn json<'c>(
         },
         "certainties": classes.collect::<Vec<_>>(),
         "not checked": gaps.collect::<Vec<_>>(),
-        "violated": violated,
+        "violated": violated(selection, kind),
         "fit": Value::Null,
         "refused": Value::Null,
     });
@@ -139,6 +125,22 @@ pub fn json<'c>(
             refused.map(|candidate| drive(selection, &candidate)),
         ))
         .chain(std::iter::once(after))
+}
+
+/// What the drives are refused for. Where one fits, nobody asks, and it would mean judging all drives in full.
+fn violated(selection: &Selection, kind: MotorKind) -> Vec<Value> {
+    if !selection.fit.is_empty() {
+        return Vec::new();
+    }
+    let violations = selection.violations().into_iter().map(|violation| {
+        object!({
+            "rule": violation.rule.named(kind.vocabulary()),
+            "id": violation.rule,
+            "drives": violation.count,
+            "drives, nothing else": violation.alone,
+        })
+    });
+    violations.collect()
 }
 
 fn drive(selection: &Selection, candidate: &Candidate) -> Value {

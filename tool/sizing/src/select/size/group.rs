@@ -106,7 +106,7 @@ impl<'c> Group<'c> {
 
     /// Joins two unsorted groups.
     pub(super) fn join(&mut self, other: Self) {
-        self.survey.join(other.survey);
+        self.survey.join(&other.survey);
         for drive in other.near {
             self.put(drive);
         }

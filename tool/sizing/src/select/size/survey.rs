@@ -56,15 +56,15 @@ impl<'c> Survey<'c> {
         }
     }
 
-    pub(super) fn join(&mut self, other: Self) {
-        for (class, other) in self.classes.iter_mut().zip(other.classes) {
+    pub(super) fn join(&mut self, other: &Self) {
+        for (class, other) in self.classes.iter_mut().zip(&other.classes) {
             class.count += other.count;
             if let Some(first) = &other.first {
                 class.offer(first);
             }
         }
-        for (gap, other) in self.gaps.iter_mut().zip(other.gaps) {
-            gap.join(other);
+        for (gap, other) in self.gaps.iter_mut().zip(&other.gaps) {
+            gap.join(*other);
         }
         self.partly_checked += other.partly_checked;
     }
