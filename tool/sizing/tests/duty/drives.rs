@@ -294,7 +294,8 @@ fn ranking() {
         let key = |c: &Candidate| {
             (
                 Certainty::of(&c.drive, &c.outcome),
-                c.drive.motor.rated_power(),
+                // With the digits of a data sheet: equal powers differ in their last bit.
+                c.drive.motor.rated_power().map(|power| power as f32),
                 c.drive.motor.rated_torque,
                 c.outcome.warnings > 0,
                 c.drive.gearbox.map_or(Some(0.0), |g| g.rated_torque),
@@ -308,7 +309,6 @@ fn ranking() {
         );
     }
     for pair in refused.windows(2) {
-        // With the digits of a data sheet.
         let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use as f32);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }
