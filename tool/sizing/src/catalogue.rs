@@ -7,6 +7,7 @@
 mod amplifier;
 mod cell;
 mod column;
+mod derating;
 #[cfg(feature = "fs")]
 mod disk;
 mod drive;
@@ -28,6 +29,7 @@ mod twins;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
+pub use derating::{Basis as DeratingBasis, Derated, Derating};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};

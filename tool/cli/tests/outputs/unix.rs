@@ -86,7 +86,11 @@ fn page_of_another_user(folder: &Folder, mode: u32) -> (i32, String) {
     permit(&machine, 0o644);
     permit(&root, mode);
     let mut command = Command::new(&jred);
-    command.env("NO_COLOR", "1").arg("reduce").arg(&machine);
+    command
+        .env("NO_COLOR", "1")
+        .env("JRED_PROGRESS", "never")
+        .arg("reduce")
+        .arg(&machine);
     command.arg("--report").arg(folder.path("r.html"));
     if root.metadata().unwrap().uid() == 0 {
         command.uid(65534).gid(65534);
@@ -240,6 +244,7 @@ fn what_does_not_end_is_given_up() {
         let run = Command::new(env!("CARGO_BIN_EXE_jred"))
             .args(arguments)
             .env("NO_COLOR", "1")
+            .env("JRED_PROGRESS", "never")
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
