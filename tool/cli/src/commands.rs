@@ -148,7 +148,7 @@ fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
 /// The drive of a name in a catalogue, of which only the motors that fit the input of the machine are kept.
 fn drive_named(mut catalogue: Catalogue, name: &str, file: &MachineFile) -> Result<ChosenDrive> {
     fit_input(&mut catalogue, file)?;
-    Ok(ChosenDrive::of(&named(&catalogue, name)?.1))
+    Ok(ChosenDrive::of(&named(&catalogue, name)?.1, &catalogue))
 }
 
 /// The drive that `--drive` names, if it is given; without it a catalogue is of no use.

@@ -191,6 +191,7 @@ jred_machine::words! {
 #[command(
     after_help = "Exit codes: 0 a drive satisfies every rule; 1 no drive in the catalogue does; 2 bad input."
 )]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
@@ -203,7 +204,7 @@ pub struct Size {
     /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
     /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
-        "rank", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
+        "rank", "all_gearboxes", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
     ])]
     pub pareto: Option<Objectives>,
     /// Which drives are considered and how they are ranked.
@@ -214,7 +215,10 @@ pub struct Size {
         "pareto", "rank", "why", "maker", "motor", "gearbox", "ratio", "direct_only", "max_mass", "max_price"
     ])]
     pub drive: Option<String>,
-    /// Number of ranked drives to list; in CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
+    /// List every gearbox and amplifier of a motor instead of the first.
+    #[arg(long)]
+    pub all_gearboxes: bool,
+    /// Number of motors to list, each with its first gearbox and amplifier, or of drives with --all-gearboxes; in CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
     #[arg(long, default_value_t = 10)]
     pub top: usize,
     /// Number of refused drives to list in CSV and JSON and to explain with --explain, closest first.

@@ -91,7 +91,9 @@ fn one_when_no_drive_holds() {
         &done,
         &[
             "None of",
-            "satisfies every rule. The closest one: ",
+            "satisfies every rule. Violated:\n",
+            "  peak torque: ",
+            "\nThe closest one: ",
             "FAIL",
             "refused; --refused lists them with their reasons",
         ],
@@ -105,7 +107,7 @@ fn one_when_no_drive_holds() {
         &[
             "Closest refused drives, and what would have to change, one quantity at a time",
             "a limit of ",
-            "process loads 100 %: suitable at ",
+            "process loads 100 %: no value from 50 % to 100 % helps; at 50 %, the best",
         ],
     );
     for format in ["csv", "json"] {
@@ -260,7 +262,8 @@ fn paths_with_blanks_and_other_letters() {
 fn top_lists_that_many() {
     let press = press_file();
     let ranks = |top: &str| {
-        let out = jred([&"size", &press, &"--top", &top]).ends(0).out;
+        let out = jred([&"size", &press, &"--all-gearboxes", &"--top", &top]);
+        let out = out.ends(0).out;
         let (_, table) = out.split_once("\n rank ").unwrap();
         let (table, _) = table.split_once("\nranked:").unwrap();
         let rows = table.lines().skip(2);
@@ -281,7 +284,34 @@ fn top_lists_that_many() {
     assert_eq!(ranks("1"), 1);
     assert_eq!(ranks("7"), 7);
     let fit = jred([&"size", &press, &"--format", &"json"]).json();
-    assert_eq!(fit["fit"].as_array().unwrap().len(), 10);
+    let listed = fit["fit"].as_array().unwrap();
+    assert_eq!(listed.len(), 10);
+    // Each motor once, with the rank of its first drive among all.
+    let motors: std::collections::BTreeSet<_> =
+        listed.iter().map(|d| d["motor"].as_str()).collect();
+    assert_eq!(motors.len(), 10);
+    let all = jred([
+        &"size",
+        &press,
+        &"--all-gearboxes",
+        &"--top",
+        &"1000000",
+        &"--nearest",
+        &"0",
+        &"--format",
+        &"json",
+    ])
+    .json();
+    let all = all["fit"].as_array().unwrap();
+    assert!(
+        all.iter()
+            .zip(1..)
+            .all(|(drive, rank)| drive["rank"] == rank)
+    );
+    for line in listed {
+        let first = all.iter().find(|drive| drive["motor"] == line["motor"]);
+        assert_eq!(first, Some(line));
+    }
     assert_eq!(fit["refused"].as_array().unwrap().len(), 3);
     assert_eq!(
         ranks("1000000"),

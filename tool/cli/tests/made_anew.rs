@@ -21,7 +21,7 @@ fn the_process_of_a_machine_is_kept() {
         (
             "flying-shear",
             "2 m/s of x of drive",
-            "sgm7a-20a+tp050ma-27p5",
+            "sgm7a-20a+tp050ma-27.5",
         ),
         (
             "drawing-press",

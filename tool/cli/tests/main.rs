@@ -10,6 +10,7 @@ mod bus {
 }
 mod catalogue;
 mod check;
+mod choice;
 mod cli;
 mod drawing;
 mod envelope_commands;

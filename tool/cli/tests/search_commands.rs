@@ -51,8 +51,9 @@ fn options_of_size() {
     ])
     .ends(0);
     assert!(
-        run.out
-            .starts_with("motor,gearbox,amplifier,rated power [W],energy [J]\n"),
+        run.out.starts_with(
+            "motor,gearbox,amplifier,ratio,mass [kg],price,rated power [W],energy [J]\n"
+        ),
         "{}",
         run.out
     );
@@ -60,7 +61,7 @@ fn options_of_size() {
         .out
         .lines()
         .skip(1)
-        .map(|l| l.split(',').skip(3).map(|x| x.parse().unwrap()).collect())
+        .map(|l| l.split(',').skip(6).map(|x| x.parse().unwrap()).collect())
         .collect();
     assert!(
         !rows.is_empty()

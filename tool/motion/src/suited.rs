@@ -45,7 +45,7 @@ pub struct Tried<'c> {
     /// What its gentlest motion asks.
     pub gentlest: Figures,
     /// Its place among drives with their own motions; `None`: with its own motion it violates a rule.
-    pub order: Option<Order>,
+    pub order: Option<Order<'c>>,
     motion: Motion,
     cycle: Cycle,
 }
@@ -56,7 +56,7 @@ pub struct Suited<'c> {
     /// The drives that were tried, in their order; those that violate a rule last.
     pub tried: Vec<Tried<'c>>,
     /// The first drive with the motion of the file, and its place.
-    pub before: Option<(Drive<'c>, Order)>,
+    pub before: Option<(Drive<'c>, Order<'c>)>,
     /// What the motion of the file is made of.
     pub chain: Chain,
     /// With the motion of the first drive tried, another one that comes before it: its own motion would be worse for it.
@@ -87,7 +87,7 @@ impl<'c> Suited<'c> {
 
 /// The first drives of a motion: those that fit, and those near the border.
 struct First<'a> {
-    fit: Vec<(DriveId, Drive<'a>, Order)>,
+    fit: Vec<(DriveId, Drive<'a>, Order<'a>)>,
     tried: BTreeMap<DriveId, Drive<'a>>,
 }
 
@@ -186,7 +186,7 @@ impl<'a> Judging<'a> {
             drives.filter(|(id, _)| wanted.contains(id)).collect();
         let with_order = fit.iter().filter_map(|candidate| {
             let drive = tried.get(&candidate.id())?;
-            Some((candidate.id(), *drive, Order::of(candidate)))
+            Some((candidate.id(), *drive, Order::of(candidate).on(*drive)))
         });
         First {
             fit: with_order.collect(),
@@ -195,7 +195,7 @@ impl<'a> Judging<'a> {
     }
 
     /// The place of a drive with a motion of this cycle; `None`: it violates a rule.
-    fn order(&self, id: DriveId, drive: Drive<'a>, cycle: &Cycle) -> Option<Order> {
+    fn order(&self, id: DriveId, drive: Drive<'a>, cycle: &Cycle) -> Option<Order<'a>> {
         let Self {
             file,
             motors,
@@ -204,13 +204,14 @@ impl<'a> Judging<'a> {
         } = self;
         let alone = std::iter::once((id, drive));
         let selection = Selection::among(alone, catalogue, motors, cycle, &file.site, &file.rules);
-        selection.fit.first().map(Order::of)
+        let first = selection.fit.first()?;
+        Some(Order::of(first).on(drive))
     }
 }
 
-impl Suited<'_> {
+impl<'c> Suited<'c> {
     fn sort(&mut self) {
-        let key = |tried: &Tried| (tried.order.is_none(), tried.order);
+        let key = |tried: &Tried<'c>| (tried.order.is_none(), tried.order);
         self.tried.sort_by_key(key);
     }
 }

@@ -11,7 +11,7 @@ use crate::list::listing::{self, Explanation};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{rounded, short};
+use jred_machine::number::rounding::{cleared, rounded, short, shown};
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
@@ -30,13 +30,13 @@ mod thinned;
 
 use chart::Chart;
 use drive::{Subject, TOP};
-use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
+use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, NO_PART, ShareRow};
 use section::MotionPage;
 
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, retime_page, steady_page};
 
-/// Most ranked drives that the page lists.
+/// Most motors that the page lists, each with its first gearbox and amplifier.
 const LISTED: usize = 25;
 
 /// Most refused drives that the page lists.
@@ -90,6 +90,8 @@ struct Page {
     fit_count: usize,
     all_count: usize,
     fit: Vec<FitRow>,
+    /// Whether a brake resistor was chosen for one of them.
+    resistors: bool,
     fit_more: usize,
     ranking: String,
     smaller: Vec<String>,
@@ -151,13 +153,14 @@ impl Page {
         };
         let mean_speed = duty.integral(|i| i.omega.abs()) / duty.duration;
         let (checked, open) = split_checks(best);
+        let fit = ranked(selection);
         let all_count = selection.fit.len() + selection.refused.len();
         Ok(Self {
             title: file.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
             file: name.to_owned(),
             found,
-            answer: notes::answer(best, found),
+            answer: notes::answer(best, selection),
             cards: cards(best, duty, words),
             drive: best.drive.name(),
             checks: checked,
@@ -201,17 +204,20 @@ impl Page {
                 "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
                  most the latter.",
                 rounded(best.duty.motoring_energy),
-                rounded(best.duty.regenerative_energy)
+                rounded(cleared(
+                    best.duty.regenerative_energy,
+                    best.duty.motoring_energy
+                ))
             ),
             fit_count: selection.fit.len(),
             all_count,
-            fit: ranked(selection),
-            fit_more: selection.fit.len().saturating_sub(LISTED),
+            fit_more: selection.fit.len() - fit.len(),
+            resistors: fit.iter().any(|row| row.resistor != NO_PART),
+            fit,
             ranking: selection.ranking(words),
             smaller: listing::smaller(selection),
-            classes: selection
-                .classes()
-                .iter()
+            // Of one drive there is nothing to compare.
+            classes: (selection.classes().iter().filter(|_| all_count > 1))
                 .map(listing::class_text)
                 .collect(),
             warnings: Vec::new(),
@@ -231,7 +237,14 @@ impl Page {
 }
 
 fn ranked(selection: &Selection) -> Vec<FitRow> {
-    let listed = listing::ranked(selection, LISTED).into_iter();
+    let list = listing::List {
+        top: LISTED,
+        nearest: 0,
+        refused: false,
+        all: false,
+        all_gearboxes: false,
+    };
+    let listed = list.ranked(selection).into_iter();
     listed
         .map(|(rank, candidate)| FitRow::of(rank, &selection.judged(&candidate)))
         .collect()
@@ -286,7 +299,10 @@ fn cards(
         ),
         card(
             "regenerative energy".to_owned(),
-            format!("{} J per cycle", short(motor.regenerative_energy)),
+            format!(
+                "{} J per cycle",
+                shown(motor.regenerative_energy, motor.motoring_energy)
+            ),
         ),
     ]
 }

@@ -25,6 +25,7 @@ mod plausible;
 mod row;
 mod table;
 mod toml_table;
+mod twins;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};

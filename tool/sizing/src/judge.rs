@@ -4,7 +4,7 @@
 //! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
 //! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::UNKNOWN`].
 
-use crate::catalogue::Drive;
+use crate::catalogue::{Amplifier, Drive, Resistor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
@@ -33,6 +33,7 @@ mod voltage;
 pub use bits::RuleBits;
 pub use cure::cure;
 pub use judged::Judged;
+pub(crate) use judged::price;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
 
@@ -102,6 +103,8 @@ pub struct Context<'a> {
     pub ratio: f64,
     /// Its motor torque as a linear form.
     pub coefficients: Coefficients,
+    /// Brake resistors that one is chosen from, if the machine file gives none.
+    pub resistors: &'a [Resistor],
 }
 
 impl<'a> Context<'a> {
@@ -114,7 +117,19 @@ impl<'a> Context<'a> {
             motor: motor.on(drive.amplifier),
             ratio: drive.ratio(),
             coefficients: drive.coefficients(),
+            resistors: &[],
         }
+    }
+
+    /// The same with brake resistors to choose from.
+    #[must_use]
+    pub const fn with_resistors(self, resistors: &'a [Resistor]) -> Self {
+        Self { resistors, ..self }
+    }
+
+    /// The brake resistor that is chosen for the drive: the smallest that fits, if the bus needs one and the machine file gives none.
+    pub fn resistor(&self) -> Option<&'a Resistor> {
+        electric::chosen_resistor(self)
     }
 
     /// The same for another drive with the same motor and amplifier.
@@ -125,6 +140,14 @@ impl<'a> Context<'a> {
             coefficients: drive.coefficients(),
             ..*self
         }
+    }
+
+    /// The same in another cycle.
+    pub(crate) const fn in_cycle<'b>(&self, cycle: &'b Cycle) -> Context<'b>
+    where
+        'a: 'b,
+    {
+        Context { cycle, ..*self }
     }
 
     /// What the figures of its motor are called and shown in.
@@ -143,6 +166,14 @@ impl<'a> Context<'a> {
         }
         if self.drive.amplifier.is_some_and(|a| !a.from_maker) {
             assumptions.push("amplifier data not taken from the maker's own document; check them against the data sheet".to_owned());
+        }
+        if let Some(amplifier) = self.drive.amplifier.filter(|_| !self.drive.is_paired()) {
+            let Amplifier { key, maker, .. } = amplifier;
+            let motor = self.drive.motor;
+            assumptions.push(format!(
+                "nobody states that amplifier {key} ({maker}) runs motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
+                motor.key, motor.maker
+            ));
         }
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
             assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());

@@ -9,6 +9,7 @@ mod format;
 mod pairing;
 mod plausible;
 mod spreadsheet;
+mod twins;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,6 +2,7 @@
 // Copied figures are exact.
 #![allow(clippy::float_cmp)]
 
+mod engineer;
 mod figures;
 mod filter;
 mod obstacle;

@@ -143,6 +143,7 @@ impl Answer<'_, '_> {
             nearest: options.nearest,
             refused: options.refused,
             all: options.all,
+            all_gearboxes: options.all_gearboxes,
         };
         match options.format {
             Format::Table => {

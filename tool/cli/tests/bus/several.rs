@@ -305,7 +305,7 @@ fn drives_are_named() {
         .says(&["N=MOTOR+GEARBOX on AMPLIFIER"]);
 }
 
-/// The smallest resistor of the catalogue that bears what is needed is proposed; what is needed is that of the worst phases.
+/// The smallest resistor of the catalogue that bears what is needed is connected; what is needed is that of the worst phases.
 #[test]
 fn a_resistor_of_the_catalogue() {
     let folder = Folder::new();
@@ -325,16 +325,17 @@ fn a_resistor_of_the_catalogue() {
         "2=m",
     ];
     let files = [&file, &press_file()];
-    let text = bus(&files, &more).ends(1);
+    let text = bus(&files, &more).ends(0);
     says(
         &text,
         &[
-            "The bus requires a brake resistor of at most",
-            "; enough from the catalogue is suitable",
+            "Brake resistor: enough, the smallest of the catalogue that fits. The bus requires at most",
         ],
     );
     let answer = json(&files, &more);
     assert_eq!(answer["proposal"], "enough");
+    assert_eq!(answer["brake resistor chosen"], "enough");
+    assert_eq!(answer["holds"], Value::Bool(true));
     let need = |key: &str| figure(&answer, &["brake resistor needed", key]);
     let in_step = json(&files, &[&more[..], &["--in-step"]].concat());
     for key in ["mean [W]", "peak [W]", "pulse [J]"] {
@@ -347,6 +348,10 @@ fn a_resistor_of_the_catalogue() {
     let file = folder.file("with.toml", press_text() + &with);
     let held = json(&[&file, &press_file()], &more);
     assert_eq!(held["holds"], Value::Bool(true));
+    assert_eq!(
+        held["checks"], answer["checks"],
+        "given or chosen, it is judged alike"
+    );
     assert!(held["brake resistor needed"].is_null());
     let period = figure(&held, &["period [s]"]);
     for (key, goal, own, by) in [

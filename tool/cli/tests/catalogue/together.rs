@@ -77,7 +77,7 @@ fn every_fault_of_a_row() {
     ]);
     run.ends(2).says(&[
         "2 rows of the catalogue cannot be used, for 7 faults",
-        "unknown column \"ratios\"",
+        "unknown key \"ratios\"",
         "`rated_output_torque` in [[gearbox]] number 1 must be a torque, but \"kg\" is a mass",
         "`max_input_speed` in [[gearbox]] number 1 has no unit: 6000",
         "duplicate key \"g1\"",

@@ -78,7 +78,7 @@ fn sizes_agree_between_csv_and_json() {
     let names = rows.headers().unwrap().clone();
     assert_eq!(
         names.iter().collect::<Vec<_>>().join(","),
-        "rank,motor,gearbox,amplifier,ratio,verdict,rule,figure,limit,unit,note,certainty"
+        "rank,motor,gearbox,amplifier,ratio,verdict,rule,figure,limit,unit,note,certainty,mass [kg],price,brake resistor"
     );
     let mut records = rows.records();
     for (k, drive) in drives.enumerate() {
@@ -101,6 +101,13 @@ fn sizes_agree_between_csv_and_json() {
                 let (a, b): (f64, f64) = (cell.parse().unwrap(), value.as_f64().unwrap());
                 assert!((a - b).abs() <= 1e-15 * b.abs(), "{a} and {b}");
             };
+            for (column, key) in [(4, "ratio"), (12, "mass [kg]"), (13, "price")] {
+                match drive[key].as_f64() {
+                    Some(_) => near(&row[column], &drive[key]),
+                    None => assert_eq!(&row[column], ""),
+                }
+            }
+            assert_eq!(&row[14], drive["brake resistor"].as_str().unwrap_or(""));
             match check["value"].as_f64() {
                 Some(_) => near(&row[7], &check["value"]),
                 None => assert_eq!(&row[7], ""),

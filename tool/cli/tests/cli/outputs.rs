@@ -92,7 +92,15 @@ fn csv_begins_with_the_drive_asked_for() {
         let [motor, gearbox] = ["motor", "gearbox"].map(|key| drive[key].as_str().unwrap_or(""));
         let name = format!("{motor}+{gearbox}");
         let name = name.trim_end_matches('+').to_owned();
-        let run = size(&["--top", "3", "--format", "csv", "--why", &name]);
+        let run = size(&[
+            "--all-gearboxes",
+            "--top",
+            "3",
+            "--format",
+            "csv",
+            "--why",
+            &name,
+        ]);
         let start = format!("{rank},{motor},{gearbox},");
         let rows: Vec<&str> = run.out.lines().skip(1).collect();
         let own = format!(",{motor},{gearbox},");

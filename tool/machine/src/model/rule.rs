@@ -146,6 +146,12 @@ impl Rule {
         matches!(self, Self::MotorVoltage | Self::AmplifierVoltage)
     }
 
+    /// Whether it only asks yes or no: figure and limit are what the parts are made for, not what the motion asks of them. Such a rule
+    /// has no margin, and how near its figure is to its limit says nothing about a drive that satisfies it.
+    pub const fn is_yes_or_no(self) -> bool {
+        self.is_of_voltage() || matches!(self, Self::BusVoltage | Self::BrakeResistance)
+    }
+
     /// Whether judging it means following the time course of a state (temperature, charge), sample by sample. Such rules
     /// are checked only for drives that satisfy all others.
     pub const fn follows_time(self) -> bool {

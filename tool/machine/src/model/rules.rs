@@ -112,7 +112,7 @@ impl RuleSet {
         }
     }
 
-    /// Use of the limit by a finding; zero if there is no limit, infinite if the limit is zero and the value is not.
+    /// Use of the limit by a finding; zero if there is no limit, or if a rule that only asks yes or no is satisfied; infinite if the limit is zero and the value is not.
     #[inline]
     pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
         use_of(self.limit(rule).fail, rule, finding)
@@ -138,7 +138,9 @@ fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
         Sense::AtMost => (finding.value, limit),
         Sense::AtLeast => (limit, finding.value),
     };
-    if bottom > 0.0 {
+    if rule.is_yes_or_no() && top <= bottom * (1.0 + ROUNDING) {
+        0.0
+    } else if bottom > 0.0 {
         top / bottom
     } else if top > 0.0 {
         f64::INFINITY

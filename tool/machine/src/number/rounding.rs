@@ -46,12 +46,18 @@ fn plain(x: f64, digits: i32) -> String {
     }
 }
 
+/// A number, or zero if it is only a rounding error compared with the largest of its terms: below 1e-9 of that.
+pub const fn cleared(x: f64, largest: f64) -> f64 {
+    if x.abs() <= 1e-9 * largest.abs() {
+        0.0
+    } else {
+        x
+    }
+}
+
 /// A number with four significant digits; zero if it is only a rounding error compared with `largest`.
 pub fn shown(x: f64, largest: f64) -> String {
-    if x.abs() <= 1e-9 * largest.abs() {
-        return "0".to_owned();
-    }
-    short(x)
+    short(cleared(x, largest))
 }
 
 /// A share in per cent with one decimal, never −0.0.

@@ -71,6 +71,7 @@ pub fn json(answer: &Answer) -> Value {
         "brake resistor lacks": lacks,
         "brake resistor needed": answer.need,
         "proposal": answer.proposal,
+        "brake resistor chosen": answer.chosen,
         "conflict": conflict,
         "checks": checks.collect::<Vec<_>>(),
         "not checked": not_checked.collect::<Vec<_>>(),

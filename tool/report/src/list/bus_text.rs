@@ -157,10 +157,17 @@ fn resistor_text(answer: &Answer) -> String {
             conflict.words()
         );
     }
-    if let Some(need) = &answer.need {
-        let proposal = match &answer.proposal {
-            Some(key) => format!("; {key} from the catalogue is suitable"),
-            None => "; no resistor in the catalogue is known to be suitable".to_owned(),
+    if let (Some(need), Some(chosen)) = (&answer.need, &answer.chosen) {
+        let _ = writeln!(
+            text,
+            "Brake resistor: {chosen}, the smallest of the catalogue that fits. The bus requires {}",
+            need.figures()
+        );
+    } else if let Some(need) = &answer.need {
+        let proposal = match (&answer.proposal, &answer.misses) {
+            (Some(key), _) => format!("; {key} from the catalogue is suitable"),
+            (None, Some(misses)) => format!("; {misses}"),
+            (None, None) => "; the catalogue contains no brake resistors".to_owned(),
         };
         let needs = if answer.data.resistor.is_some() {
             "A suitable brake resistor: "

@@ -6,6 +6,7 @@ use crate::table::output::{Format, text_table};
 use crate::table::rows::csv_line;
 use jred_machine::number::rounding::rounded;
 use jred_sizing::select::pareto::{Front, Point};
+use jred_sizing::select::rank::Objective;
 use jred_sizing::study::cell::Cell;
 
 /// The front in one of the formats.
@@ -18,10 +19,24 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
             drive.amplifier.map_or_else(String::new, |a| a.key.clone()),
         ]
     };
+    // What is an objective has a column of its own.
+    let own = |objective: Objective| !front.objectives.contains(&objective);
+    let figures = move |point: &Point| -> Vec<Option<f64>> {
+        let ratio = std::iter::once(Some(point.candidate.drive.ratio()));
+        let mass = own(Objective::Mass).then_some(point.mass);
+        ratio
+            .chain(mass)
+            .chain(own(Objective::Price).then_some(point.price))
+            .collect()
+    };
+    let more = std::iter::once("ratio")
+        .chain(own(Objective::Mass).then_some("mass [kg]"))
+        .chain(own(Objective::Price).then_some("price"));
+    let names = ["motor", "gearbox", "amplifier"].into_iter().chain(more);
+    let names: Vec<String> = names.map(str::to_owned).collect();
     let columns = front.objectives.iter().map(|o| o.column().to_owned());
     match format {
         Format::Table => {
-            let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
             let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
             for point in &front.points {
                 let [motor, gearbox, amplifier] = row(point);
@@ -31,7 +46,10 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
                     gearbox
                 };
                 let values = point.values.iter().map(|x| rounded(*x));
-                table.add_row([motor, gearbox, amplifier].into_iter().chain(values));
+                let known = |figure: Option<f64>| figure.map_or("–".to_owned(), rounded);
+                let figures = figures(point).into_iter().map(known);
+                let row = [motor, gearbox, amplifier].into_iter().chain(figures);
+                table.add_row(row.chain(values));
             }
             let gaps: Vec<String> = front
                 .gaps()
@@ -51,11 +69,12 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
             )
         }
         Format::Csv => {
-            let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
             let mut text = csv_line(names.into_iter().chain(columns).map(Cell::Text));
             for point in &front.points {
                 let values = point.values.iter().map(|x| Cell::Number(*x));
-                text += &csv_line(row(point).into_iter().map(Cell::Text).chain(values));
+                let figures = figures(point).into_iter().map(Cell::from);
+                let row = row(point).into_iter().map(Cell::Text).chain(figures);
+                text += &csv_line(row.chain(values));
             }
             text
         }
@@ -64,7 +83,8 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
                 let [motor, gearbox, amplifier] = row(point);
                 let named = |key: String| (!key.is_empty()).then_some(key);
                 json!({
-                    "motor": motor, "gearbox": named(gearbox), "amplifier": named(amplifier), "values": point.values
+                    "motor": motor, "gearbox": named(gearbox), "amplifier": named(amplifier),
+                    "ratio": point.candidate.drive.ratio(), "mass [kg]": point.mass, "price": point.price, "values": point.values
                 })
             });
             let names: Vec<String> = columns.collect();

@@ -8,10 +8,9 @@ mod json;
 mod text;
 
 pub use asked::Asked;
-pub(crate) use choice::ranked;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;
 pub use json::{Notes, SCHEMA, json};
 pub use text::text;
-pub(crate) use text::{class_text, gap_text, margin, smaller};
+pub(crate) use text::{class_text, figure, gap_text, margin, smaller, violations};

@@ -2,11 +2,15 @@
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::{rounded, short};
+use jred_machine::number::rounding::{cleared, rounded, shown};
 use jred_sizing::judge::Judged;
+use jred_sizing::select::size::Selection;
+
+use crate::list::listing::violations;
 
 /// The answer in HTML: the one piece of the page that is put together by hand.
-pub(super) fn answer(best: &Judged, found: bool) -> String {
+pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
+    let all = selection.fit.len() + selection.refused.len();
     let motor = best.drive.motor;
     let gearbox = best
         .drive
@@ -18,14 +22,25 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
     let amplifier = amplifier.map_or(String::new(), |a| format!(" on {} {}", a.maker, a.model));
     let drive = format!("{} {} {gearbox}{amplifier}", motor.maker, motor.model);
     let drive = escape(&drive);
+    let resistor = best.resistor.map_or_else(String::new, |r| {
+        format!(
+            "<br>Brake resistor: {}, the smallest of the catalogue that fits.",
+            escape(&format!("{} {} ({})", r.maker, r.model, r.key))
+        )
+    });
+    let found = !selection.fit.is_empty();
     if found {
         let named = |verdict: Verdict| {
             let checks = best.checks.iter().filter(|c| c.verdict == verdict);
             let names: Vec<&str> = checks.map(|c| c.rule).collect();
             names.join(", ")
         };
-        let mut answer =
-            format!("<b>{drive}</b><br>is the best drive in the catalogue that violates no rule.");
+        let mut answer = match all {
+            1 => format!("<b>{drive}</b><br>violates no rule.{resistor}"),
+            _ => format!(
+                "<b>{drive}</b><br>violates no rule and is the first of the {all} drives that were compared.{resistor}"
+            ),
+        };
         for (what, names) in [
             ("Warning", named(Verdict::Warn)),
             ("Not checked, data missing", named(Verdict::NotChecked)),
@@ -37,8 +52,16 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
         answer
     } else {
         let reasons = escape(&best.reasons());
+        if all == 1 {
+            return format!("<b>{drive}</b><br>violates a rule: {reasons}.");
+        }
+        let lines = violations(selection);
+        let lines = lines
+            .iter()
+            .map(|line| format!("<br>{}", escape(line.trim())));
         format!(
-            "<b>No drive in the catalogue satisfies every rule.</b><br>{drive} comes closest: {reasons}."
+            "<b>None of the {all} drives satisfies every rule.</b><br>{drive} comes closest: {reasons}.<br>Violated:{}",
+            lines.collect::<String>()
         )
     }
 }
@@ -54,13 +77,23 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let work = duty.integral(|i| i.terms.total() * i.omega);
     let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
     let potential = duty.integral(|i| i.terms.potential * i.omega);
+    let moved = duty.integral(|i| {
+        let terms = &i.terms;
+        let parts = [
+            terms.acceleration,
+            terms.velocity,
+            terms.potential,
+            terms.process,
+        ];
+        parts.iter().map(|part| part.abs()).sum::<f64>() * i.omega.abs()
+    });
     let mut notes = vec![
         format!(
             "Self-check over the cycle: work at the drive link {} J, of which {} J into kinetic energy and {} J into \
              potential energy (zero for a closed cycle, unless a payload varies with the position).",
-            rounded(work),
-            short(kinetic),
-            short(potential)
+            rounded(cleared(work, moved)),
+            shown(kinetic, moved),
+            shown(potential, moved)
         ),
         "Losses: an efficiency divides the torque where power flows to the machine and multiplies it where power flows \
          back."

@@ -11,6 +11,8 @@ use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
 
+use crate::list::listing::{figure, margin};
+
 /// A rule, its verdict, and a bar for the use of its limit.
 pub(super) struct CheckRow {
     pub(super) rule: &'static str,
@@ -43,13 +45,16 @@ impl CheckRow {
             } else {
                 100.0
             },
-            margin: crate::list::listing::margin(check),
+            margin: margin(check),
             verdict: check.verdict.word(),
             class,
             note: check.note.clone(),
         }
     }
 }
+
+/// In the place of a part that a drive does not have.
+pub(super) const NO_PART: &str = "–";
 
 /// A ranked drive.
 pub(super) struct FitRow {
@@ -58,7 +63,11 @@ pub(super) struct FitRow {
     pub(super) made_for: String,
     pub(super) gearbox: String,
     pub(super) ratio: String,
+    pub(super) amplifier: String,
+    pub(super) resistor: String,
     pub(super) power: String,
+    pub(super) mass: String,
+    pub(super) price: String,
     pub(super) rms: String,
     pub(super) peak: String,
     pub(super) lambda: String,
@@ -82,6 +91,9 @@ impl FitRow {
         if !drive.from_makers() {
             remarks.push("figures not from the maker's own document".to_owned());
         }
+        if !drive.is_paired() {
+            remarks.push("nobody states that this amplifier runs this motor".to_owned());
+        }
         let power = judged.rated_power();
         Self {
             rank,
@@ -91,6 +103,14 @@ impl FitRow {
                 .gearbox
                 .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),
             ratio: rounded(drive.ratio()),
+            amplifier: drive
+                .amplifier
+                .map_or(NO_PART.into(), |a| format!("{} {}", a.maker, a.model)),
+            resistor: judged
+                .resistor
+                .map_or(NO_PART.into(), |r| format!("{} {}", r.maker, r.model)),
+            mass: figure(drive.mass()),
+            price: figure(judged.price()),
             power: power.map_or("–".to_owned(), |p| {
                 format!("{} kW", significant(p / 1000.0, 3))
             }),

@@ -47,10 +47,14 @@ pub struct Answer {
     pub calmest: Option<Worst>,
     /// Bounds for any phases.
     pub bounds: Bounds,
-    /// Requirements for a brake resistor if there is none or it is not suitable.
+    /// Requirements for a brake resistor if the machine files give none or it is not suitable.
     pub need: Option<Need>,
-    /// A resistor of the catalogue that meets it.
+    /// The smallest resistor of the catalogue that meets it.
     pub proposal: Option<String>,
+    /// The same, if it was connected to the bus because the machine files give none.
+    pub chosen: Option<String>,
+    /// Why no resistor of the catalogue meets it.
+    pub misses: Option<String>,
     /// Changes that would satisfy every limit.
     pub cures: Vec<Cure>,
 }
@@ -69,6 +73,39 @@ impl Answer {
     ) -> Result<Self> {
         let each: Vec<BusData> = axes.iter().map(|axis| axis.data).collect();
         let data = BusData::shared(supply, &each);
+        let mut answer = Self::on(axes, data, only_in_step, watch)?;
+        if data.asks_for_a_resistor(answer.judged()[0]) || !answer.failed().is_empty() {
+            let need = match &answer.power {
+                Some(power) if only_in_step => Need::of(&data, power),
+                _ => Need::over(&data, &answer.shared, watch),
+            };
+            let proposal = need.and_then(|need| need.proposal(&catalogue.resistors));
+            if let Some(resistor) = proposal.filter(|_| data.resistor.is_none()) {
+                let with = BusData {
+                    resistor: Some(resistor.on_bus()),
+                    ..data
+                };
+                answer = Self::on(answer.axes, with, only_in_step, watch)?;
+                answer.chosen = Some(resistor.key.clone());
+            }
+            answer.need = need;
+            answer.proposal = proposal.map(|resistor| resistor.key.clone());
+            if let (Some(need), None) = (need, proposal)
+                && !catalogue.resistors.is_empty()
+            {
+                answer.misses = Some(need.misses(&catalogue.resistors));
+            }
+        }
+        if only_in_step && !answer.failed().is_empty() {
+            answer.search(watch);
+            answer.worst = None;
+        }
+        answer.cures = answer.cures(watch);
+        Ok(answer)
+    }
+
+    /// The axes on a bus with these data, and their worst phases.
+    fn on(axes: Vec<Axis>, data: BusData, only_in_step: bool, watch: &dyn Watch) -> Result<Self> {
         let bus = data.bus().map_err(|missing| {
             miette!(
                 help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
@@ -88,6 +125,8 @@ impl Answer {
             bounds: shared.bounds(),
             need: None,
             proposal: None,
+            chosen: None,
+            misses: None,
             cures: Vec::new(),
             axes,
             data,
@@ -96,21 +135,6 @@ impl Answer {
         if !only_in_step {
             answer.search(watch);
         }
-        if answer.asks_for_a_resistor() {
-            answer.need = match &answer.power {
-                Some(power) if only_in_step => Need::of(&data, power),
-                _ => Need::over(&data, &answer.shared, watch),
-            };
-            let proposal = answer
-                .need
-                .and_then(|need| need.proposal(&catalogue.resistors));
-            answer.proposal = proposal.map(|resistor| resistor.key.clone());
-        }
-        if only_in_step && !answer.failed().is_empty() {
-            answer.search(watch);
-            answer.worst = None;
-        }
-        answer.cures = answer.cures(watch);
         Ok(answer)
     }
 
@@ -133,17 +157,6 @@ impl Answer {
             self.worst = Some([voltage, resistor, peak, pulse]);
             self.calmest = Some(calmest);
         }
-    }
-
-    /// Whether the regenerated energy exceeds the limits of the bus with its resistor.
-    fn asks_for_a_resistor(&self) -> bool {
-        if self.data.resistor.is_some() {
-            return !self.failed().is_empty();
-        }
-        let voltage = self.judged()[0];
-        // Unknown: without a capacitance, no storage can be assumed.
-        let top = self.data.max_voltage.or(self.data.chopper_voltage);
-        top.is_some_and(|top| voltage.is_nan() || voltage > top)
     }
 
     /// Mean power of separate resistors less that of a common one (W), all axes in step; of several axes, where the resistor is

@@ -8,6 +8,10 @@ use super::supply::BusData;
 use crate::catalogue::Resistor;
 use jred_machine::model::supply::BrakeResistor;
 use jred_machine::number::rounding::short;
+use jred_machine::number::words::counted;
+
+/// What a resistor may miss, and whether it does.
+type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
 
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -105,7 +109,49 @@ impl Need {
             (b.from_maker.cmp(&a.from_maker))
                 .then(a.rated_power.total_cmp(&b.rated_power))
                 .then(price(a).total_cmp(&price(b)))
+                .then_with(|| a.key.cmp(&b.key))
         })
+    }
+
+    /// Why no resistor of a catalogue meets these requirements: how many miss each of them.
+    pub fn misses(&self, resistors: &[Resistor]) -> String {
+        let least = self.smallest_resistance.unwrap_or(0.0);
+        let reasons: [Misses; 6] = [
+            (
+                "too small a resistance",
+                Box::new(move |r| r.resistance < least),
+            ),
+            (
+                "too large a resistance",
+                Box::new(|r| r.resistance > self.largest_resistance),
+            ),
+            (
+                "too little continuous power",
+                Box::new(|r| r.rated_power < self.mean),
+            ),
+            (
+                "no data for the peak power",
+                Box::new(|r| r.peak_power.is_none()),
+            ),
+            (
+                "too little peak power",
+                Box::new(|r| r.peak_power.is_some_and(|peak| peak < self.peak)),
+            ),
+            (
+                "too little pulse energy",
+                Box::new(|r| r.pulse_energy.is_some_and(|energy| energy < self.pulse)),
+            ),
+        ];
+        let counts = reasons.iter().filter_map(|(words, misses)| {
+            let count = resistors.iter().filter(|r| misses(r)).count();
+            (count > 0).then(|| format!("{count} with {words}"))
+        });
+        let counts: Vec<String> = counts.collect();
+        let all = counted(resistors.len(), "brake resistor", "brake resistors");
+        format!(
+            "none of the {all} of the catalogue fits: {}",
+            counts.join(", ")
+        )
     }
 
     /// In words.

@@ -72,6 +72,13 @@ impl BusData {
         }
     }
 
+    /// Whether the bus asks for a brake resistor, if it rises to this voltage without one (NaN: not known): above the highest, or, if
+    /// that is not given, above the voltage at which a brake resistor would switch on.
+    pub fn asks_for_a_resistor(&self, highest: f64) -> bool {
+        let top = self.max_voltage.or(self.chopper_voltage);
+        top.is_some_and(|top| highest.is_nan() || highest > top)
+    }
+
     /// The bus with its resistor, if it has both that and a voltage at which it comes on. Without capacitance nothing is
     /// stored: all regenerated energy goes into the resistor.
     ///

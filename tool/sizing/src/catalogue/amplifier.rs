@@ -1,5 +1,7 @@
 //! Servo amplifiers and brake resistors of the catalogue.
 
+use jred_machine::model::supply::BrakeResistor;
+
 use super::derating::Derating;
 
 /// A servo amplifier (drive controller); SI units, currents RMS.
@@ -43,7 +45,7 @@ pub struct Amplifier {
     pub source: String,
 }
 
-/// A brake resistor; SI units.
+/// A brake resistor of the catalogue; SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Resistor {
     /// Key, unique in the catalogue.
@@ -66,4 +68,16 @@ pub struct Resistor {
     pub from_maker: bool,
     /// Source of the data.
     pub source: String,
+}
+
+impl Resistor {
+    /// What the bus sees of it.
+    pub const fn on_bus(&self) -> BrakeResistor {
+        BrakeResistor {
+            resistance: self.resistance,
+            power: self.rated_power,
+            peak_power: self.peak_power,
+            pulse_energy: self.pulse_energy,
+        }
+    }
 }

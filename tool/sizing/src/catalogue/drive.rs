@@ -1,5 +1,6 @@
 //! A drive: a motor, alone or with a gearbox, at the input of the machine's drive train.
 
+use super::pairing::of_one_maker;
 use super::{Amplifier, Gearbox, Motor};
 
 /// A candidate: motor and, unless it is directly coupled, gearbox.
@@ -45,6 +46,16 @@ impl DriveId {
     }
 }
 
+/// Value of a part, zero if the drive does not have it; `None` if not given.
+fn part<T>(part: Option<&T>, of: impl Fn(&T) -> Option<f64>) -> Option<f64> {
+    part.map_or(Some(0.0), of)
+}
+
+/// The sum; `None` if one part has no data.
+fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
+    parts.into_iter().sum()
+}
+
 impl Drive<'_> {
     /// Gear ratio between motor and drive train.
     pub fn ratio(&self) -> f64 {
@@ -69,6 +80,31 @@ impl Drive<'_> {
         self.motor.from_maker
             && self.gearbox.is_none_or(|gearbox| gearbox.from_maker)
             && self.amplifier.is_none_or(|amplifier| amplifier.from_maker)
+    }
+
+    /// Whether the amplifier is made for the motor, as far as anybody states it: a list of the catalogue names it, or both are of one
+    /// maker.
+    pub fn is_paired(&self) -> bool {
+        self.motor.amplifiers_listed
+            || (self.amplifier).is_none_or(|amplifier| of_one_maker(self.motor, amplifier))
+    }
+
+    /// Mass of motor, gearbox and amplifier (kg); `None`: one of them has no data.
+    pub fn mass(&self) -> Option<f64> {
+        sum([
+            self.motor.mass,
+            part(self.gearbox, |g| g.mass),
+            part(self.amplifier, |a| a.mass),
+        ])
+    }
+
+    /// Price of motor, gearbox and amplifier, in the currency of the catalogue; `None`: one of them has no data.
+    pub fn price(&self) -> Option<f64> {
+        sum([
+            self.motor.price,
+            part(self.gearbox, |g| g.price),
+            part(self.amplifier, |a| a.price),
+        ])
     }
 
     /// Inertia of the rotor with its brake (kg·m²).

@@ -61,7 +61,7 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
             Column::Efficiency,
             "is above 1",
             "too large",
-            "check the value and the unit in the header: 97 needs [%], 0.97 no unit",
+            row.form().share(),
         ));
     }
     let gearbox = Gearbox {
@@ -135,12 +135,7 @@ fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
         Some(_) => {
             let share = row.not_negative(column).unwrap_or(efficiency);
             if share > 1.0 {
-                row.add(row.fault(
-                    column,
-                    "is above 1",
-                    "too large",
-                    "check the value and the unit in the header: 90 needs [%], 0.9 no unit",
-                ));
+                row.add(row.fault(column, "is above 1", "too large", row.form().share()));
             }
             share
         }

@@ -46,7 +46,7 @@ pub enum CatalogueError {
     /// Prices that cannot be compared.
     #[error("prices in {first} cannot be compared with prices in {second}")]
     #[diagnostic(help(
-        "give all prices in one currency, named in the header as price [EUR]; the catalogue can be used as it is \
+        "give all prices in one currency, named in the header as price [EUR], in TOML as price = \"300 EUR\"; the catalogue can be used as it is \
          without --rank price, --max-price and the objective price"
     ))]
     Currencies {
@@ -57,10 +57,8 @@ pub enum CatalogueError {
     },
     /// The catalogue has no rows.
     #[error("the catalogue {0} is empty: it contains no {1}")]
-    #[diagnostic(help(
-        "add at least one row below the header; docs/catalogue.md shows the columns"
-    ))]
-    Empty(String, &'static str),
+    #[diagnostic(help("{2}"))]
+    Empty(String, &'static str, &'static str),
     /// The catalogue has no motor but broken ones, which were skipped.
     #[error("the catalogue {0} has no motor left: {1} broken and skipped")]
     #[diagnostic(help(

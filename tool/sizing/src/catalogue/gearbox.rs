@@ -51,6 +51,13 @@ pub struct Gearbox {
     pub source: String,
 }
 
+impl Gearbox {
+    /// Its size: the rated output torque, else the acceleration torque (N·m).
+    pub fn size(&self) -> Option<f64> {
+        self.rated_torque.or(self.peak_torque)
+    }
+}
+
 /// Cycles per hour up to which T2B holds where the maker gives no shock factors (WITTENSTEIN, engineering glossary).
 const CYCLES: f64 = 1000.0;
 

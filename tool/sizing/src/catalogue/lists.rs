@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::path::Path;
 
 use jred_machine::plain;
 use jred_machine::text::problem::Problem;
@@ -9,9 +10,11 @@ use jred_machine::units::did_you_mean;
 
 use super::Pairing;
 use super::column::Column;
+use super::fault::Text;
+use super::files::is_toml;
 use super::load::{Group, Loader};
 use super::pairing::Keys;
-use super::row::{Read, Row};
+use super::row::{Form, Read, Row};
 
 /// One line of a compatibility table.
 #[derive(Debug)]
@@ -45,7 +48,8 @@ impl Loader {
                 let fault = Problem::new(format!("no gearbox has the key \"{}\"", plain::cut(key)))
                     .at(at.clone(), "not a gearbox of the catalogue")
                     .help(format!(
-                        "{near}add the gearbox to a gearbox table, or leave this cell empty"
+                        "{near}add the gearbox to a gearbox table, or {}",
+                        form_of(text).leave_out()
                     ));
                 self.faults.add(text, fault);
             }
@@ -130,8 +134,21 @@ impl Loader {
             }
             if !amplifiers.is_empty() {
                 known.amplifiers = Some(amplifiers.into());
+                pairing.lists_amplifiers = true;
+                if let Some(motor) = self.catalogue.motors.get_mut(motor as usize) {
+                    motor.amplifiers_listed = true;
+                }
             }
         }
+    }
+}
+
+/// In which form a file is written.
+fn form_of(text: &Text) -> Form {
+    if is_toml(Path::new(&text.name)) {
+        Form::Toml
+    } else {
+        Form::Csv
     }
 }
 

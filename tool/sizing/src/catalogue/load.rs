@@ -15,6 +15,7 @@ use super::lists::Listing;
 use super::pairing::Partners;
 use super::row::{Read, Row};
 use super::table::Table;
+use super::twins::Twins;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 use jred_machine::number::words::counted;
 
@@ -46,6 +47,7 @@ pub(super) struct Loader {
     rows: usize,
     pub(super) faults: Faults,
     remarks: Remarks,
+    twins: Twins,
     /// Kind and key of each entry, with its file.
     keys: HashMap<(Kind, String), usize>,
     /// The files read so far, with canonical path and name.
@@ -109,11 +111,17 @@ impl Loader {
                 Format::Database(kind) => self.database(kind, index, &text, &mut group)?,
             };
             if count == 0 {
-                let what = match format {
-                    Format::Csv(kind) | Format::Database(kind) => kind.plural(),
-                    Format::Toml => "tables",
+                let (what, cure) = match format {
+                    Format::Csv(kind) | Format::Database(kind) => (
+                        kind.plural(),
+                        "add at least one row below the header; docs/catalogue.md shows the columns",
+                    ),
+                    Format::Toml => (
+                        "tables",
+                        "add at least one table such as [[motor]]; docs/catalogue.md shows its keys",
+                    ),
                 };
-                return Err(CatalogueError::Empty(text.name, what));
+                return Err(CatalogueError::Empty(text.name, what, cure));
             }
         }
         group.motors = (first as u32..self.catalogue.motors.len() as u32).collect();
@@ -168,6 +176,7 @@ impl Loader {
                 Ok((motor, line, at)) => {
                     if self.claim(Kind::Motors, &motor.key, index, at) {
                         plausible::motor(&mut self.remarks, &|| place(line), &motor);
+                        self.twins.motor(&mut self.remarks, &|| place(line), &motor);
                         self.catalogue.motors.push(motor);
                     }
                 }
@@ -179,6 +188,8 @@ impl Loader {
                 Ok((gearbox, line, at)) => {
                     if self.claim(Kind::Gearboxes, &gearbox.key, index, at) {
                         plausible::gearbox(&mut self.remarks, &|| place(line), &gearbox);
+                        self.twins
+                            .gearbox(&mut self.remarks, &|| place(line), &gearbox);
                         self.catalogue.gearboxes.push(gearbox);
                     }
                 }
@@ -248,6 +259,7 @@ impl Loader {
         match entry {
             Entry::Motor(motor, gearbox) => {
                 plausible::motor(&mut self.remarks, &place, &motor);
+                self.twins.motor(&mut self.remarks, &place, &motor);
                 if let Some(gearbox) = gearbox {
                     let motor = self.catalogue.motors.len() as u32;
                     let at = row.place(Column::BuiltInGearbox);
@@ -257,10 +269,17 @@ impl Loader {
             }
             Entry::Gearbox(gearbox) => {
                 plausible::gearbox(&mut self.remarks, &place, &gearbox);
+                self.twins.gearbox(&mut self.remarks, &place, &gearbox);
                 self.catalogue.gearboxes.push(*gearbox);
             }
-            Entry::Amplifier(amplifier) => self.catalogue.amplifiers.push(amplifier),
-            Entry::Resistor(resistor) => self.catalogue.resistors.push(resistor),
+            Entry::Amplifier(amplifier) => {
+                self.twins.amplifier(&mut self.remarks, &place, &amplifier);
+                self.catalogue.amplifiers.push(amplifier);
+            }
+            Entry::Resistor(resistor) => {
+                self.twins.resistor(&mut self.remarks, &place, &resistor);
+                self.catalogue.resistors.push(resistor);
+            }
             Entry::Listing(listing) => group.listings.push((index, listing)),
         }
         Ok(())
@@ -311,6 +330,7 @@ impl Loader {
     fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
+            lists_amplifiers: false,
             built_in: vec![false; self.catalogue.gearboxes.len()],
         };
         self.pair_gear_motors(&mut pairing);
@@ -329,12 +349,19 @@ impl Loader {
         let mut catalogue = self.catalogue;
         catalogue.left_out = broken;
         catalogue.pairing = pairing;
+        if broken == 0 {
+            catalogue.remark_amplifiers(&mut self.remarks);
+        }
         catalogue.warnings = self.remarks.into_lines();
         if catalogue.motors.is_empty() {
             let names: Vec<&str> = self.texts.iter().map(|t| t.name.as_str()).collect();
             let names = names.join(", ");
             return Err(match broken {
-                0 => CatalogueError::Empty(names, "motors"),
+                0 => CatalogueError::Empty(
+                    names,
+                    "motors",
+                    "add motors: a file whose name ends in motors.csv, or tables [[motor]] in a .toml file; docs/catalogue.md shows their figures",
+                ),
                 n => CatalogueError::Skipped(names, counted(n, "row is", "rows are")),
             });
         }

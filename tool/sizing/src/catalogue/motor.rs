@@ -67,6 +67,8 @@ pub struct Motor {
     pub mains_voltage: Option<f64>,
     /// Largest DC-bus voltage that its insulation withstands (V).
     pub max_bus_voltage: Option<f64>,
+    /// Whether a list of the catalogue names the amplifiers that run it.
+    pub amplifiers_listed: bool,
     /// Mass (kg).
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.

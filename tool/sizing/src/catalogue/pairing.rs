@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::amplifier::Amplifier;
+use super::fault::Remarks;
 use super::motor::{Motor, MotorKind};
 use super::voltage::of_one_class;
 use super::{Catalogue, Gearbox};
@@ -11,11 +12,14 @@ use crate::catalogue::{Drive, DriveId};
 /// Gearboxes and amplifiers that can be combined with each motor, as indices into the lists of the catalogue.
 ///
 /// By default every motor is combined with every gearbox, without a gearbox, and with every suitable amplifier
-/// ([`Pairing::suits`]).
+/// ([`Pairing::suits`]) of its own maker; with those of other makers only in a catalogue that has none of the motor's maker and whose
+/// lists pair no amplifiers at all.
 #[derive(Clone, Debug, Default)]
 pub struct Pairing {
     /// By index of the motor; a motor beyond the end is combined with everything.
     pub(super) motors: Vec<Partners>,
+    /// Whether a list names amplifiers of some motor.
+    pub(super) lists_amplifiers: bool,
     /// By index of the gearbox: whether it is part of gear motors and used with no other motor.
     pub(super) built_in: Vec<bool>,
 }
@@ -29,6 +33,20 @@ pub(super) struct Partners {
     pub(super) never_direct: bool,
     /// Amplifiers in increasing order; `None`: all suitable ones.
     pub(super) amplifiers: Option<Box<[u32]>>,
+}
+
+/// Whether both are of one maker, however it is written.
+pub(super) fn of_one_maker(motor: &Motor, amplifier: &Amplifier) -> bool {
+    same_name(&motor.maker, &amplifier.maker)
+}
+
+/// Whether two names differ in nothing but capitals, blanks and hyphens.
+fn same_name(one: &str, other: &str) -> bool {
+    let letters = |name: &str| -> Vec<char> {
+        let letters = name.chars().filter(|c| c.is_alphanumeric());
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    one == other || letters(one) == letters(other)
 }
 
 /// Rated current of an amplifier in units of the motor's: smaller ones starve the motor, larger ones regulate it coarsely.
@@ -231,7 +249,12 @@ impl Catalogue {
         let Some(motor) = self.motors.get(motor) else {
             return Vec::new();
         };
-        let all = self.amplifiers.iter();
+        let own = |a: &&Amplifier| of_one_maker(motor, a);
+        let any_own = self.amplifiers.iter().any(|a| own(&a));
+        if !any_own && self.pairing.lists_amplifiers {
+            return Vec::new();
+        }
+        let all = self.amplifiers.iter().filter(|a| !any_own || own(a));
         all.filter(|a| Pairing::suits(motor, a)).collect()
     }
 
@@ -250,5 +273,50 @@ impl Catalogue {
             (gearboxes + direct) * self.amplifiers_of(index).len().max(1)
         };
         self.motors.iter().enumerate().map(of).sum()
+    }
+}
+
+impl Catalogue {
+    /// Warns of amplifiers that run no motor, and of motors that are combined with amplifiers of other makers by their figures alone.
+    pub(super) fn remark_amplifiers(&self, remarks: &mut Remarks) {
+        let mut runs = vec![false; self.amplifiers.len()];
+        let mut unpaired: Vec<[&str; 2]> = Vec::new();
+        for (index, motor) in self.motors.iter().enumerate() {
+            for amplifier in self.amplifiers_of(index) {
+                let own = |a: &Amplifier| std::ptr::eq(a, amplifier);
+                if let Some(place) = self.amplifiers.iter().position(own) {
+                    runs[place] = true;
+                }
+                let makers = [motor.maker.as_str(), amplifier.maker.as_str()];
+                let listed = motor.amplifiers_listed || of_one_maker(motor, amplifier);
+                if !listed && !unpaired.contains(&makers) {
+                    unpaired.push(makers);
+                }
+            }
+        }
+        for [motor, amplifier] in unpaired {
+            remarks.add("makers whose amplifiers no list pairs with motors", || {
+                format!(
+                    "no list of the catalogue pairs motors of {motor} with amplifiers of {amplifier}; they are combined by voltage and current, \
+                     and such drives rank below those that a list pairs: name the amplifiers of each motor in the column amplifiers of compatibility.csv"
+                )
+            });
+        }
+        let idle = self.amplifiers.iter().zip(runs).filter(|(_, runs)| !runs);
+        for (amplifier, _) in idle {
+            remarks.add("amplifiers that run no motor", || {
+                format!(
+                    "amplifier \"{}\" of {} runs no motor of the catalogue: no list names it, and no motor {} has its voltage and a current of a quarter to \
+                     twice its rated current; name it in the column amplifiers of compatibility.csv",
+                    amplifier.key,
+                    amplifier.maker,
+                    if self.pairing.lists_amplifiers {
+                        "of its maker"
+                    } else {
+                        "without amplifiers of its own maker"
+                    }
+                )
+            });
+        }
     }
 }

@@ -25,6 +25,41 @@ pub(super) trait Cells {
     fn header(&self) -> Range<usize>;
     /// The currency of its price, if given.
     fn currency(&self) -> &str;
+    /// In which form it is written.
+    fn form(&self) -> Form;
+}
+
+/// The two forms of a catalogue, which have words of their own for the same cure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    Csv,
+    Toml,
+}
+
+impl Form {
+    /// How a figure is left out.
+    pub(super) const fn leave_out(self) -> &'static str {
+        match self {
+            Self::Csv => "leave this cell empty",
+            Self::Toml => "remove this key",
+        }
+    }
+
+    /// How a share is written.
+    pub(super) const fn share(self) -> &'static str {
+        match self {
+            Self::Csv => "check the value and the unit in the header: 97 needs [%], 0.97 no unit",
+            Self::Toml => "check the value and its unit: write \"97 %\" or 0.97",
+        }
+    }
+
+    /// What a column is called.
+    pub(super) const fn column(self) -> &'static str {
+        match self {
+            Self::Csv => "column",
+            Self::Toml => "key",
+        }
+    }
 }
 
 /// All faults of a row.
@@ -128,6 +163,11 @@ impl<'t> Row<'t> {
         self.cells.cell(column).map(|cell| cell.text)
     }
 
+    /// In which form it is written.
+    pub(super) fn form(&self) -> Form {
+        self.cells.form()
+    }
+
     /// The currency of its price, if given.
     pub(super) fn currency(&self) -> &'t str {
         self.cells.currency()
@@ -147,6 +187,17 @@ impl<'t> Row<'t> {
         let name = column.name();
         let others = instead.iter().map(|other| other.name());
         let or: String = others.flat_map(|other| [", or ", other]).collect();
+        if self.form() == Form::Toml && !self.given(column) {
+            let table = self.kind.singular();
+            let help = format!("add {name}{or}, or remove the table");
+            self.add(self.fault(
+                column,
+                "is not given",
+                "required in every such table",
+                format!("{help}; docs/catalogue.md shows all keys of [[{table}]]"),
+            ));
+            return;
+        }
         if self.cells.has(column) {
             let help = format!("fill in {name}{or}, or remove the row");
             self.add(self.fault(column, "is empty", "required in every row", help));
@@ -188,7 +239,10 @@ impl<'t> Row<'t> {
                     cell::words(self.motors)
                 ),
                 "wrong unit for this motor",
-                "set the column \"kind\" to \"rotary\" or \"linear\", or correct the unit",
+                format!(
+                    "set the {} \"kind\" to \"rotary\" or \"linear\", or correct the unit",
+                    self.form().column()
+                ),
             ));
         }
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -202,9 +256,14 @@ impl<'t> Row<'t> {
                 let cure = if text.contains(',') {
                     format!("{NUMBER_CURE}: \"{}\"", plain::cut(text).replace(',', "."))
                 } else {
-                    format!(
-                        "{NUMBER_CURE}; its unit is in the header; leave the cell empty if the data sheet gives no value"
-                    )
+                    match self.form() {
+                        Form::Csv => format!(
+                            "{NUMBER_CURE}; its unit is in the header; leave the cell empty if the data sheet gives no value"
+                        ),
+                        Form::Toml => format!(
+                            "{NUMBER_CURE}, with its unit behind it in the same quotation marks; remove the key if the data sheet gives no value"
+                        ),
+                    }
                 };
                 let what = format!("is \"{}\"", plain::cut(text));
                 Err(self.fault(column, &what, label, cure))
@@ -345,7 +404,11 @@ impl<'t> Row<'t> {
                 &format!("is below its {other}"),
                 "too small",
                 format!(
-                    "check {name} and {other} against the data sheet, and the units in the header"
+                    "check {name} and {other} against the data sheet, and {}",
+                    match self.form() {
+                        Form::Csv => "the units in the header",
+                        Form::Toml => "their units",
+                    }
                 ),
             ));
         }

@@ -9,7 +9,7 @@ use jred_machine::units::did_you_mean;
 
 use super::cell::Cell;
 use super::column::{Column, Kind, Unit};
-use super::row::{Cells, Row};
+use super::row::{Cells, Form, Row};
 
 /// A CSV file, its header understood.
 pub(super) struct Table<'t> {
@@ -42,7 +42,7 @@ impl<'t> Table<'t> {
         let (name, unit) = name_and_unit(title);
         let at = self.csv.title_place(index);
         let Some(column) = Column::of(self.kind).find(|c| c.name() == name) else {
-            return Err(unknown(name, self.kind, at));
+            return Err(unknown(name, self.kind, Form::Csv, at));
         };
         let holds = column.holds();
         let of_price = column == Column::Price;
@@ -72,19 +72,28 @@ impl<'t> Table<'t> {
 }
 
 /// The fault of a name that is no column of this table.
-pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Problem {
+pub(super) fn unknown(name: &str, kind: Kind, form: Form, at: Range<usize>) -> Problem {
     let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
     let near = did_you_mean(name, &names);
     let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
     let elsewhere = elsewhere.and_then(|column| column.kinds().first());
+    let column = form.column();
+    let table = |kind: Kind| match form {
+        Form::Csv => kind.plural().to_owned(),
+        Form::Toml => format!("[[{}]]", kind.singular()),
+    };
     let elsewhere = elsewhere.map_or(String::new(), |kind| {
-        format!("It is a column of {}. ", kind.plural())
+        format!("It is a {column} of {}. ", table(*kind))
     });
-    Problem::new(format!("unknown column \"{}\"", plain::cut(name)))
-        .at(at, "not a column of this table")
+    let (label, all) = match form {
+        Form::Csv => ("not a column of this table", "Columns"),
+        Form::Toml => ("not a key of this table", "Keys"),
+    };
+    Problem::new(format!("unknown {column} \"{}\"", plain::cut(name)))
+        .at(at, label)
         .help(format!(
-            "{elsewhere}{near}Columns of {}: {}",
-            kind.plural(),
+            "{elsewhere}{near}{all} of {}: {}",
+            table(kind),
             names.join(", ")
         ))
 }
@@ -119,5 +128,9 @@ impl Cells for Table<'_> {
 
     fn currency(&self) -> &str {
         &self.currency
+    }
+
+    fn form(&self) -> Form {
+        Form::Csv
     }
 }

@@ -11,7 +11,7 @@ use jred_machine::units::quantity::split_number;
 
 use super::cell::{Cell, number_and_unit};
 use super::column::{Column, Kind, Unit};
-use super::row::{Cells, Row};
+use super::row::{Cells, Form, Row};
 use super::table::unknown;
 
 /// One table of an array such as `[[motor]]`.
@@ -57,6 +57,10 @@ impl Cells for TomlRow {
 
     fn currency(&self) -> &str {
         &self.currency
+    }
+
+    fn form(&self) -> Form {
+        Form::Toml
     }
 }
 
@@ -104,7 +108,7 @@ fn read_row(kind: Kind, table: &Section) -> (TomlRow, Vec<Problem>) {
     let mut faults = Vec::new();
     for (name, item) in table.entries() {
         let column = Column::of(kind).find(|column| column.name() == name);
-        let cell = column.ok_or_else(|| unknown(name, kind, item.key_span()));
+        let cell = column.ok_or_else(|| unknown(name, kind, Form::Toml, item.key_span()));
         match cell.and_then(|column| read_cell(column, &item, &mut row.currency)) {
             Ok(cell) => row.cells.push(cell),
             Err(fault) => faults.push(fault),

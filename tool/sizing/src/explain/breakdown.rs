@@ -24,6 +24,7 @@ use crate::cycle::form::loads;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::figures::Figures;
+use jred_machine::number::rounding::cleared;
 use jred_machine::units::Vocabulary;
 
 /// Contribution of one part or effect to the motor torque.
@@ -43,6 +44,19 @@ pub struct Share {
     /// Energy over a cycle that it takes from the motor (J).
     #[serde(rename = "energy [J]")]
     pub energy: f64,
+}
+
+impl Share {
+    /// With zero for what is only rounding beside the whole, and beside the energy that flows forth and back (J).
+    fn cleared(self, whole: &Self, stored: f64) -> Self {
+        Self {
+            torque: self.torque.cleared(whole.torque.peak()),
+            mean_square: cleared(self.mean_square, 1.0),
+            at_peak: cleared(self.at_peak, whole.torque.peak()),
+            energy: cleared(self.energy, stored),
+            ..self
+        }
+    }
 }
 
 /// Contribution of one part to the inertia at the motor.
@@ -169,19 +183,24 @@ impl Breakdown {
                 of_mean: if mean > 0.0 { inertia.mean / mean } else { 0.0 },
             }
         };
+        let stored = {
+            let power = duty.instants.iter().zip(&whole);
+            duty.integral_of(power.map(|(i, torque)| (torque * i.input_speed * ratio).abs()))
+        };
+        let total = share(&format!("motor {}", words.torque), &whole);
+        let cleared = |share: Share| share.cleared(&total, stored);
+        let effects = effects.filter(acts).map(cleared).collect();
+        let parts = parts.filter(acts).map(cleared).collect();
         let inertias = contributions.inertias.iter();
         let inertias = inertias.map(|(name, values)| inertia(name, values));
         Self {
             drive: drive.name(),
             words,
             peak_time: duty.instants.get(peak).map_or(0.0, |i| i.t),
-            stored: {
-                let power = duty.instants.iter().zip(&whole);
-                duty.integral_of(power.map(|(i, torque)| (torque * i.input_speed * ratio).abs()))
-            },
-            total: share(&format!("motor {}", words.torque), &whole),
-            effects: effects.filter(acts).collect(),
-            parts: parts.filter(acts).collect(),
+            stored,
+            total,
+            effects,
+            parts,
             inertia: inertias.filter(|i| i.inertia.max > 0.0).collect(),
             total_inertia: inertia("at the motor", &inertia_whole),
         }

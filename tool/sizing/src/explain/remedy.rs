@@ -1,8 +1,9 @@
 //! The changes that would make a drive satisfy every rule, or how far each quantity may change before it violates one.
 //!
 //! One quantity is changed at a time, all else kept: the gear ratio (the gearbox's other data as they are), the cycle time,
-//! the moving masses, the process loads. The range in which every rule is satisfied is searched on a grid, outwards from the
-//! current value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than
+//! the moving masses, the process loads. For a drive that is refused only values are tried that somebody would choose
+//! ([`Lever::choices`]); for one that fits, far more, because the range shows how much it has left. The range in which every rule is
+//! satisfied is searched on a grid, outwards from the current value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than
 //! the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule
 //! uses least. Cost: up to some hundred judgements of one drive for each quantity. Where instants were added only to resolve peaks,
 //! most judgements do without them: what is violated without them is violated ([`Altered::outline`]), and between the values of the
@@ -18,7 +19,7 @@ use crate::catalogue::{Gearbox, MotorKind};
 use crate::cycle::Cycle;
 use crate::judge::Context;
 use crate::motor::envelope::Prepared;
-use crate::select::size::Selection;
+use crate::select::size::{Candidate, Selection};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
@@ -62,6 +63,17 @@ impl Lever {
         }
     }
 
+    /// The values that somebody would choose to make a refused drive suitable, from `now`: a third to three times the gear ratio, a
+    /// gearbox of 1 to 100, half to twice the cycle time, masses and process loads down to a half.
+    pub const fn choices(self, now: f64) -> [f64; 2] {
+        match self {
+            Self::GearRatio => [now / 3.0, now * 3.0],
+            Self::IdealGearbox => [1.0, 100.0],
+            Self::CycleTime => [0.5, 2.0],
+            Self::MovingMass | Self::ProcessLoad => [0.5, 1.0],
+        }
+    }
+
     /// The values that are tried, rising.
     pub(super) fn grid(self) -> Vec<f64> {
         let log = |from: f64, to: f64, steps: u32| {
@@ -95,7 +107,7 @@ pub struct Remedy {
     /// Its value as it is: the ratio, or 1.
     pub now: f64,
     /// Range in which every rule is satisfied: the one that contains the current value, or the closest one. `None`: no value
-    /// helps.
+    /// that somebody would choose helps.
     pub range: Option<[Edge; 2]>,
     /// If no value helps: the best value tried, and the rule violated there.
     pub best: Option<Edge>,
@@ -108,11 +120,11 @@ pub struct Remedy {
 pub struct Miss {
     /// The rule.
     pub rule: Rule,
-    /// The share of its limit that is used; `None`: the limit is zero there.
+    /// The share of its limit that is used; `None`: the limit is zero there, or the rule only asks yes or no.
     pub used: Option<f64>,
     /// The limit as a share of the rating.
     pub limit: f64,
-    /// The limit that the drive would satisfy; `None`: no limit would be sufficient.
+    /// The limit that the drive would satisfy; `None`: no limit would be sufficient, or the rule only asks yes or no.
     pub needed: Option<f64>,
 }
 
@@ -136,7 +148,7 @@ pub struct Remedies {
 type Rules = fn(&Context, &RuleSet) -> State;
 
 impl Remedies {
-    /// Computes the changes for `drive`.
+    /// Computes the changes for `drive`, without brake resistors to choose from.
     pub fn new(
         altered: &Altered,
         site: &Site,
@@ -145,10 +157,21 @@ impl Remedies {
         motor: &Prepared,
     ) -> Self {
         let cycle = Cycle::new(altered.original());
-        let context = Context::new(&cycle, site, drive, motor);
+        Self::of(altered, rules, &Context::new(&cycle, site, drive, motor))
+    }
+
+    /// Computes the changes for a drive of a selection.
+    pub fn of_candidate(selection: &Selection, altered: &Altered, candidate: &Candidate) -> Self {
+        let cycle = Cycle::new(altered.original());
+        let context = selection.context(candidate);
+        Self::of(altered, selection.rules, &context.in_cycle(&cycle))
+    }
+
+    fn of(altered: &Altered, rules: &RuleSet, context: &Context) -> Self {
+        let Context { drive, .. } = *context;
         let outline = altered.outline(Alteration::default());
         let outline = outline.map(|duty| Cycle::new(&duty));
-        let misses = misses(&context, rules);
+        let misses = misses(context, rules);
         let free = |lever: &Lever| match lever {
             Lever::GearRatio => drive.gearbox.is_some(),
             Lever::IdealGearbox => drive.gearbox.is_none() && drive.motor.kind == MotorKind::Rotary,
@@ -167,17 +190,16 @@ impl Remedies {
             };
             let of = |duty: &Duty, judge: Rules| {
                 let cycle = Cycle::new(duty);
-                judge(&Context::new(&cycle, site, drive, motor), rules)
+                judge(&context.in_cycle(&cycle), rules)
             };
             let state = |value: f64| match lever {
-                Lever::GearRatio | Lever::IdealGearbox => at_ratio(&context, value, State::of),
+                Lever::GearRatio | Lever::IdealGearbox => at_ratio(context, value, State::of),
                 _ => of(&altered.duty(lever.alteration(value)), State::of),
             };
             let at_best = |value: f64| match lever {
                 Lever::GearRatio | Lever::IdealGearbox => {
                     let cycle = outline.as_ref()?;
-                    let context = Context::new(cycle, site, drive, motor);
-                    Some(at_ratio(&context, value, State::direct))
+                    Some(at_ratio(&context.in_cycle(cycle), value, State::direct))
                 }
                 _ => {
                     let duty = altered.outline(lever.alteration(value))?;
@@ -211,7 +233,7 @@ impl Remedies {
         let nearest = selection.first_refused(count);
         Ok(nearest
             .iter()
-            .map(|c| Self::new(altered, selection.site, selection.rules, c.drive, c.motor))
+            .map(|candidate| Self::of_candidate(selection, altered, candidate))
             .collect())
     }
 }
@@ -239,13 +261,13 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let mut misses: Vec<Miss> = broken
         .filter_map(|(rule, finding)| {
             let limit = rules.limit(rule).fail?;
-            let used = Some(rules.use_of_limit(rule, finding)).filter(|used| used.is_finite());
-            let needed = finding.value / finding.rating;
+            // Another limit would make no part fit for a supply that it is not made for.
+            let share = |x: f64| Some(x).filter(|x| x.is_finite() && !rule.is_yes_or_no());
             Some(Miss {
                 rule,
-                used,
+                used: share(rules.use_of_limit(rule, finding)),
                 limit,
-                needed: Some(needed).filter(|needed| needed.is_finite()),
+                needed: share(finding.value / finding.rating),
             })
         })
         .collect();

@@ -185,6 +185,11 @@ impl Remedy {
         O: Fn(f64) -> Option<State>,
     {
         let mut grid = lever.grid();
+        if !judge.holds(now) {
+            let [least, most] = lever.choices(now);
+            grid.retain(|value| (least..=most).contains(value));
+            grid.extend([least, most]);
+        }
         grid.push(now);
         grid.sort_by(f64::total_cmp);
         grid.dedup();
@@ -206,7 +211,10 @@ impl Remedy {
                 value,
                 rule: state.rule,
             }),
-            best_use: best.map(|b| b.1.used).filter(|used| *used > 0.0),
+            best_use: best
+                .filter(|(_, state)| !state.rule.is_some_and(Rule::is_yes_or_no))
+                .map(|b| b.1.used)
+                .filter(|used| *used > 0.0),
         };
         if let Some(inside) = nearest {
             let below = (0..inside).rev().find(|&k| !tried.holds(k));

@@ -33,27 +33,28 @@ impl Remedy {
         };
         let (name, now) = (self.lever.name(), shown(self.now));
         if let Some([low, high]) = &self.range {
+            if self.change().is_some() {
+                // Of a drive that is refused nothing is known beyond the values that were tried.
+                return format!("{name} {now}: suitable at {} to {}", at(low), at(high));
+            }
             let range = match (low.rule, high.rule) {
                 (None, None) => "any value within the range tried".to_owned(),
                 (Some(_), None) => format!("{} or more", at(low)),
                 (None, Some(_)) => format!("{} or less", at(high)),
                 (Some(_), Some(_)) => format!("{} to {}", at(low), at(high)),
             };
-            return if self.change().is_some() {
-                format!("{name} {now}: suitable at {range}")
-            } else {
-                format!("{name} {now}: may be {range}")
-            };
+            return format!("{name} {now}: may be {range}");
         }
+        let [least, most] = self.lever.choices(self.now).map(shown);
         let Some(best) = &self.best else {
-            return format!("{name} {now}: no value helps");
+            return format!("{name} {now}: no value from {least} to {most} helps");
         };
         let rule = best.rule.map_or("a rule", |rule| rule.named(words));
         let used = self.best_use.map_or(String::new(), |used| {
             format!(" at {} of its limit", percent(used))
         });
         format!(
-            "{name} {now}: no value helps; at {}, the best, {rule} is still violated{used}",
+            "{name} {now}: no value from {least} to {most} helps; at {}, the best, {rule} is still violated{used}",
             shown(best.value)
         )
     }
@@ -71,6 +72,7 @@ impl Miss {
                     percent(used)
                 )
             }
+            _ if self.rule.is_yes_or_no() => format!("{name} is beyond its limit"),
             _ => format!("{name} is required, but there is none"),
         }
     }

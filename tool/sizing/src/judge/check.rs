@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::judge::Words;
 use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::number::rounding::{short, told_apart};
+use jred_machine::number::rounding::{cleared, short, told_apart};
 
 /// A rule with its value, limit and verdict.
 #[derive(Clone, Debug, Serialize)]
@@ -23,7 +23,7 @@ pub struct Check {
     /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
     #[serde(skip)]
     pub used: f64,
-    /// Margin as a share of the limit; `None` if there is no limit.
+    /// Margin as a share of the limit; `None` if there is no limit, or if the rule only asks yes or no.
     pub margin: Option<f64>,
     /// Verdict.
     pub verdict: Verdict,
@@ -84,7 +84,7 @@ impl Check {
             note += ", ";
             note += &place;
         }
-        let margin = bound.is_some() && used.is_finite();
+        let margin = bound.is_some() && used.is_finite() && !rule.is_yes_or_no();
         Self {
             rule: rule.name(),
             id: rule,
@@ -92,7 +92,10 @@ impl Check {
             limit: bound.map(shown),
             unit,
             used,
-            margin: margin.then_some(1.0 - used),
+            margin: margin.then_some(match verdict {
+                Verdict::Fail => 1.0 - used,
+                _ => cleared(1.0 - used, 1.0),
+            }),
             verdict,
             note,
             source: rules.source(rule).to_owned(),
@@ -126,7 +129,7 @@ impl Check {
     /// Use of the limit as text.
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
-            _ if self.limit.is_none() => String::new(),
+            _ if self.limit.is_none() || self.id.is_yes_or_no() => String::new(),
             percent if self.verdict == Verdict::Fail && percent > 100.0 && percent < 100.5 => {
                 "> 100 %".to_owned()
             }

@@ -4,6 +4,7 @@ use super::{Context, Record, Words};
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
+use crate::catalogue::Resistor;
 use crate::judge::overload;
 use crate::thermal::mean::rms_current;
 use jred_machine::model::rule::Rule;
@@ -63,7 +64,7 @@ fn peak_current(context: &Context) -> f64 {
 /// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].
 pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
-    let data = data(context);
+    let Fed { data, .. } = fed(context);
     if data.regenerative {
         return;
     }
@@ -156,10 +157,46 @@ fn reduced(context: &Context) -> String {
     }
 }
 
-fn data(context: &Context) -> BusData {
+/// The bus of a drive with its brake resistor: that of the machine file, or one chosen from the catalogue.
+struct Fed<'a> {
+    data: BusData,
+    chosen: Option<&'a Resistor>,
+    /// What a resistor must do, where one is needed and the file gives none.
+    need: Option<Need>,
+}
+
+/// The bus of a drive. If it rises too far without a brake resistor, or nothing is known of its capacitance, the smallest resistor of
+/// the catalogue that fits is connected to it.
+fn fed<'a>(context: &Context<'a>) -> Fed<'a> {
     let site = context.site;
     let drive = &context.drive;
-    BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor)
+    let mut data = BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor);
+    let mut fed = Fed {
+        data,
+        chosen: None,
+        need: None,
+    };
+    let free = data.resistor.is_none() && !data.regenerative && data.chopper_voltage.is_some();
+    if !free || context.resistors.is_empty() || !context.cycle.regenerates(&context.coefficients) {
+        return fed;
+    }
+    let curve = power(context);
+    let rises = data.bus().is_ok_and(|bus| {
+        let highest = bus.run(&curve).highest;
+        data.asks_for_a_resistor(highest)
+    });
+    if rises {
+        fed.need = Need::of(&data, &curve);
+        fed.chosen = fed.need.and_then(|need| need.proposal(context.resistors));
+        data.resistor = fed.chosen.map(Resistor::on_bus);
+        fed.data = data;
+    }
+    fed
+}
+
+/// The brake resistor that is chosen for a drive.
+pub(super) fn chosen_resistor<'a>(context: &Context<'a>) -> Option<&'a Resistor> {
+    fed(context).chosen
 }
 
 /// Data missing for the voltage rise of the bus.
@@ -226,7 +263,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             ("A^2 s", rating)
         }
         Rule::BusVoltage => {
-            let missing = missing(&data(context)).filter(|_| !finding.is_known());
+            let missing = missing(&fed(context).data).filter(|_| !finding.is_known());
             (
                 "V",
                 known(missing.unwrap_or("maximum voltage of the DC bus")),
@@ -240,7 +277,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             } else {
                 "W"
             };
-            let missing = missing(&data(context)).unwrap_or("figures of the DC bus");
+            let missing = missing(&fed(context).data).unwrap_or("figures of the DC bus");
             (unit, known(missing))
         }
         Rule::BrakeResistance => ("Ohm", known("minimum resistance of the chopper")),
@@ -254,6 +291,12 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         rating,
         place: match rule {
             Rule::BusVoltage => bus_place(context, finding),
+            Rule::BrakeResistance => fed(context).chosen.map_or_else(String::new, |chosen| {
+                format!(
+                    "of {}, the smallest brake resistor of the catalogue that fits",
+                    chosen.key
+                )
+            }),
             _ => String::new(),
         },
     }
@@ -261,7 +304,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
 
 /// Regenerated energy, and the brake resistor it would require.
 fn bus_place(context: &Context, finding: Finding) -> String {
-    let data = data(context);
+    let Fed { data, need, .. } = fed(context);
     let curve = power(context);
     let [_, back] = curve.energies();
     if back == 0.0 {
@@ -271,18 +314,27 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     if finding.is_known() && finding.value.is_infinite() {
         words += ", more than is drawn: without a brake resistor the voltage rises without limit";
     }
-    if data.resistor.is_none()
-        && let Some(need) = Need::of(&data, &curve)
-        && finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY)
-    {
+    if data.resistor.is_some() || data.regenerative {
+        return words;
+    }
+    let rises = finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY);
+    if let Some(need) = need.or_else(|| Need::of(&data, &curve).filter(|_| rises)) {
         words += ", ";
         words += &need.words();
+        words += "; ";
+        words += &if context.resistors.is_empty() {
+            "neither [supply] nor the catalogue has one".to_owned()
+        } else {
+            need.misses(context.resistors)
+        };
+    } else if data.chopper_voltage.is_none() && finding.value > finding.rating {
+        words += "; no data for the voltage at which a brake resistor switches on, chopper_voltage of the amplifier or of [supply], so that none can be chosen";
     }
     words
 }
 
 /// Voltage of the bus over a cycle once it repeats, \[time (s), voltage (V)\]; empty if data are missing.
 pub(super) fn trace(context: &Context) -> Vec<[f64; 2]> {
-    let bus = data(context).bus();
+    let bus = fed(context).data.bus();
     bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&power(context)))
 }

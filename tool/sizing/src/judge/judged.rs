@@ -1,7 +1,7 @@
 //! A drive checked against every rule, with words.
 
 use super::Context;
-use crate::catalogue::Drive;
+use crate::catalogue::{Drive, Resistor};
 use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
 use jred_machine::model::rule::Rule;
@@ -12,6 +12,8 @@ use jred_machine::model::rules::{RuleSet, Verdict};
 pub struct Judged<'c> {
     /// The drive.
     pub drive: Drive<'c>,
+    /// The brake resistor that was chosen for it from the catalogue.
+    pub resistor: Option<&'c Resistor>,
     /// Its duty.
     pub duty: MotorDuty,
     /// Every rule.
@@ -25,6 +27,7 @@ impl<'c> Judged<'c> {
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {
             drive: context.drive,
+            resistor: context.resistor(),
             duty: context.cycle.motor_duty(&context.drive),
             checks: context.checks(rules),
             assumptions: context.assumptions(),
@@ -54,8 +57,18 @@ impl<'c> Judged<'c> {
         check.map_or(String::new(), Check::used)
     }
 
+    /// Price of its parts with the chosen brake resistor, in the currency of the catalogue; `None`: one of them has no data.
+    pub fn price(&self) -> Option<f64> {
+        price(&self.drive, self.resistor)
+    }
+
     /// Installed power (W); `None` if not given.
     pub fn rated_power(&self) -> Option<f64> {
         self.drive.motor.rated_power()
     }
+}
+
+/// Price of motor, gearbox, amplifier and the chosen brake resistor; `None`: one of them has no data.
+pub(crate) fn price(drive: &Drive, resistor: Option<&Resistor>) -> Option<f64> {
+    Some(drive.price()? + resistor.map_or(Some(0.0), |resistor| resistor.price)?)
 }

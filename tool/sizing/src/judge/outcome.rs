@@ -22,8 +22,10 @@ pub struct Outcome {
     pub not_checked: RuleBits,
     /// Whether nobody states what voltage the motor or the amplifier is made for.
     pub voltage_unknown: bool,
-    /// Number of rules violated with a limit of zero, where no share of the limit can be given.
+    /// Number of rules violated of which no share of the limit can be given: the limit is zero, or a part is not made for the supply.
     pub beyond_all_limits: u8,
+    /// The rules that are violated, as far as they were judged.
+    pub violated: RuleBits,
 }
 
 impl Outcome {
@@ -36,6 +38,7 @@ impl Outcome {
         not_checked: RuleBits::NONE,
         voltage_unknown: false,
         beyond_all_limits: 0,
+        violated: RuleBits::NONE,
     };
 
     /// Outcome of these findings under a rule set.
@@ -88,8 +91,18 @@ impl Record for Tally<'_> {
             outcome.not_checked.add(rule);
             outcome.voltage_unknown |= rule.is_of_voltage() && finding.rating.is_nan();
         }
-        let used = self.rules.use_of_limit(rule, finding);
-        if used.is_infinite() {
+        let fails = verdict == Verdict::Fail;
+        if fails {
+            outcome.violated.add(rule);
+        }
+        let mut used = self.rules.use_of_limit(rule, finding);
+        // What a brake resistor mends is nearer than anything that another motor or gearbox must mend.
+        if fails && rule == Rule::BusVoltage {
+            used = 1.0;
+        }
+        // No change of machine or motion brings a part nearer to a supply that it is not made for.
+        let by_parts = rule.is_of_voltage() || rule == Rule::BrakeResistance;
+        if used.is_infinite() || fails && by_parts {
             outcome.beyond_all_limits += 1;
         } else {
             outcome.uses(rule, used);

@@ -9,7 +9,7 @@
 
 use super::outcome::Tally;
 use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
-use crate::catalogue::{Drive, DriveId, Gearbox, Motor};
+use crate::catalogue::{Drive, DriveId, Gearbox, Motor, Resistor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rule::Rule;
@@ -22,6 +22,8 @@ pub(crate) struct Screen<'c> {
     cycle: &'c Cycle,
     site: &'c Site,
     rules: &'c RuleSet,
+    /// Brake resistors that one is chosen from.
+    resistors: &'c [Resistor],
     /// Outcome of the gearbox rules for each gearbox, and for none.
     alone: Vec<Outcome>,
     direct: Outcome,
@@ -51,9 +53,15 @@ impl<'c> Screen<'c> {
             cycle,
             site,
             rules,
+            resistors: &[],
             alone: gearboxes.iter().map(|g| alone(Some(g))).collect(),
             direct: alone(None),
         }
+    }
+
+    /// The same with brake resistors to choose from.
+    pub(crate) fn with_resistors(self, resistors: &'c [Resistor]) -> Self {
+        Self { resistors, ..self }
     }
 
     /// Whether a drive fits, and its outcome as far as that took. The verdict is the drive's own; if it fits, so is whether a rule
@@ -72,6 +80,7 @@ impl<'c> Screen<'c> {
             return tally.outcome;
         }
         let context = Context::new(self.cycle, self.site, drive, limits);
+        let context = context.with_resistors(self.resistors);
         site::measure(&context, &mut tally);
         motor::measure_inertia(&context, self.rules, &mut tally);
         motor::measure_torques(&context, &mut tally);

@@ -22,6 +22,9 @@ fn keys(text: &str) -> (&str, Option<&str>, Option<&str>) {
     }
 }
 
+/// Number of drives that a message names.
+const SHOWN: usize = 6;
+
 /// Whether a drive has this name; without an amplifier in it, on any.
 pub fn is_named(drive: &Drive, text: &str) -> bool {
     let (motor, gearbox, amplifier) = keys(text);
@@ -56,6 +59,27 @@ fn alike<'c>(catalogue: &'c Catalogue, text: &str) -> Option<(DriveId, Drive<'c>
     catalogue.drives().find(|(_, drive)| is_named(drive, &name))
 }
 
+/// The error for a drive whose parts are there but are not combined.
+fn not_combined(catalogue: &Catalogue, [motor, text]: [&str; 2]) -> miette::Report {
+    let drives = catalogue
+        .drives()
+        .filter(|(_, drive)| drive.motor.key == motor);
+    let names: Vec<String> = drives.map(|(_, drive)| drive.name()).collect();
+    let shown = names.iter().take(SHOWN).map(String::as_str);
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    let more = match names.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    miette!(
+        help = format!(
+            "it combines {motor} into: {shown}{more}; name further gearboxes and amplifiers of a motor in compatibility.csv (docs/catalogue.md)"
+        ),
+        "the catalogue does not combine the parts of the drive {}",
+        plain::quoted(text)
+    )
+}
+
 /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
 /// the first that goes with the motor); in any case of its letters where that is clear.
 ///
@@ -76,6 +100,10 @@ pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive
         .iter()
         .map(|a| a.key.as_str())
         .collect();
+    let has = |keys: &[&str], word: Option<&str>| word.is_none_or(|word| keys.contains(&word));
+    if has(&motors, Some(motor)) && has(&gearboxes, gearbox) && has(&amplifiers, amplifier) {
+        return Err(not_combined(catalogue, [motor, text]));
+    }
     let (word, keys) = match (gearbox, amplifier) {
         _ if !motors.contains(&motor) => (motor, motors),
         (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),

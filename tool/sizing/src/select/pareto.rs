@@ -11,6 +11,10 @@ use jred_machine::number::words::counted;
 pub struct Point<'c> {
     /// The drive.
     pub candidate: Candidate<'c>,
+    /// Its mass (kg), if the catalogue has it.
+    pub mass: Option<f64>,
+    /// Its price, if the catalogue has it.
+    pub price: Option<f64>,
     /// Its values.
     pub values: Vec<f64>,
 }
@@ -48,6 +52,8 @@ impl<'c> Front<'c> {
             if let Some(values) = values.into_iter().collect() {
                 points.push(Point {
                     candidate: *candidate,
+                    mass: None,
+                    price: None,
                     values,
                 });
             }
@@ -75,7 +81,13 @@ impl<'c> Front<'c> {
         }
         Self {
             objectives: objectives.to_vec(),
-            points: front.into_iter().map(|(_, point)| point).collect(),
+            points: (front.into_iter())
+                .map(|(_, point)| Point {
+                    mass: Objective::Mass.value(selection, &point.candidate),
+                    price: Objective::Price.value(selection, &point.candidate),
+                    ..point
+                })
+                .collect(),
             fit: fit.len(),
             compared,
             unknown,

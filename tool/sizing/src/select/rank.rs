@@ -1,5 +1,6 @@
 //! Objectives for ranking and comparing drives.
 
+use crate::judge::price;
 use crate::select::size::{Candidate, Certainty, Group, Selection};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
@@ -12,7 +13,7 @@ jred_machine::words! {
         Power = "power",
         /// Mass of motor, gearbox and amplifier.
         Mass = "mass",
-        /// Price of motor, gearbox and amplifier, in the currency of the catalogue.
+        /// Price of motor, gearbox, amplifier and the chosen brake resistor, in the currency of the catalogue.
         Price = "price",
         /// Energy supplied by the motor over a cycle; regenerated energy is not deducted.
         Energy = "energy",
@@ -58,7 +59,7 @@ impl Objective {
                 "the lightest first (motor, gearbox and amplifier), unknown mass last".to_owned()
             },
             Self::Price => |_| {
-                "the cheapest first (motor, gearbox and amplifier), unknown price last".to_owned()
+                "the cheapest first (motor, gearbox, amplifier and the chosen brake resistor), unknown price last".to_owned()
             },
             Self::Energy => |_| {
                 "the least energy supplied per cycle first (regenerated energy is not deducted)"
@@ -78,16 +79,8 @@ impl Objective {
         let drive = &candidate.drive;
         let known = match self {
             Self::Power => drive.motor.rated_power(),
-            Self::Mass => sum([
-                drive.motor.mass,
-                part(drive.gearbox, |g| g.mass),
-                part(drive.amplifier, |a| a.mass),
-            ]),
-            Self::Price => sum([
-                drive.motor.price,
-                part(drive.gearbox, |g| g.price),
-                part(drive.amplifier, |a| a.price),
-            ]),
+            Self::Mass => drive.mass(),
+            Self::Price => price(drive, selection.context(candidate).resistor()),
             Self::Energy => Some(selection.cycle.motor_duty(drive).motoring_energy),
             Self::Margin if candidate.outcome.beyond_all_limits > 0 => Some(f64::NEG_INFINITY),
             Self::Margin => Some(1.0 - candidate.outcome.worst_use),
@@ -111,16 +104,6 @@ impl Objective {
             _ => value,
         }
     }
-}
-
-/// Value of a part, zero if the drive does not have it; `None` if not given.
-fn part<T>(part: Option<&T>, of: impl Fn(&T) -> Option<f64>) -> Option<f64> {
-    part.map_or(Some(0.0), of)
-}
-
-/// The sum; `None` if one part has no data.
-fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
-    parts.into_iter().sum()
 }
 
 /// Ranks the suitable drives by an objective, the more certain first. Of equal certainty, drives without data come last in their previous order; equal ones keep their

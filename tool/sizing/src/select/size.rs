@@ -1,6 +1,8 @@
 //! Sizing: checks and ranks every drive of a catalogue.
 
-use crate::catalogue::{Catalogue, Drive, DriveId};
+use std::collections::HashSet;
+
+use crate::catalogue::{Catalogue, Drive, DriveId, Resistor};
 use crate::cycle::Cycle;
 use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
@@ -22,14 +24,14 @@ pub use order::{Certainty, Order};
 /// How drives are ranked unless something else was asked for.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
     format!(
-        "the smallest motor first (rated {torque} times rated speed); equal motors: without warnings first, then by \
-         largest margin"
+        "the smallest motor first (rated {torque} times rated speed, then rated {torque}); equal motors: without warnings first, then the smallest \
+         amplifier (rated current), the smallest gearbox (rated {torque}), the lightest, the cheapest"
     )
 }
 
 /// What comes first in every ranking.
-const FIRST_OF_ALL: &str = "drives with the makers' own figures first, then those with figures of others, then those of \
-                            unknown voltage; among each of them ";
+const FIRST_OF_ALL: &str = "drives with the makers' own figures first, then those with figures of others, then those whose amplifier nobody \
+                            pairs with the motor, then those of unknown voltage; among each of them ";
 
 /// Smallest number of motors per unit of parallel work.
 const SHARE: usize = 16;
@@ -88,6 +90,19 @@ pub struct Gap {
     pub missing: String,
 }
 
+/// A rule that refused drives violate.
+#[derive(Clone, Copy, Debug)]
+pub struct Violation<'c> {
+    /// The rule.
+    pub rule: Rule,
+    /// Number of drives.
+    pub count: usize,
+    /// Number of those that violate nothing else.
+    pub alone: usize,
+    /// The one of them that is refused by least.
+    pub closest: Candidate<'c>,
+}
+
 /// All drives with their results.
 ///
 /// Every drive is checked against every rule. The values that drives are sorted by are computed only for the first [`FIRST`]
@@ -108,6 +123,8 @@ pub struct Selection<'c> {
     /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
     motors: &'c [Prepared],
+    /// Brake resistors that one is chosen from.
+    resistors: &'c [Resistor],
 }
 
 impl<'c> Selection<'c> {
@@ -133,7 +150,7 @@ impl<'c> Selection<'c> {
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        let mut selection = Self::empty(motors, cycle, site, rules);
+        let mut selection = Self::empty(catalogue, motors, cycle, site, rules);
         let screen = selection.screen(catalogue);
         selection.judge(&screen, drives);
         selection.in_order(&screen)
@@ -147,7 +164,7 @@ impl<'c> Selection<'c> {
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        let empty = || Self::empty(motors, cycle, site, rules);
+        let empty = || Self::empty(catalogue, motors, cycle, site, rules);
         let screen = empty().screen(catalogue);
         let judge = |mut part: Self, index| {
             part.judge(&screen, catalogue.drives_of(index..index + 1));
@@ -157,7 +174,8 @@ impl<'c> Selection<'c> {
         judged.in_order(&screen)
     }
 
-    const fn empty(
+    fn empty(
+        catalogue: &'c Catalogue,
         motors: &'c [Prepared],
         cycle: &'c Cycle,
         site: &'c Site,
@@ -171,6 +189,7 @@ impl<'c> Selection<'c> {
             fit: Group::none(),
             refused: Group::none(),
             motors,
+            resistors: &catalogue.resistors,
         }
     }
 
@@ -181,7 +200,8 @@ impl<'c> Selection<'c> {
 
     fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {
         let any = catalogue.motors.first().zip(self.motors.first());
-        Screen::new(self.cycle, self.site, self.rules, &catalogue.gearboxes, any)
+        let screen = Screen::new(self.cycle, self.site, self.rules, &catalogue.gearboxes, any);
+        screen.with_resistors(self.resistors)
     }
 
     fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (DriveId, Drive<'c>)>) {
@@ -200,7 +220,7 @@ impl<'c> Selection<'c> {
     fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
         let Placed { drive, id } = *drive;
         let outcome = screen.judge(id, drive, &self.motors[id.motor()]);
-        let bound = Order::from(&drive, &outcome, id);
+        let bound = Order::from(drive, &outcome, id);
         (Unranked { drive, bound }, outcome)
     }
 
@@ -256,6 +276,40 @@ impl<'c> Selection<'c> {
         self.first(&self.fit, count)
     }
 
+    /// The first drive of each motor that has one that fits, each with its rank among all that fit: the first `count` of them.
+    pub fn first_of_motors(&self, count: usize) -> Vec<(usize, Candidate<'c>)> {
+        let of = |ranked: &[Candidate<'c>]| {
+            let mut seen = HashSet::new();
+            let first = (1..).zip(ranked.iter().copied());
+            let first = first.filter(|(_, candidate)| seen.insert(candidate.id.motor()));
+            first.take(count).collect::<Vec<_>>()
+        };
+        let known = of(self.fit.known());
+        if known.len() >= count || self.fit.rest.is_empty() {
+            return known;
+        }
+        of(self.completed(&self.fit).known())
+    }
+
+    /// The rules that refused drives violate, the most frequent first. As in the ranking, rules that follow time are judged only where
+    /// all others are satisfied.
+    pub fn violations(&self) -> Vec<Violation<'c>> {
+        let all = self.first_refused(usize::MAX);
+        let of = |rule: Rule| {
+            let violate = all.iter().filter(|c| c.outcome.violated.has(rule));
+            let alone = violate.clone().filter(|c| c.outcome.violated.count() == 1);
+            Some(Violation {
+                rule,
+                count: violate.clone().count(),
+                alone: alone.count(),
+                closest: *violate.clone().next()?,
+            })
+        };
+        let mut found: Vec<_> = Rule::ALL.into_iter().filter_map(of).collect();
+        found.sort_by_key(|violation| std::cmp::Reverse(violation.count));
+        found
+    }
+
     /// The first `count` refused drives, those that miss by least first.
     pub fn first_refused(&self, count: usize) -> Vec<Candidate<'c>> {
         self.first(&self.refused, count)
@@ -289,10 +343,7 @@ impl<'c> Selection<'c> {
         for certainty in Certainty::ALL {
             let class = self.fit.survey().class(certainty);
             let known = self.fit.known().get(rank - 1).copied();
-            let first = known.or_else(|| {
-                let smallest = class.smallest.iter().map(|drive| self.in_full(drive));
-                smallest.min_by_key(Order::of)
-            });
+            let first = known.or_else(|| Some(self.in_full(&class.first?.placed())));
             if let Some(first) = first.filter(|_| class.count > 0) {
                 classes.push(Class {
                     certainty,
@@ -347,6 +398,6 @@ impl<'c> Selection<'c> {
     }
 
     fn context_of(&self, drive: Drive<'c>, motor: &'c Prepared) -> Context<'c> {
-        Context::new(self.cycle, self.site, drive, motor)
+        Context::new(self.cycle, self.site, drive, motor).with_resistors(self.resistors)
     }
 }

@@ -2,8 +2,7 @@
 
 use miette::{Result, miette};
 
-use crate::catalogue::Drive;
-use crate::catalogue::{Amplifier, Gearbox, Motor};
+use crate::catalogue::{Amplifier, Catalogue, Drive, Gearbox, Motor, Resistor};
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Prepared;
 use crate::select::filter::Filter;
@@ -17,6 +16,8 @@ pub struct ChosenDrive {
     motor: Motor,
     gearbox: Option<Gearbox>,
     amplifier: Option<Amplifier>,
+    /// Brake resistors of its catalogue, of which one is chosen for each machine that gives none.
+    resistors: Vec<Resistor>,
 }
 
 impl ChosenDrive {
@@ -31,7 +32,7 @@ impl ChosenDrive {
         objective: Option<Objective>,
     ) -> Result<Self> {
         if let Some(name) = name {
-            return Ok(Self::of(&study.drive(name)?.1));
+            return Ok(Self::of(&study.drive(name)?.1, &study.catalogue));
         }
         let machine = study.machine(&[])?;
         let (site, rules) = (&machine.file.site, &machine.file.rules);
@@ -43,15 +44,16 @@ impl ChosenDrive {
         }
         let first = selection.fit.first().or(selection.refused.first());
         let first = first.ok_or_else(|| miette!("no drive in the catalogue passes the filter"))?;
-        Ok(Self::of(&first.drive))
+        Ok(Self::of(&first.drive, &study.catalogue))
     }
 
     /// A drive of a catalogue, to be kept without it.
-    pub fn of(drive: &Drive) -> Self {
+    pub fn of(drive: &Drive, catalogue: &Catalogue) -> Self {
         Self {
             motor: drive.motor.clone(),
             gearbox: drive.gearbox.cloned(),
             amplifier: drive.amplifier.cloned(),
+            resistors: catalogue.resistors.clone(),
         }
     }
 
@@ -73,6 +75,8 @@ impl ChosenDrive {
     pub fn findings(&self, machine: &PreparedMachine) -> Findings {
         let site = &machine.file.site;
         let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
-        Context::new(&machine.cycle, site, self.drive(), &limits).findings(&machine.file.rules)
+        Context::new(&machine.cycle, site, self.drive(), &limits)
+            .with_resistors(&self.resistors)
+            .findings(&machine.file.rules)
     }
 }

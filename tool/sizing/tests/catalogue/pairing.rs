@@ -107,16 +107,13 @@ m3,,,a*
     .unwrap();
     let mut expected = Vec::new();
     for (motor, gearboxes, amplifiers) in [
-        ("m1", &["direct", "p-5", "q-3"][..], &["a-5", "a-10"][..]),
+        // Amplifiers of another maker run those motors only that the list names them for.
+        ("m1", &["direct", "p-5", "q-3"][..], &["none"][..]),
         ("m2", &["p-3", "p-5"], &["a-10"]),
         ("m3", &["direct"], &["a-5", "a-10"]),
-        ("m4", &["direct"], &["a-5", "a-10"]),
-        ("n1", &["direct"], &["a-5", "a-10"]),
-        (
-            "z1",
-            &["direct", "p-3", "p-5", "q-3", "q-own"],
-            &["a-5", "a-10"],
-        ),
+        ("m4", &["direct"], &["none"]),
+        ("n1", &["direct"], &["none"]),
+        ("z1", &["direct", "p-3", "p-5", "q-3", "q-own"], &["none"]),
     ] {
         for gearbox in gearboxes {
             for amplifier in amplifiers {
@@ -148,7 +145,7 @@ fn lists_in_toml() {
     };
     let only_amplifiers =
         with("[[compatibility]]\nmotor = \"m*\"\namplifiers = [\"a-5\"]\n").unwrap();
-    assert_eq!(only_amplifiers.len(), 5 + 5 + 5 * 2);
+    assert_eq!(only_amplifiers.len(), 5 + 5 + 5);
     let none = with("[[compatibility]]\nmotor = \"*\"\ngearboxes = []\namplifiers = \"a-5\"\n");
     assert_eq!(
         none.unwrap(),
@@ -383,4 +380,59 @@ fn several_catalogues_are_merged() {
         3,
         "both files and the place: {error}"
     );
+}
+
+/// An amplifier of another maker runs a motor only where a list says so, or where the catalogue pairs no amplifiers and has none of the
+/// motor's maker. Names are compared without regard to how they are written.
+#[test]
+fn amplifiers_of_another_maker() {
+    let table = |maker: &str| motors(&["m1"]).replace(",Maker,", &format!(",{maker},"));
+    let with = |maker: &str, list: &str| {
+        let table = table(maker);
+        let own = AMPLIFIERS.to_owned() + "o-5,Other-Maker,A,5,15,S\n";
+        let mut files = vec![
+            ("motors.csv", table.as_str()),
+            ("amplifiers.csv", own.as_str()),
+        ];
+        if !list.is_empty() {
+            files.push(("compatibility.csv", list));
+        }
+        open(&[&files]).unwrap()
+    };
+    for (maker, list, expected) in [
+        // No list, and none of its maker: by the figures, not certain.
+        ("Maker", "", &["a-5", "a-10", "o-5"][..]),
+        // Those of its own maker only.
+        ("M", "", &["a-5", "a-10"]),
+        ("OTHER MAKER", "", &["o-5"]),
+        // What a list says goes before the makers.
+        ("M", "motor,amplifiers\nm1,o-5\n", &["o-5"]),
+        ("Maker", "motor,amplifiers\nm1,o-5 a-5\n", &["a-5", "o-5"]),
+    ] {
+        let catalogue = with(maker, list);
+        let found: Vec<&str> = catalogue.amplifiers_of(0).iter().map(|a| &*a.key).collect();
+        assert_eq!(found, expected, "{maker} {list}");
+        let certain = maker != "Maker" || !list.is_empty();
+        assert!(
+            catalogue
+                .drives()
+                .all(|(_, drive)| drive.is_paired() == certain)
+        );
+        let said = |words: &str| {
+            catalogue
+                .warnings
+                .iter()
+                .filter(|w| w.contains(words))
+                .count()
+        };
+        let strangers = said("no list of the catalogue pairs motors of Maker with amplifiers of");
+        assert_eq!(
+            strangers,
+            if certain { 0 } else { 2 },
+            "{:?}",
+            catalogue.warnings
+        );
+        let idle = said("runs no motor of the catalogue");
+        assert_eq!(idle, 3 - expected.len(), "{:?}", catalogue.warnings);
+    }
 }

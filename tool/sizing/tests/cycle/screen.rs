@@ -1,6 +1,7 @@
 //! Whether every drive of a catalogue is screened as judging it in full says: the same verdicts, the same first drives in order.
 
 use std::cell::Cell;
+use std::cmp::Ordering;
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rule::Rule;
@@ -10,7 +11,7 @@ use jred_machine::model::site::Site;
 use jred_machine::model::supply::BrakeResistor;
 use jred_machine::read;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::catalogue::{Amplifier, Catalogue, Motor};
+use jred_sizing::catalogue::{Amplifier, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::{Context, Outcome};
 use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
@@ -33,30 +34,79 @@ fn plainly(
         let outcome = Context::new(cycle, site, drive, &motors[id.motor()]).outcome(rules);
         lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
     }
-    let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);
-    let doubt = |drive: &Drive, found: &Outcome| {
-        if found.voltage_unknown {
-            2
-        } else {
-            i32::from(!drive.from_makers())
-        }
-    };
     let [fit, refused] = &mut lists;
-    // Both sorts are stable: equal drives stay in the order of the catalogue.
     fit.sort_by(|(a, x), (b, y)| {
-        doubt(a, x)
-            .cmp(&doubt(b, y))
-            .then(power(a).total_cmp(&power(b)))
-            .then((x.warnings > 0).cmp(&(y.warnings > 0)))
-            .then(x.worst_use.total_cmp(&y.worst_use))
+        (doubt(a, x).cmp(&doubt(b, y)))
+            .then_with(|| by_size((a, x.warnings > 0), (b, y.warnings > 0)))
     });
-    refused.sort_by(|(_, x), (_, y)| {
-        (x.beyond_all_limits.cmp(&y.beyond_all_limits)).then(x.worst_use.total_cmp(&y.worst_use))
+    refused.sort_by(|(a, x), (b, y)| {
+        (x.beyond_all_limits.cmp(&y.beyond_all_limits))
+            .then((x.worst_use as f32).total_cmp(&(y.worst_use as f32)))
+            .then_with(|| by_size((a, false), (b, false)))
     });
     lists.map(|list| {
         let named = list.into_iter().map(|(drive, found)| (drive.name(), found));
         named.collect()
     })
+}
+
+/// How little is certain of a drive that fits.
+fn doubt(drive: &Drive, found: &Outcome) -> i32 {
+    let amplifier = drive.amplifier;
+    let stranger = amplifier.is_some_and(|a| a.maker != drive.motor.maker);
+    if found.voltage_unknown {
+        3
+    } else if stranger && !drive.motor.amplifiers_listed {
+        2
+    } else {
+        i32::from(!drive.from_makers())
+    }
+}
+
+/// Drives by size as docs/sizing-rules.md states it, each with whether it has a warning. Data sheets have fewer digits than `f32`.
+fn by_size((a, x): (&Drive, bool), (b, y): (&Drive, bool)) -> Ordering {
+    let figures = |drive: &Drive, warns: bool| {
+        let Drive {
+            motor,
+            gearbox,
+            amplifier,
+        } = drive;
+        let sum =
+            |motor: Option<f64>, gearbox: Option<Option<f64>>, amplifier: Option<Option<f64>>| {
+                Some(motor? + gearbox.unwrap_or(Some(0.0))? + amplifier.unwrap_or(Some(0.0))?)
+            };
+        let size = |g: &Gearbox| g.rated_torque.or(g.peak_torque).unwrap_or(f64::INFINITY);
+        let mass = sum(
+            motor.mass,
+            gearbox.map(|g| g.mass),
+            amplifier.map(|a| a.mass),
+        );
+        let price = sum(
+            motor.price,
+            gearbox.map(|g| g.price),
+            amplifier.map(|a| a.price),
+        );
+        [
+            motor.rated_power(),
+            motor.rated_torque.or(motor.standstill_torque),
+            Some(f64::from(u8::from(warns))),
+            amplifier.map(|a| a.rated_current),
+            Some(gearbox.map_or(0.0, size)),
+            mass,
+            price,
+        ]
+        .map(|figure| figure.unwrap_or(f64::INFINITY) as f32)
+    };
+    let keys = |drive: &Drive| {
+        let gearbox = drive.gearbox.map_or("", |g| &g.key).to_owned();
+        let amplifier = drive.amplifier.map_or("", |a| &a.key).to_owned();
+        [drive.motor.key.clone(), gearbox, amplifier]
+    };
+    let pairs = figures(a, x).into_iter().zip(figures(b, y));
+    let order = pairs.map(|(one, other)| one.total_cmp(&other));
+    order
+        .fold(Ordering::Equal, Ordering::then)
+        .then_with(|| keys(a).cmp(&keys(b)))
 }
 
 fn named(candidates: &[Candidate]) -> Vec<(String, Outcome)> {

@@ -294,9 +294,11 @@ fn ranking() {
         let key = |c: &Candidate| {
             (
                 Certainty::of(&c.drive, &c.outcome),
-                c.drive.motor.rated_power(),
+                // With the digits of a data sheet: equal powers differ in their last bit.
+                c.drive.motor.rated_power().map(|power| power as f32),
+                c.drive.motor.rated_torque,
                 c.outcome.warnings > 0,
-                c.outcome.worst_use,
+                c.drive.gearbox.map_or(Some(0.0), |g| g.rated_torque),
             )
         };
         assert!(
@@ -307,7 +309,7 @@ fn ranking() {
         );
     }
     for pair in refused.windows(2) {
-        let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
+        let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use as f32);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }
 }

@@ -6,7 +6,7 @@ use miette::Result;
 
 use super::explained;
 use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::significant;
+use jred_machine::number::rounding::{short, significant};
 use jred_machine::number::words::counted;
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -53,10 +53,14 @@ impl<'c> Asked<'c> {
                 .checks
                 .iter()
                 .filter(|check| check.verdict == Verdict::Fail);
-            let broken: Vec<String> = broken.map(|c| format!("{} {}", c.rule, c.used())).collect();
+            let broken = broken.map(|check| match (check.used(), check.bound()) {
+                (used, _) if !used.is_empty() => format!("{} {used}", check.rule),
+                (_, Some(limit)) => format!("{} {} of {limit}", check.rule, check.figure()),
+                (_, None) => check.rule.to_owned(),
+            });
             return format!(
                 "refused; use of the limits that it violates: {}",
-                broken.join(", ")
+                broken.collect::<Vec<_>>().join(", ")
             );
         };
         let mut words = format!(
@@ -83,7 +87,6 @@ impl<'c> Asked<'c> {
 /// The values that the default ranking uses.
 fn figures(candidate: &Candidate) -> String {
     let outcome = &candidate.outcome;
-    let words = candidate.drive.motor.kind.vocabulary();
     let power = candidate.drive.motor.rated_power();
     let power = power.map_or_else(
         || "rated power unknown".to_owned(),
@@ -93,9 +96,22 @@ fn figures(candidate: &Candidate) -> String {
         0 => "no warning".to_owned(),
         n => counted(n as usize, "warning", "warnings"),
     };
-    let most = outcome.worst_rule.map_or_else(String::new, |rule| {
-        let used = significant(outcome.worst_use * 100.0, 3);
-        format!(", closest limit: {} {used} %", rule.named(words))
+    let drive = &candidate.drive;
+    let amplifier = drive.amplifier.map_or_else(String::new, |amplifier| {
+        format!(", amplifier {} A", short(amplifier.rated_current))
     });
-    format!("{}, {power}, {warnings}{most}", candidate.drive.name())
+    let gearbox = drive.gearbox.map_or_else(String::new, |gearbox| {
+        let size = gearbox.size();
+        let size = size.map_or_else(
+            || "no data".to_owned(),
+            |size| format!("{} N m", short(size)),
+        );
+        format!(", gearbox {size}")
+    });
+    let mass = drive.mass();
+    let mass = mass.map_or_else(String::new, |mass| format!(", {} kg", short(mass)));
+    format!(
+        "{}, {power}, {warnings}{amplifier}{gearbox}{mass}",
+        drive.name()
+    )
 }

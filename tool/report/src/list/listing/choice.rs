@@ -17,21 +17,30 @@ pub struct List {
     pub refused: bool,
     /// Every drive instead.
     pub all: bool,
+    /// A line for every drive instead of one for every motor.
+    pub all_gearboxes: bool,
 }
 
 impl List {
-    /// The ranked drives to list.
-    pub fn fit<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
-        selection.first_fit(self.count())
+    /// The ranked drives to list with their ranks: each motor with its first gearbox and amplifier, or every drive.
+    pub fn fit<'c>(&self, selection: &Selection<'c>) -> Vec<(usize, Candidate<'c>)> {
+        if self.all {
+            (1..).zip(selection.first_fit(usize::MAX)).collect()
+        } else if self.all_gearboxes {
+            (1..).zip(selection.first_fit(self.top)).collect()
+        } else {
+            selection.first_of_motors(self.top)
+        }
     }
 
-    /// The same with their ranks, and after them the first drive of each certainty that is not among them.
+    /// The same, and after them the first drive of each certainty that is not among them.
     pub fn ranked<'c>(&self, selection: &Selection<'c>) -> Vec<(usize, Candidate<'c>)> {
-        ranked(selection, self.count())
-    }
-
-    const fn count(&self) -> usize {
-        if self.all { usize::MAX } else { self.top }
+        let mut listed = self.fit(selection);
+        let last = listed.last().map_or(0, |(rank, _)| *rank);
+        let firsts = selection.classes().into_iter();
+        let lower = firsts.filter(|class| last > 0 && class.rank > last);
+        listed.extend(lower.map(|class| (class.rank, class.first)));
+        listed
     }
 
     /// The refused drives to list, those that miss by least first.
@@ -41,16 +50,6 @@ impl List {
         }
         selection.first_refused(self.nearest)
     }
-}
-
-/// The first drives, and after them the first of each certainty that is not among them, with their ranks.
-pub(crate) fn ranked<'c>(selection: &Selection<'c>, count: usize) -> Vec<(usize, Candidate<'c>)> {
-    let mut listed: Vec<_> = (1..).zip(selection.first_fit(count)).collect();
-    let last = listed.len();
-    let firsts = selection.classes().into_iter();
-    let lower = firsts.filter(|class| last > 0 && class.rank > last);
-    listed.extend(lower.map(|class| (class.rank, class.first)));
-    listed
 }
 
 /// The drive to be explained: the one called `name`, or the best one, or, if none is suitable, the closest one. `None` if

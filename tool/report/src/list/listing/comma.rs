@@ -6,7 +6,7 @@ use jred_sizing::judge::Judged;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Columns, a row for every rule of every drive that is listed.
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 15] = [
     "rank",
     "motor",
     "gearbox",
@@ -19,9 +19,12 @@ const COLUMNS: [&str; 12] = [
     "unit",
     "note",
     "certainty",
+    "mass [kg]",
+    "price",
+    "brake resistor",
 ];
 
-/// Every rule of every drive that is listed as a row, part by part, a drive each; "verdict" is the rule's, and "certainty" that of a drive that fits. The drive asked for comes
+/// Every rule of every drive that is listed as a row, part by part, a drive each; "verdict" is the rule's, and "certainty" that of a drive that fits. "brake resistor" is the one chosen from the catalogue. The drive asked for comes
 /// first, with its rank if it fits, and is left out of the list.
 pub fn csv<'c>(
     list: List,
@@ -64,6 +67,9 @@ fn rows(rank: &str, certainty: &str, judged: &Judged) -> String {
             check.unit.to_owned(),
             check.note.clone(),
             certainty.to_owned(),
+            csv::known(drive.mass()),
+            csv::known(judged.price()),
+            judged.resistor.map_or_else(String::new, |r| r.key.clone()),
         ]
     });
     csv::rows(rows)

@@ -38,13 +38,7 @@ impl Explanation {
         nearest: usize,
     ) -> Result<Self, Error> {
         let altered = Altered::new(file, duty)?;
-        let change = Remedies::new(
-            &altered,
-            selection.site,
-            selection.rules,
-            candidate.drive,
-            candidate.motor,
-        );
+        let change = Remedies::of_candidate(selection, &altered, candidate);
         let nearest = Remedies::of_nearest(selection, &altered, nearest)?;
         Ok(Self {
             contributions: Some(Breakdown::new(file, duty, &candidate.drive)?),

@@ -13,7 +13,7 @@ use jred_sizing::judge::cure;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
-pub const SCHEMA: &str = "jred-size/3";
+pub const SCHEMA: &str = "jred-size/4";
 
 /// What is said beside the drives.
 #[derive(Debug)]
@@ -26,11 +26,11 @@ pub struct Notes<'a> {
 
 /// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
 /// all drives of a catalogue is many times larger than they are.
-pub fn json<'c>(
+pub fn json(
     list: List,
     file: &MachineFile,
     duty: &Duty,
-    selection: &'c Selection,
+    selection: &Selection,
     notes: &Notes,
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
@@ -93,6 +93,7 @@ pub fn json<'c>(
         },
         "certainties": classes.collect::<Vec<_>>(),
         "not checked": gaps.collect::<Vec<_>>(),
+        "violated": violated(selection, kind),
         "fit": Value::Null,
         "refused": Value::Null,
     });
@@ -110,15 +111,36 @@ pub fn json<'c>(
     let text = format!("{value:#}\n");
     let (before, rest) = split_at_entry(&text, "fit");
     let (between, after) = split_at_entry(&rest, "refused");
-    let drives = move |candidates: Vec<Candidate<'c>>| {
-        let drives = candidates.into_iter();
-        array_parts(drives.map(|candidate| drive(selection, &candidate)))
-    };
+    let fit = list.fit(selection).into_iter();
+    let fit = fit.map(|(rank, candidate)| {
+        let mut found = drive(selection, &candidate);
+        found["rank"] = rank.into();
+        found
+    });
+    let refused = list.refused(selection).into_iter();
     std::iter::once(before)
-        .chain(drives(list.fit(selection)))
+        .chain(array_parts(fit))
         .chain(std::iter::once(between))
-        .chain(drives(list.refused(selection)))
+        .chain(array_parts(
+            refused.map(|candidate| drive(selection, &candidate)),
+        ))
         .chain(std::iter::once(after))
+}
+
+/// What the drives are refused for. Where one fits, nobody asks, and it would mean judging all drives in full.
+fn violated(selection: &Selection, kind: MotorKind) -> Vec<Value> {
+    if !selection.fit.is_empty() {
+        return Vec::new();
+    }
+    let violations = selection.violations().into_iter().map(|violation| {
+        object!({
+            "rule": violation.rule.named(kind.vocabulary()),
+            "id": violation.rule,
+            "drives": violation.count,
+            "drives, nothing else": violation.alone,
+        })
+    });
+    violations.collect()
 }
 
 fn drive(selection: &Selection, candidate: &Candidate) -> Value {
@@ -128,7 +150,10 @@ fn drive(selection: &Selection, candidate: &Candidate) -> Value {
         "motor": drive.motor.key,
         "gearbox": drive.gearbox.map(|g| &g.key),
         "amplifier": drive.amplifier.map(|a| &a.key),
+        "brake resistor": judged.resistor.map(|r| &r.key),
         "ratio": drive.ratio(),
+        "mass [kg]": drive.mass(),
+        "price": judged.price(),
         "rated power [W]": judged.rated_power(),
         "motor mains voltage [V]": drive.motor.mains_voltage,
         "motor largest bus voltage [V]": drive.motor.made_for().map(|made| made.largest),

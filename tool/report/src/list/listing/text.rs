@@ -1,5 +1,7 @@
 //! A selection as text.
 
+use std::fmt::Write as _;
+
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
 use super::{Asked, Explanation, List};
@@ -10,7 +12,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
 use jred_machine::number::figures::Figures;
-use jred_machine::number::rounding::{rounded, short, significant};
+use jred_machine::number::rounding::{cleared, rounded, short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
@@ -65,24 +67,30 @@ pub fn text(
         parts.push(asked_text(asked, selection));
     } else if let Some(best) = selection.fit.first() {
         let best = &selection.judged(best);
+        let which = if all == 1 { "Drive" } else { "Best drive" };
         parts.push(format!(
-            "Best drive: {}\n{}",
+            "{which}: {}\n{}",
             best.drive.name(),
             drive_text(best)
         ));
         parts.push(String::new());
-        parts.push(counts(selection));
+        if all > 1 {
+            parts.push(counts(selection));
+        }
         parts.extend(not_checked(selection, words));
         parts.push(ranking(list, selection, words));
         parts.extend(smaller(selection));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
-        parts.push(format!(
-            "None of {} satisfies every rule. The closest one: {}\n{}",
-            counted(all, "drive", "drives"),
-            nearest.drive.name(),
-            drive_text(nearest)
-        ));
+        let (name, text) = (nearest.drive.name(), drive_text(nearest));
+        parts.push(match all {
+            1 => format!("Drive: {name}, which violates a rule\n{text}"),
+            _ => format!(
+                "None of {} satisfies every rule. Violated:\n{}\n\nThe closest one: {name}\n{text}",
+                counted(all, "drive", "drives"),
+                violations(selection).join("\n"),
+            ),
+        });
     }
     if let Some(explanation) = explanation {
         parts.push(explanation.text(duty.duration));
@@ -133,6 +141,38 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     )
 }
 
+/// For each rule that is violated how many drives violate it, and the one of them that is refused by least.
+pub(crate) fn violations(selection: &Selection) -> Vec<String> {
+    let lines = selection.violations().into_iter().map(|violation| {
+        let closest = &selection.judged(&violation.closest);
+        let check = closest.checks.iter().find(|c| c.id == violation.rule);
+        let figures = check.map_or_else(String::new, |check| {
+            let limit = check
+                .bound()
+                .map_or_else(String::new, |b| format!(", limit {b}"));
+            // A part is missing, and the note says which.
+            let note = if check.id.is_yes_or_no() {
+                format!(" ({})", check.note)
+            } else {
+                String::new()
+            };
+            format!("{}{limit}{note}", check.figure())
+        });
+        let words = closest.drive.motor.kind.vocabulary();
+        let alone = match violation.alone {
+            0 => String::new(),
+            n => format!(", {n} by nothing else"),
+        };
+        format!(
+            "  {}: {}{alone}; the closest, {}: {figures}",
+            violation.rule.named(words),
+            counted(violation.count, "drive", "drives"),
+            closest.drive.name(),
+        )
+    });
+    lines.collect()
+}
+
 /// How many drives violate no rule, and how certain their data are; the first drive of each certainty.
 fn counts(selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
@@ -174,6 +214,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
+        Certainty::Pairing => "whose amplifier nobody pairs with the motor (†), of known voltage",
         Certainty::Voltage => "of unknown voltage (–)",
     }
 }
@@ -185,6 +226,7 @@ const fn doubt(certainty: Certainty) -> &'static str {
         Certainty::Others => {
             "its figures are not all the makers' own; check them against the data sheets"
         }
+        Certainty::Pairing => "nobody states that this amplifier runs this motor; ask the makers",
         Certainty::Voltage => {
             "the catalogue does not state what voltage it is made for; ask the makers"
         }
@@ -260,20 +302,41 @@ fn next_smaller(selection: &Selection) -> Option<String> {
 }
 
 fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
-    let mut table = text_table(&[
+    let shown = list.ranked(selection);
+    let judged = shown.iter();
+    let judged: Vec<(usize, Judged)> = judged
+        .map(|(rank, candidate)| (*rank, selection.judged(candidate)))
+        .collect();
+    let resistors = judged.iter().any(|(_, judged)| judged.resistor.is_some());
+    let mut head = vec![
         "rank",
         "motor",
         "made for",
         "gearbox",
+        "ratio",
+        "amplifier",
         "rated [kW]",
+        "mass [kg]",
+        "price",
         "RMS used",
         "peak used",
         "speed used",
         "λ max",
-    ]);
-    let shown = list.ranked(selection);
-    for (rank, candidate) in &shown {
-        table.add_row(rank_row(*rank, &selection.judged(candidate)));
+    ];
+    if resistors {
+        head.push("brake resistor");
+    }
+    let mut table = text_table(&head);
+    for (rank, judged) in &judged {
+        let mut row = rank_row(*rank, judged).to_vec();
+        if resistors {
+            row.push(
+                judged
+                    .resistor
+                    .map_or("–".to_owned(), |r| marked(&r.key, r.from_maker)),
+            );
+        }
+        table.add_row(row);
     }
     let drives = || shown.iter().map(|(_, candidate)| candidate.drive);
     let mut remarks = String::new();
@@ -283,7 +346,25 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     if drives().any(|drive| drive.motor.made_for().is_none()) {
         remarks += "\n– voltage that the motor is made for not stated in the catalogue";
     }
-    format!("{table}\nranked: {}{remarks}", selection.ranking(words))
+    if drives().any(|drive| !drive.is_paired()) {
+        remarks += "\n† nobody states that this amplifier runs this motor; ask the makers";
+    }
+    if resistors {
+        remarks +=
+            "\nbrake resistor: the smallest of the catalogue that fits; the price contains it";
+    }
+    let more = selection.fit.len() - shown.len();
+    if more > 0 && !list.all && !list.all_gearboxes {
+        let _ = write!(
+            remarks,
+            "\n{}: other gearboxes and amplifiers, or larger motors; --all-gearboxes lists every gearbox, --top N more motors",
+            counted(more, "more drive fits", "more drives fit")
+        );
+    }
+    if selection.fit.len() + selection.refused.len() > 1 {
+        remarks = format!("\nranked: {}{remarks}", selection.ranking(words));
+    }
+    format!("{table}{remarks}")
 }
 
 /// A key of the catalogue, marked if its figures are not from the maker's own document.
@@ -327,7 +408,7 @@ fn drive_text(judged: &Judged) -> String {
     format!(
         "{figures}\nper cycle: {} J supplied, {} J regenerated\n\n{}",
         rounded(duty.motoring_energy),
-        rounded(duty.regenerative_energy),
+        rounded(cleared(duty.regenerative_energy, duty.motoring_energy)),
         rules_table(judged)
     )
 }
@@ -383,7 +464,12 @@ pub(crate) fn margin(check: &Check) -> String {
     }
 }
 
-fn rank_row(rank: usize, judged: &Judged) -> [String; 9] {
+/// A figure of the catalogue, or a dash where it has none.
+pub(crate) fn figure(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), short)
+}
+
+fn rank_row(rank: usize, judged: &Judged) -> [String; 13] {
     let drive = &judged.drive;
     let power = judged.rated_power();
     [
@@ -393,7 +479,14 @@ fn rank_row(rank: usize, judged: &Judged) -> [String; 9] {
         drive
             .gearbox
             .map_or("direct".to_owned(), |g| marked(&g.key, g.from_maker)),
+        rounded(drive.ratio()),
+        drive.amplifier.map_or("–".to_owned(), |a| {
+            let mark = if drive.is_paired() { "" } else { " †" };
+            marked(&a.key, a.from_maker) + mark
+        }),
         power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
+        figure(drive.mass()),
+        figure(judged.price()),
         judged.used(Rule::RmsTorque),
         judged.used(Rule::PeakTorque),
         judged.used(Rule::Speed),

@@ -83,7 +83,11 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
             column,
             &format!("is given, but the motor is {have}"),
             "only for the other kind of motor",
-            format!("set the column \"kind\" to \"{instead}\", or leave this cell empty"),
+            format!(
+                "set the {} \"kind\" to \"{instead}\", or {}",
+                row.form().column(),
+                row.form().leave_out()
+            ),
         ));
     }
     row.checked()?;
@@ -121,6 +125,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
         bus_voltage: row.optional(Column::BusVoltage),
         mains_voltage: mains_voltage(row),
         max_bus_voltage: row.optional(Column::MaxBusVoltage),
+        amplifiers_listed: false,
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -135,7 +140,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
             Column::BuiltInGearbox,
             "is given, but a linear motor has no gearbox",
             "here",
-            "leave this cell empty",
+            row.form().leave_out(),
         ));
     }
     row.checked()?;

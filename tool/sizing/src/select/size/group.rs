@@ -19,7 +19,7 @@ pub struct Group<'c> {
     /// Candidates for the first ranks while drives are checked.
     near: Vec<Unranked<'c>>,
     /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
-    limit: Option<Order>,
+    limit: Option<Order<'c>>,
     pub(super) rest: Vec<Placed<'c>>,
     /// Of all drives; of refused ones nothing is counted.
     survey: Survey<'c>,
@@ -36,7 +36,7 @@ pub(super) struct Placed<'c> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unranked<'c> {
     pub(super) drive: Drive<'c>,
-    pub(super) bound: Order,
+    pub(super) bound: Order<'c>,
 }
 
 impl<'c> Unranked<'c> {
@@ -106,7 +106,7 @@ impl<'c> Group<'c> {
 
     /// Joins two unsorted groups.
     pub(super) fn join(&mut self, other: Self) {
-        self.survey.join(other.survey);
+        self.survey.join(&other.survey);
         for drive in other.near {
             self.put(drive);
         }

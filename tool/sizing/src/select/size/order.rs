@@ -1,5 +1,7 @@
 //! Sort key of drives.
 
+use std::cmp::Ordering;
+
 use super::Candidate;
 use crate::catalogue::{Drive, DriveId};
 use crate::judge::Outcome;
@@ -13,6 +15,8 @@ jred_machine::words! {
         Makers = "makers-figures",
         /// The voltage is stated, but not all figures are from the makers' own documents.
         Others = "other-figures",
+        /// Nobody states that the amplifier runs the motor, which is of another maker.
+        Pairing = "pairing-unknown",
         /// Nobody states what voltage the motor or the amplifier is made for.
         Voltage = "voltage-unknown",
     }
@@ -20,12 +24,14 @@ jred_machine::words! {
 
 impl Certainty {
     /// All, the most certain first.
-    pub const ALL: [Self; 3] = [Self::Makers, Self::Others, Self::Voltage];
+    pub const ALL: [Self; 4] = [Self::Makers, Self::Others, Self::Pairing, Self::Voltage];
 
     /// That of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
         if outcome.voltage_unknown {
             Self::Voltage
+        } else if !drive.is_paired() {
+            Self::Pairing
         } else if drive.from_makers() {
             Self::Makers
         } else {
@@ -34,29 +40,68 @@ impl Certainty {
     }
 }
 
-/// Sort key of drives: suitable ones by certainty, power, warnings and the largest use of a limit; refused ones by the number of limits
-/// of zero that they exceed, then by the largest use. Equal ones stay in the order of the catalogue, so that the result does
-/// not depend on the division of the work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Order {
+/// Sort key of drives: suitable ones by certainty, then by size: the smaller motor, for the same motor without warnings first, then
+/// the smaller amplifier and the smaller gearbox, then mass and price where they are known. Refused ones by the number of limits that
+/// no share can be given of, by the largest use of a limit, then by size. Ties are broken by the keys, so that the order depends
+/// neither on the last digits of a figure nor on the division of the work.
+#[derive(Clone, Copy, Debug)]
+pub struct Order<'c> {
     /// Of those refused none.
     certainty: Option<Certainty>,
-    /// Of those that fit the bits of the power, then one for a warning; of those refused the number of limits.
-    first: u64,
-    /// The bits of the share: of figures that are not negative they are in the order of the figures.
-    share: u64,
+    /// Of those refused.
+    beyond: u8,
+    share: Figure,
+    /// Of those that fit.
+    warns: bool,
+    power: Figure,
+    drive: Drive<'c>,
     pub(super) id: DriveId,
 }
 
-impl Order {
-    /// That of a candidate.
-    pub fn of(candidate: &Candidate) -> Self {
-        Self::from(&candidate.drive, &candidate.outcome, candidate.id)
+/// A figure that is not negative with the digits that a data sheet has: the bits are in the order of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Figure(u32);
+
+impl Figure {
+    const ZERO: Self = Self(0);
+
+    const fn of(value: f64) -> Self {
+        Self((value as f32).to_bits())
     }
 
-    /// Whether a drive that fits is as certain as another one that does, its motor no larger and without more warnings, whatever margin it leaves.
-    pub fn is_as_good_as(&self, other: &Self) -> bool {
-        (self.certainty, self.first) <= (other.certainty, other.first)
+    /// Last where there is none.
+    const fn known(value: Option<f64>) -> Self {
+        match value {
+            Some(value) => Self::of(value),
+            None => Self::of(f64::INFINITY),
+        }
+    }
+}
+
+impl<'c> Order<'c> {
+    /// That of a candidate.
+    pub fn of(candidate: &Candidate<'c>) -> Self {
+        Self::from(candidate.drive, &candidate.outcome, candidate.id)
+    }
+
+    /// The same of another catalogue's or a longer-lived copy of the drive.
+    pub fn on<'d>(&self, drive: Drive<'d>) -> Order<'d> {
+        Order {
+            drive,
+            certainty: self.certainty,
+            beyond: self.beyond,
+            share: self.share,
+            warns: self.warns,
+            power: self.power,
+            id: self.id,
+        }
+    }
+
+    /// Whether a drive that fits is as certain as another one that does, its motor no larger and without more warnings, whatever else
+    /// it consists of.
+    pub fn is_as_good_as(&self, other: &Order) -> bool {
+        let of = |order: &Order| (order.certainty, order.power, order.warns);
+        of(self) <= of(other)
     }
 
     /// Which drive.
@@ -64,28 +109,81 @@ impl Order {
         self.id
     }
 
-    /// The size of the motor of a drive that fits, and whether there is a warning.
-    pub(super) const fn size(&self) -> u64 {
-        self.first
-    }
-
     /// The order of a drive with this outcome. It does not fall when shares of limits or their number grow: what is known of an
-    /// outcome so far bounds it from below.
-    pub(super) fn from(drive: &Drive, outcome: &Outcome, id: DriveId) -> Self {
-        let mut certainty = None;
-        let first = if outcome.fails() {
-            u64::from(outcome.beyond_all_limits)
-        } else {
-            certainty = Some(Certainty::of(drive, outcome));
-            let power = drive.motor.rated_power().unwrap_or(f64::INFINITY);
-            // The sign's bit is free.
-            power.abs().to_bits() << 1 | u64::from(outcome.warnings > 0)
-        };
+    /// outcome so far bounds it from below. Of a drive that fits it needs no share at all.
+    pub(super) fn from(drive: Drive<'c>, outcome: &Outcome, id: DriveId) -> Self {
+        let fails = outcome.fails();
         Self {
-            certainty,
-            first,
-            share: outcome.worst_use.to_bits(),
+            certainty: (!fails).then(|| Certainty::of(&drive, outcome)),
+            beyond: if fails { outcome.beyond_all_limits } else { 0 },
+            share: if fails {
+                Figure::of(outcome.worst_use)
+            } else {
+                Figure::ZERO
+            },
+            warns: !fails && outcome.warnings > 0,
+            power: Figure::known(drive.motor.rated_power()),
+            drive,
             id,
         }
     }
+
+    /// Everything behind the power of the motor; rarely needed, and so not kept.
+    fn rest(&self) -> (Figure, bool, [Figure; 4]) {
+        let Drive {
+            motor,
+            gearbox,
+            amplifier,
+        } = self.drive;
+        let current = amplifier.map(|amplifier| amplifier.rated_current);
+        let gearbox = gearbox.map_or(Figure::ZERO, |g| Figure::known(g.size()));
+        (
+            Figure::known(motor.rated_torque.or(motor.standstill_torque)),
+            self.warns,
+            [
+                Figure::known(current),
+                gearbox,
+                Figure::known(self.drive.mass()),
+                Figure::known(self.drive.price()),
+            ],
+        )
+    }
+
+    fn keys(&self) -> [&'c str; 3] {
+        let Drive {
+            motor,
+            gearbox,
+            amplifier,
+        } = self.drive;
+        [
+            &motor.key,
+            gearbox.map_or("", |g| &g.key),
+            amplifier.map_or("", |a| &a.key),
+        ]
+    }
 }
+
+impl Ord for Order<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let first = |o: &Self| (o.certainty, o.beyond, o.share, o.power);
+        first(self)
+            .cmp(&first(other))
+            .then_with(|| self.rest().cmp(&other.rest()))
+            .then_with(|| self.keys().cmp(&other.keys()))
+            .then_with(|| self.id.cmp(&other.id))
+    }
+}
+
+impl PartialOrd for Order<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Order<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Order<'_> {}

@@ -1,12 +1,9 @@
 //! What the suitable drives have in common, all of them: how many are how certain, and which rules are not checked for how many.
 
-use super::group::{Placed, Unranked};
+use super::group::Unranked;
 use super::order::Certainty;
 use crate::judge::Outcome;
 use jred_machine::model::rule::Rule;
-
-/// Drives that there is room for at once.
-const AT_ONCE: usize = 192;
 
 /// Counts of drives that fit, kept while drives are checked.
 #[derive(Clone, Debug)]
@@ -17,13 +14,11 @@ pub(super) struct Survey<'c> {
 }
 
 /// Drives of one certainty.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Class<'c> {
     pub(super) count: usize,
-    /// Smallest size of motor.
-    least: Option<u64>,
-    /// Those of the smallest size: the first in order is among them.
-    pub(super) smallest: Vec<Placed<'c>>,
+    /// The first in order: of a drive that fits its place is known without the shares of its limits.
+    pub(super) first: Option<Unranked<'c>>,
 }
 
 /// Drives for which a rule is not checked.
@@ -40,8 +35,7 @@ impl<'c> Survey<'c> {
         classes: [const {
             Class {
                 count: 0,
-                least: None,
-                smallest: Vec::new(),
+                first: None,
             }
         }; Certainty::ALL.len()],
         gaps: [Gap {
@@ -55,22 +49,22 @@ impl<'c> Survey<'c> {
     pub(super) fn add(&mut self, drive: &Unranked<'c>, outcome: &Outcome) {
         let class = &mut self.classes[Certainty::of(&drive.drive, outcome) as usize];
         class.count += 1;
-        class.offer(drive.bound.size(), &[drive.placed()]);
+        class.offer(drive);
         self.partly_checked += usize::from(!outcome.not_checked.is_empty());
         for rule in outcome.not_checked.iter() {
             self.gaps[rule as usize].add(drive);
         }
     }
 
-    pub(super) fn join(&mut self, other: Self) {
-        for (class, other) in self.classes.iter_mut().zip(other.classes) {
+    pub(super) fn join(&mut self, other: &Self) {
+        for (class, other) in self.classes.iter_mut().zip(&other.classes) {
             class.count += other.count;
-            if let Some(size) = other.least {
-                class.offer(size, &other.smallest);
+            if let Some(first) = &other.first {
+                class.offer(first);
             }
         }
-        for (gap, other) in self.gaps.iter_mut().zip(other.gaps) {
-            gap.join(other);
+        for (gap, other) in self.gaps.iter_mut().zip(&other.gaps) {
+            gap.join(*other);
         }
         self.partly_checked += other.partly_checked;
     }
@@ -93,17 +87,9 @@ impl<'c> Survey<'c> {
 }
 
 impl<'c> Class<'c> {
-    fn offer(&mut self, size: u64, drives: &[Placed<'c>]) {
-        if self.least.is_none_or(|least| size < least) {
-            self.least = Some(size);
-            self.smallest.clear();
-        }
-        if self.least == Some(size) {
-            // As many as the gearboxes that a motor has in most catalogues, at once.
-            if self.smallest.capacity() == 0 {
-                self.smallest.reserve(AT_ONCE.max(drives.len()));
-            }
-            self.smallest.extend_from_slice(drives);
+    fn offer(&mut self, drive: &Unranked<'c>) {
+        if (self.first.as_ref()).is_none_or(|first| drive.bound < first.bound) {
+            self.first = Some(*drive);
         }
     }
 }

@@ -1,0 +1,200 @@
+//! One part in two rows: the same maker and model, written alike or not, with figures that differ. One of the rows must be wrong, or
+//! the two are variants that a buyer cannot tell apart by their designation.
+
+use std::collections::HashMap;
+
+use jred_machine::number::rounding::figure;
+
+use super::column::{Column, Kind};
+use super::fault::Remarks;
+use super::gearbox::Gearbox;
+use super::motor::Motor;
+use super::{Amplifier, Resistor};
+
+/// A figure by the name of its column.
+type Figure = (Column, Option<f64>);
+
+/// The rows read so far, by what they are rows of.
+#[derive(Debug, Default)]
+pub(super) struct Twins {
+    seen: HashMap<(Kind, String), Seen>,
+}
+
+/// The first row of a part.
+#[derive(Debug)]
+struct Seen {
+    key: String,
+    place: String,
+    figures: Vec<Figure>,
+}
+
+/// A designation in small letters and digits: a comma or a p between digits is a decimal point, other marks say nothing.
+fn plain(name: &str) -> String {
+    let letters: Vec<char> = name.chars().flat_map(char::to_lowercase).collect();
+    let digit = |at: Option<usize>| {
+        at.and_then(|at| letters.get(at))
+            .is_some_and(char::is_ascii_digit)
+    };
+    let plain = letters.iter().enumerate().filter_map(|(k, letter)| {
+        let between = digit(k.checked_sub(1)) && digit(Some(k + 1));
+        match letter {
+            '.' | ',' | 'p' if between => Some('.'),
+            // Two numbers stay two.
+            _ if !letter.is_alphanumeric() => between.then_some(' '),
+            _ => Some(*letter),
+        }
+    });
+    plain.collect()
+}
+
+impl Twins {
+    pub(super) fn motor(&mut self, remarks: &mut Remarks, place: &dyn Fn() -> String, m: &Motor) {
+        let figures = vec![
+            (Column::RatedTorque, m.rated_torque),
+            (Column::RatedSpeed, m.rated_speed),
+            (Column::StandstillTorque, m.standstill_torque),
+            (Column::PeakTorque, m.peak_torque),
+            (Column::MaxSpeed, m.max_speed),
+            (Column::RotorInertia, Some(m.rotor_inertia)),
+            (Column::TorqueConstant, m.winding.torque_constant),
+            (Column::WindingResistance, m.winding.resistance),
+            (Column::RatedCurrent, m.winding.rated_current),
+            (Column::MainsVoltage, m.mains_voltage),
+            (Column::BrakeTorque, m.brake.map(|brake| brake.torque)),
+            (Column::Mass, m.mass),
+        ];
+        let name = [m.maker.as_str(), &m.model];
+        self.check(remarks, place, Kind::Motors, (&m.key, name, ""), figures);
+    }
+
+    pub(super) fn gearbox(
+        &mut self,
+        remarks: &mut Remarks,
+        place: &dyn Fn() -> String,
+        g: &Gearbox,
+    ) {
+        let figures = vec![
+            (Column::RatedOutputTorque, g.rated_torque),
+            (Column::PeakOutputTorque, g.peak_torque),
+            (Column::EmergencyOutputTorque, g.emergency_torque),
+            (Column::RatedInputSpeed, g.rated_speed),
+            (Column::MaxInputSpeed, g.max_speed),
+            (Column::InputInertia, Some(g.inertia)),
+            (Column::Efficiency, Some(g.efficiency)),
+            (Column::Stiffness, g.stiffness),
+            (Column::Backlash, g.backlash),
+            (Column::Mass, g.mass),
+        ];
+        let name = [g.maker.as_str(), &g.model];
+        // A model is often a series of several ratios.
+        let ratio = figure(g.ratio);
+        self.check(
+            remarks,
+            place,
+            Kind::Gearboxes,
+            (&g.key, name, &ratio),
+            figures,
+        );
+    }
+
+    pub(super) fn amplifier(
+        &mut self,
+        remarks: &mut Remarks,
+        place: &dyn Fn() -> String,
+        a: &Amplifier,
+    ) {
+        let figures = vec![
+            (Column::RatedCurrent, Some(a.rated_current)),
+            (Column::PeakCurrent, Some(a.peak_current)),
+            (Column::PeakTime, a.peak_time),
+            (Column::MainsVoltage, a.mains_voltage),
+            (Column::BusVoltage, a.bus_voltage),
+            (Column::ChopperVoltage, a.chopper_voltage),
+            (Column::MaxVoltage, a.max_voltage),
+            (Column::Capacitance, a.capacitance),
+            (Column::MinResistance, a.min_resistance),
+            (Column::Mass, a.mass),
+        ];
+        let name = [a.maker.as_str(), &a.model];
+        self.check(
+            remarks,
+            place,
+            Kind::Amplifiers,
+            (&a.key, name, ""),
+            figures,
+        );
+    }
+
+    pub(super) fn resistor(
+        &mut self,
+        remarks: &mut Remarks,
+        place: &dyn Fn() -> String,
+        r: &Resistor,
+    ) {
+        let figures = vec![
+            (Column::Resistance, Some(r.resistance)),
+            (Column::RatedPower, Some(r.rated_power)),
+            (Column::PeakPower, r.peak_power),
+            (Column::PulseEnergy, r.pulse_energy),
+        ];
+        let name = [r.maker.as_str(), &r.model];
+        self.check(remarks, place, Kind::Resistors, (&r.key, name, ""), figures);
+    }
+
+    fn check(
+        &mut self,
+        remarks: &mut Remarks,
+        place: &dyn Fn() -> String,
+        kind: Kind,
+        (key, [maker, model], ratio): (&str, [&str; 2], &str),
+        figures: Vec<Figure>,
+    ) {
+        let name = format!("{}|{}|{ratio}", plain(maker), plain(model));
+        let Some(first) = self.seen.get(&(kind, name.clone())) else {
+            let seen = Seen {
+                key: key.to_owned(),
+                place: place(),
+                figures,
+            };
+            self.seen.insert((kind, name), seen);
+            return;
+        };
+        let pairs = first.figures.iter().zip(&figures);
+        let differ = pairs.filter(|((_, one), (_, other))| one != other);
+        let differ: Vec<&str> = differ.map(|((column, _), _)| column.name()).collect();
+        if differ.is_empty() {
+            return;
+        }
+        remarks.add("rows of one part with different data", || {
+            format!(
+                "{}: \"{key}\" and \"{}\" ({}) are the same {}, {maker} {model}, but their data differ: {}. Compare them with the data sheet and \
+                 remove one row, or give each its full designation",
+                place(),
+                first.key,
+                first.place,
+                kind.singular(),
+                differ.join(", ")
+            )
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn what_is_written_in_two_ways_is_one_name() {
+        for (one, other) in [
+            ("TP050 MA i=38.5", "tp050ma-i 38,5"),
+            ("tp050ma-38p5", "TP050-MA-38.5"),
+            ("SGMGH-20A", "SGMGH 20A"),
+            ("1FK7042-5AF71", "1fk7042 5af71"),
+        ] {
+            assert_eq!(plain(one), plain(other));
+        }
+        for (one, other) in [("i=3 5", "i=35"), ("SP60", "SP6"), ("X-1-2", "X-12")] {
+            assert_ne!(plain(one), plain(other));
+        }
+    }
+}
