@@ -103,7 +103,8 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         })
     }
 
-    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. 0 of what is no number.
+    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. A command that is NaN asks for no acceleration: 0, or the nearest that is possible, and `by` says
+    /// what binds; `unkept` says that it was none. Of a motion whose speed is NaN the acceleration is 0, and `unkept` says so, too.
     #[inline]
     pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
         &self,
@@ -136,7 +137,12 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         } else {
             stopped
         });
-        let wanted = period.needed(commanded.minus(omega).value).value;
+        let known = commanded >= rest || commanded <= rest;
+        let wanted = if known {
+            period.needed(commanded.minus(omega).value).value
+        } else {
+            N::Acceleration::default()
+        };
         let (alpha, by) = if wanted > greatest.alpha {
             (greatest.alpha, Some(greatest.by))
         } else if wanted < least.alpha {
@@ -144,7 +150,6 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         } else {
             (wanted.within([wanted, wanted]), None)
         };
-        let known = commanded >= rest || commanded <= rest;
         let beyond = (too_fast || too_fast_back).then_some(Limit::Ahead);
         Governed {
             alpha,
