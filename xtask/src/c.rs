@@ -9,7 +9,7 @@ use clap::Args;
 
 use crate::cores::{CORES, Core};
 use crate::data::Data;
-use crate::kernels::{KERNELS, Kernel, Origin, Quantity};
+use crate::kernels::{COUNTED, KERNELS, Kernel, Origin, Quantity};
 use crate::number::Number;
 use crate::perf::measure;
 use crate::program::{self, root, target_dir};
@@ -45,6 +45,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     let kernels: Vec<&Kernel> = KERNELS
         .iter()
         .filter(|k| k.origin == Origin::Jred)
+        .chain(COUNTED)
         .collect();
     let chosen =
         |core: &&Core| options.core.is_empty() || options.core.iter().any(|n| n == core.name);
@@ -86,9 +87,10 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     }
 }
 
-/// What a call from C takes more, the caller's look at the model included.
+/// What a call from C takes more, the caller's look at the model included: the function with a count is such a caller.
 fn more(rust: &Measurement, c: &Measurement) -> i64 {
-    i64::from(c.worst.instructions + LOOK) - i64::from(rust.worst.instructions)
+    let look = if rust.kernel.counts { 0 } else { LOOK };
+    i64::from(c.worst.instructions + look) - i64::from(rust.worst.instructions)
 }
 
 fn allowed(rust: &Measurement) -> i64 {
@@ -105,8 +107,11 @@ fn folder_of(core: &Core) -> PathBuf {
     target_dir().join("c").join(core.name)
 }
 
-/// The function of the library that computes what a kernel does.
+/// The function of the library that computes what a kernel does, or of the program that calls it with a count.
 fn symbol(kernel: &Kernel) -> String {
+    if kernel.counts {
+        return kernel.name.replacen("jred", "c", 1);
+    }
     let number = match kernel.number {
         Number::PhaseQ31 => "q31",
         Number::PhaseQ15 => "q15",
