@@ -175,7 +175,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         self.way.direction
     }
 
-    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all: for plots and tests, not for the tick.
+    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all, NaN if that is NaN: for plots and tests, not for the tick.
     #[must_use]
     pub fn speed_at(&self, phase: Phase, top: f32) -> f32 {
         let (k, part) = self.way.cell(phase);
