@@ -82,10 +82,8 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     black_box(MotionRange::status(range, omega, alpha));
     black_box((MotionRange::omega(range), MotionRange::alpha(range)));
     let scale = model.table().scale();
-    black_box(MotionRange::<F::Number>::new(
-        Image::validity(&image),
-        scale,
-    ));
+    let made: MotionRange<F::Number> = MotionRange::new(Image::validity(&image), scale);
+    black_box(made);
     black_box(FeedForward::at_measured(
         &feed_forward,
         phase,

@@ -180,7 +180,8 @@ static inline jred_place jred_stroke_encoder_phase_wide(const jred_stroke_encode
     const int64_t from_middle = count > middle + reach ? reach : count < middle - reach ? -reach : count - middle;
     const int64_t upper = from_middle >> 32;
     const uint64_t lower = (uint32_t)from_middle, low = lower * (uint32_t)encoder->step;
-    const int64_t rests = ((upper * encoder->rest) >> 2) + (int64_t)(encoder->part >> 2);
+    const int64_t rest = upper * encoder->rest + (((int64_t)lower * encoder->rest) >> 32);
+    const int64_t rests = (rest >> 2) + (int64_t)(encoder->part >> 2);
     const int64_t parts = ((int64_t)(low >> 2) + rests) >> 30;
     return jred_place_(upper * encoder->step + (int64_t)lower * (encoder->step >> 32) + parts + encoder->start);
 }

@@ -112,7 +112,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         &self.period
     }
 
-    /// The accelerations that are possible in this state. Of no number they are 0.
+    /// The accelerations that are possible in this state. At a speed that is NaN they are 0, at an infinite one finite; `unkept` says so of both.
     #[inline]
     pub fn feasible<F: Format<Number = N>, const SET: Set>(
         &self,
@@ -202,9 +202,10 @@ fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
 #[inline]
 fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> Bounded<N> {
     let Outcome { value, saturated } = alpha;
+    // 0 of what is no number; an infinite speed asks for no more than a number can say.
+    let ends = [f32::MIN, f32::MAX].map(|end| N::Acceleration::of(N::per_unit(end, 1.0).value));
     Bounded {
-        // 0 of what is no number.
-        alpha: value.within([value, value]),
+        alpha: value.within(ends),
         by: if saturated {
             Limit::Range
         } else {

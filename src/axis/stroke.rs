@@ -167,7 +167,8 @@ impl StrokeEncoder {
         let (upper, lower) = (count >> 32, count as u32 as u64);
         let low = lower * (self.step as u32 as u64);
         // In units of 2⁻⁶², so that the sum has room.
-        let rests = ((upper * self.rest as i64) >> 2) + (self.part >> 2) as i64;
+        let rest = upper * self.rest as i64 + ((lower as i64 * self.rest as i64) >> 32);
+        let rests = (rest >> 2) + (self.part >> 2) as i64;
         let parts = ((low >> 2) as i64 + rests) >> 30;
         limited(upper * self.step + lower as i64 * (self.step >> 32) + parts + self.start)
     }

@@ -434,7 +434,7 @@ fn the_deceleration_of_the_limits_gives_no_false_alarm() {
                 };
                 let slow = |phase: Phase| {
                     if phase.to_bits() >> 30 == 2 {
-                        0.02 * top
+                        0.05 * top
                     } else {
                         top
                     }
@@ -451,7 +451,7 @@ fn the_deceleration_of_the_limits_gives_no_false_alarm() {
                 let (wanted, _) = si::<F::Number>(&scale, [top.into(), 0.0]);
                 let mut motion = Motion::default();
                 let (mut turns, mut fastest) = (0, 0.0_f64);
-                for _ in 0..60_000 {
+                for _ in 0..100_000 {
                     let governed = governor.govern(&limits, &model, &motion, wanted);
                     assert_eq!(
                         governed.unkept,
