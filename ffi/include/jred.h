@@ -141,12 +141,20 @@ typedef struct {
 static inline uint32_t jred_encoder_phase(const jred_encoder *encoder, int32_t count) {
     const uint32_t from_least = (uint32_t)count ^ 0x80000000u;
 #if JRED_SHORT_MULTIPLY_
-    const uint32_t step = (uint32_t)encoder->step, least = (uint32_t)encoder->least;
-    const uint32_t a1 = from_least >> 16, a0 = from_least & 0xffffu, b1 = step >> 16, b0 = step & 0xffffu;
-    const uint32_t low = a0 * b0, middle = a0 * b1 + (low >> 16), other = a1 * b0 + (middle & 0xffffu);
-    const uint32_t lower = (other << 16 | (low & 0xffffu)) + least;
-    return a1 * b1 + (middle >> 16) + (other >> 16) + from_least * (uint32_t)(encoder->step >> 32) + (uint32_t)(encoder->least >> 32) +
-           (lower < least);
+    /* By halves, in an order that needs few of the registers of such a core. */
+    uint32_t upper = (uint32_t)(encoder->least >> 32) + from_least * (uint32_t)(encoder->step >> 32);
+    uint32_t a1 = from_least >> 16, a0 = from_least & 0xffffu, b0 = (uint32_t)encoder->step;
+    const uint32_t b1 = b0 >> 16, least = (uint32_t)encoder->least;
+    b0 &= 0xffffu;
+    upper += a1 * b1;
+    a1 *= b0;
+    b0 *= a0;
+    a0 = a0 * b1 + (b0 >> 16);
+    upper += a0 >> 16;
+    a1 += a0 & 0xffffu;
+    upper += a1 >> 16;
+    b0 = ((b0 & 0xffffu) | a1 << 16) + least;
+    return upper + (b0 < least);
 #else
     return (uint32_t)((from_least * encoder->step + encoder->least) >> 32);
 #endif

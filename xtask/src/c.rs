@@ -22,6 +22,9 @@ const MORE: u32 = 6;
 const LOOK: u32 = 3;
 /// Where the compiler finds fewer registers than in a program with one model, and more instructions are allowed.
 const EXCEPTIONS: [(&str, u32); 2] = [("jred_q31_spline16_torque", 20), ("jred_q31_torque", 12)];
+/// What a path from a count may take more on a core that multiplies to 32 bits only: the encoder is read from memory where Rust has a constant, its product is put together from
+/// four, and half of the sixteen registers cannot take part, so that gcc moves as much as it computes.
+const MORE_BY_HALVES: u32 = 60;
 const GCC: &str = "arm-none-eabi-gcc";
 const LIBRARY: &str = "libjred_ffi.a";
 
@@ -94,6 +97,9 @@ fn more(rust: &Measurement, c: &Measurement) -> i64 {
 }
 
 fn allowed(rust: &Measurement) -> i64 {
+    if rust.kernel.counts && rust.core.target == "thumbv6m-none-eabi" {
+        return MORE_BY_HALVES.into();
+    }
     let mut exceptions = EXCEPTIONS.iter();
     let found = exceptions.find(|(name, _)| *name == rust.kernel.name);
     i64::from(found.map_or(MORE, |(_, most)| *most))
