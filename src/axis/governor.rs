@@ -1,6 +1,6 @@
 //! A commanded speed, followed as far as all limits allow.
 
-use super::limits::{Bounded, Limit};
+use super::limits::{Bounded, Limit, finite};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
 use crate::Model;
 use crate::curve::{Format, Set};
@@ -138,17 +138,13 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
             stopped
         });
         let known = commanded >= rest || commanded <= rest;
-        let wanted = if known {
-            period.needed(commanded.minus(omega).value).value
-        } else {
-            N::Acceleration::default()
-        };
+        let wanted = finite::<N>(period.needed(commanded.minus(omega).value).value);
         let (alpha, by) = if wanted > greatest.alpha {
             (greatest.alpha, Some(greatest.by))
         } else if wanted < least.alpha {
             (least.alpha, Some(least.by))
         } else {
-            (wanted.within([wanted, wanted]), None)
+            (wanted, None)
         };
         let beyond = (too_fast || too_fast_back).then_some(Limit::Ahead);
         Governed {

@@ -199,13 +199,17 @@ fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
     }
 }
 
+/// 0 of what is no number; an infinite one is no more than a number can say.
+#[inline]
+pub(super) fn finite<N: Number>(alpha: N::Acceleration) -> N::Acceleration {
+    alpha.within([f32::MIN, f32::MAX].map(|end| N::Acceleration::of(N::per_unit(end, 1.0).value)))
+}
+
 #[inline]
 fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> Bounded<N> {
     let Outcome { value, saturated } = alpha;
-    // 0 of what is no number; an infinite speed asks for no more than a number can say.
-    let ends = [f32::MIN, f32::MAX].map(|end| N::Acceleration::of(N::per_unit(end, 1.0).value));
     Bounded {
-        alpha: value.within(ends),
+        alpha: finite::<N>(value),
         by: if saturated {
             Limit::Range
         } else {
