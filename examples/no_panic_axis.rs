@@ -7,8 +7,8 @@ use core::hint::black_box;
 use jred::axis::plan::{Errors, Knot, encode, image_len};
 use jred::axis::{
     Braking, Counter, Direction, Encoder, Envelope, FeedForward, Follower, Gearbox, Governor,
-    ImageSlot, Limits, LookAhead, Motion, Mounting, Period, Plan, Ramp, Rate, Scaled, Status,
-    StrokeEncoder, TorqueLimits, Tracker, Transmission,
+    ImageSlot, Limits, LookAhead, Motion, MotionRange, Mounting, Period, Plan, Ramp, Rate, Scaled,
+    Status, StrokeEncoder, TorqueLimits, Tracker, Transmission,
 };
 use jred::image::ImageCheck;
 use jred::number::Sliding;
@@ -64,6 +64,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     if let Ok(time) = Period::new(black_box(1e-4), model) {
         let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
         if let Ok(tracker) = &mut tracker {
+            *tracker = Tracker::with_largest_step(*tracker, black_box(phase));
             black_box(Tracker::update_stroke(tracker, phase));
             let tracked = Tracker::update(tracker, phase);
             motion.omega = Period::omega(&time, tracked).value;
@@ -76,6 +77,13 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         motion = Period::later(&time, motion).value;
     }
     let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
+    let range = FeedForward::range(&feed_forward);
+    black_box(MotionRange::nearest(range, motion, sliding));
+    black_box(MotionRange::status(range, omega, alpha));
+    black_box((MotionRange::omega(range), MotionRange::alpha(range)));
+    let scale = model.table().scale();
+    let made: MotionRange<F::Number> = MotionRange::new(Image::validity(&image), scale);
+    black_box(made);
     black_box(FeedForward::at_measured(
         &feed_forward,
         phase,
@@ -240,6 +248,7 @@ fn every_double() {
     let stroke = black_box(Domain::Stroke { from: 0.0, to: 0.5 });
     if let Ok(encoder) = StrokeEncoder::new(stroke, scaled) {
         black_box(StrokeEncoder::phase(&encoder, black_box(1)));
+        black_box(StrokeEncoder::phase_wide(&encoder, black_box(1)));
     }
     let mut words = [0; image_len(3)];
     let written = encode(

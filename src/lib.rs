@@ -52,7 +52,7 @@
 //! ```
 //!
 //! Firmware takes what it needs from the root. The rest lies in the modules of the layers: [`number`]; [`table`] and
-//! [`machine`]; [`mechanism`], [`friction`] and the tick ([`image`], [`duty`]); [`tabulate`] and [`harmonic`]. A layer uses
+//! [`machine`]; [`mechanism`], [`friction`] and the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`] and [`harmonic`]. A layer uses
 //! those before it and nothing after it; each can be used alone. Every item has one path.
 //!
 //! # From dimensions to a tick
@@ -97,7 +97,8 @@
 //! }
 //! ```
 //!
-//! Firmware more often loads an [`Image`] that the command `jred export` made from a machine file.
+//! Firmware more often loads an [`Image`] that the command `jred export` made from a machine file. What stands between the encoder's count and the drive's torque command is in [`axis`]: phase,
+//! filter, lead time, feed-forward with a status, gearbox and limits, and the governor that slows down ahead of what the drive cannot do.
 //!
 //! # Numbers
 //!

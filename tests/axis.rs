@@ -11,6 +11,7 @@ mod look_ahead;
 pub(crate) mod machine;
 mod messages;
 mod motion;
+mod not_finite;
 mod plan;
 mod plan_refused;
 mod stop;

@@ -69,7 +69,7 @@ fn public(text: &str, into: &mut BTreeSet<String>) {
     }
 }
 
-fn public_of(folder: &Path, into: &mut BTreeSet<String>) {
+pub(crate) fn public_of(folder: &Path, into: &mut BTreeSet<String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {

@@ -4,6 +4,7 @@
 
 use core::hint::black_box;
 
+use jred::axis::{Encoder, Mounting};
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
@@ -58,6 +59,19 @@ kernels! {
     jred_q31_quadratic_acceleration: Q31, Quadratic<Q31>, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
     jred_q15_torque: Q15, Rows16, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
     jred_q15_acceleration: Q15, Rows16, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_f32_counts: f32, Cubic<f32>, FULL, |m, p, w, a| m.torque(counted(p), of(w), of(a)).number();
+    jred_q31_quadratic_counts: Q31, Quadratic<Q31>, FULL, |m, p, w, a| m.torque(counted(p), of(w), of(a)).number();
+    jred_q15_counts: Q15, Rows16, FULL, |m, p, w, a| m.torque(counted(p), of(w), of(a)).number();
+}
+
+/// The phase of the count that stands in the place of a phase.
+#[inline(always)]
+fn counted(count: Phase) -> Phase {
+    const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
+        Ok(encoder) => encoder,
+        Err(_) => panic!("the encoder's figures"),
+    };
+    ENCODER.phase(count.to_bits().cast_signed())
 }
 
 /// A speed, an acceleration or a torque.

@@ -57,7 +57,7 @@ enum {
     JRED_GAP = 26,          /* a row of the plan does not end where the next begins */
     JRED_STROKE = 27,       /* the plan leaves the stroke */
     JRED_OPEN = 28,         /* the plan does not end as it begins: it cannot be repeated */
-    JRED_FIGURE = 29,       /* period or ramp do not fit, or the plan is faster than the machine units of the model */
+    JRED_FIGURE = 29,       /* a figure of an encoder, a period or a ramp does not fit, or a plan is faster than the machine units */
     JRED_NOT_LOADED = 30    /* there is no model, or no follower, in the memory */
 };
 
@@ -68,13 +68,140 @@ const char *jred_status_name(int32_t status);
 
 /* The angle of the drive link in units of 2^-32 turns (of the stroke, if it slides). It wraps by itself. */
 
-/* From the count of an encoder with per_turn counts a turn. A counter that overflows keeps its angle only if per_turn is a power
- * of two; let others wrap at a whole number of turns. Without counts a turn the phase is 0. */
-uint32_t jred_phase_from_counts(uint32_t count, uint32_t per_turn);
-/* From radians, 6e-8 of a turn for |phi| <= 2 pi; 0 beyond 6e8 rad and for NaN. */
+/* From radians, 6e-8 of a turn for |phi| <= 2 pi; 0 beyond 6e8 rad, for NaN and for infinity. From counts: an encoder, below. */
 uint32_t jred_phase_from_radians(float phi);
-/* From a position within a stroke (jred_info), limited to it. */
+/* From a position within a stroke (jred_info), limited to it; its start for NaN, and for a stroke that is none. */
 uint32_t jred_phase_from_stroke(float position, float from, float to);
+
+/* ---- encoder ----------------------------------------------------------------------------------------------------- */
+
+/* Made once from its figures; then the phase of a count in the tick, without a division: the multiplications of jred::axis::Encoder in
+ * Rust, the same bits, inlined where it is called. Zeros, and an encoder that could not be made, have the phase 0.
+ *
+ *     static jred_encoder encoder;
+ *     const jred_mounting mounting = {10000, {17, 2}, true, 1234};
+ *     if (jred_encoder_make(&encoder, &mounting) != JRED_OK) ...            once
+ *     uint32_t phase = jred_encoder_phase(&encoder, count);                 in every tick
+ *
+ * phi/(2 pi) = +-(count - home)*gear[1]/(counts_per_turn*gear[0]), less than 2^-32 of a turn off at every count of 32 and of 64 bits. */
+typedef struct {
+    uint32_t counts_per_turn; /* counts of one turn of the encoder's shaft; in quadrature four times its lines */
+    uint32_t gear[2];         /* turns of that shaft, and the turns of the drive link that they make: {1, 1} on its own shaft */
+    bool counts_down;         /* while phi grows */
+    int64_t home;             /* the count at phi = 0 */
+} jred_mounting;
+
+typedef struct {
+    uint64_t step;
+    uint64_t start;
+    uint64_t least;
+    int32_t rest;
+} jred_encoder;
+
+/* JRED_FIGURE: no counts a turn, a zero in the gear, or less than two counts a turn of the drive link. */
+jred_status jred_encoder_make(jred_encoder *encoder, const jred_mounting *mounting);
+
+/* A drive link that has a stroke: s = at_home + (count - home)*resolution. */
+typedef struct {
+    double resolution; /* m a count, or rad; negative if it counts down while the position grows */
+    int64_t home;      /* the count at the position at_home */
+    double at_home;    /* m, or rad */
+} jred_scaled;
+
+typedef struct {
+    int64_t step;
+    int64_t start;
+    int64_t start_narrow;
+    int64_t middle;
+    int64_t reach;
+    uint32_t part;
+    int32_t rest;
+} jred_stroke_encoder;
+
+/* Of the stroke in jred_info. JRED_FIGURE: a stroke of less than 16 or more than 2^53 counts, home 100,000 strokes away, NaN. */
+jred_status jred_stroke_encoder_make(jred_stroke_encoder *encoder, float from, float to, const jred_scaled *scaled);
+
+/* A phase of a stroke; limited to its ends, and whether it was. */
+typedef struct {
+    uint32_t phase;
+    bool limited;
+} jred_place;
+
+/* Cores that multiply to 32 bits only: Cortex-M0, M0+, M23. */
+#ifndef JRED_SHORT_MULTIPLY_
+#if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
+#define JRED_SHORT_MULTIPLY_ 1
+#else
+#define JRED_SHORT_MULTIPLY_ 0
+#endif
+#endif
+
+/* The phase at a count of 32 bits. A register that overflows while the machine goes on turning keeps its angle only if 2^32 counts are
+ * whole turns of the drive link: take jred_counter_extend and jred_encoder_phase_wide. */
+static inline uint32_t jred_encoder_phase(const jred_encoder *encoder, int32_t count) {
+    const uint32_t from_least = (uint32_t)count ^ 0x80000000u;
+#if JRED_SHORT_MULTIPLY_
+    /* By halves, in an order that needs few of the registers of such a core. */
+    uint32_t upper = (uint32_t)(encoder->least >> 32) + from_least * (uint32_t)(encoder->step >> 32);
+    uint32_t a1 = from_least >> 16, a0 = from_least & 0xffffu, b0 = (uint32_t)encoder->step;
+    const uint32_t b1 = b0 >> 16, least = (uint32_t)encoder->least;
+    b0 &= 0xffffu;
+    upper += a1 * b1;
+    a1 *= b0;
+    b0 *= a0;
+    a0 = a0 * b1 + (b0 >> 16);
+    upper += a0 >> 16;
+    a1 += a0 & 0xffffu;
+    upper += a1 >> 16;
+    b0 = ((b0 & 0xffffu) | a1 << 16) + least;
+    return upper + (b0 < least);
+#else
+    return (uint32_t)((from_least * encoder->step + encoder->least) >> 32);
+#endif
+}
+
+/* The phase at a count of 64 bits. Here and below a negative number is shifted to the right as all compilers for these cores do it. */
+static inline uint32_t jred_encoder_phase_wide(const jred_encoder *encoder, int64_t count) {
+    const int64_t upper = (count >> 32) * encoder->rest;
+    const int64_t lower = ((int64_t)(uint32_t)count * encoder->rest) >> 32;
+    return (uint32_t)(((uint64_t)count * encoder->step + (uint64_t)(upper + lower) + encoder->start) >> 32);
+}
+
+static inline jred_place jred_place_(int64_t place) {
+    const int64_t end = (int64_t)1 << 32;
+    jred_place found;
+    found.phase = place < 0 ? 0 : place < end ? (uint32_t)place : UINT32_MAX;
+    found.limited = place < 0 || place > end;
+    return found;
+}
+
+/* The phase of a stroke at a count of 32 bits; the register may overflow within the stroke. One of more than 2^32 counts is flagged. */
+static inline jred_place jred_stroke_encoder_phase(const jred_stroke_encoder *encoder, int32_t count) {
+    const int64_t from_middle = (int32_t)((uint32_t)count - (uint32_t)encoder->middle);
+    const int64_t lower = (from_middle * (int64_t)(uint32_t)encoder->step + (int64_t)encoder->part) >> 32;
+    return jred_place_(from_middle * (encoder->step >> 32) + lower + encoder->start_narrow);
+}
+
+/* The phase of a stroke at a count of 64 bits. */
+static inline jred_place jred_stroke_encoder_phase_wide(const jred_stroke_encoder *encoder, int64_t count) {
+    const int64_t reach = encoder->reach, middle = encoder->middle;
+    const int64_t from_middle = count > middle + reach ? reach : count < middle - reach ? -reach : count - middle;
+    const int64_t upper = from_middle >> 32;
+    const uint64_t lower = (uint32_t)from_middle, low = lower * (uint32_t)encoder->step;
+    const int64_t rest = upper * encoder->rest + (((int64_t)lower * encoder->rest) >> 32);
+    const int64_t rests = (rest >> 2) + (int64_t)(encoder->part >> 2);
+    const int64_t parts = ((int64_t)(low >> 2) + rests) >> 30;
+    return jred_place_(upper * encoder->step + (int64_t)lower * (encoder->step >> 32) + parts + encoder->start);
+}
+
+/* Extends the reading of a counter of so many bits, 1 to 32, that overflows: the count nearest to the last one, *count. The machine must
+ * move less than half of the counter's range between two readings. */
+static inline int64_t jred_counter_extend(int64_t *count, uint32_t bits, uint32_t reading) {
+    const uint32_t shift = (32u - bits) & 31u;
+    const int32_t moved = (int32_t)((reading << shift) - ((uint32_t)*count << shift)) >> shift;
+    *count = (int64_t)((uint64_t)*count + (uint64_t)(int64_t)moved);
+    return *count;
+}
 
 /* ---- image ------------------------------------------------------------------------------------------------------- */
 
@@ -137,10 +264,14 @@ typedef struct {
  *
  *     jred_status press_load_words(press_model *, const uint32_t *words, size_t length);
  *     number      press_torque(const press_model *, uint32_t phase, number omega, number alpha);
+ *     number      press_torque_with(const press_model *, uint32_t phase, number omega, number alpha, sliding);
+ *     checked     press_checked(const press_model *, const motion_range *, uint32_t phase, number omega, number alpha, sliding);
  *     number      press_acceleration(const press_model *, uint32_t phase, number omega, number torque);
  *     range       press_acceleration_range(const press_model *, uint32_t phase, number omega, number least, number greatest);
  *
- * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15. The words must live and stay the same as long as
+ * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15, and the others jred_f32_range, jred_f32_sliding, ...:
+ * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_checked says so and gives a torque
+ * that is neither. The words must live and stay the same as long as
  * the model is ticked. A tick of
  * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
  * press_acceleration_range says so of each.
@@ -179,6 +310,55 @@ typedef int16_t jred_q15;
 JRED_RANGE_(f32)
 JRED_RANGE_(q31)
 JRED_RANGE_(q15)
+
+/* What Coulomb friction is against: all of c against the sign of a speed, or a share of c from -1 to 1. press_torque has the sign of its
+ * own omega, which chatters at standstill if it is measured: take that of the set-point. */
+#define JRED_SLIDING_(n)                                             \
+    typedef struct {                                                 \
+        jred_##n number;                                             \
+        bool is_share;                                               \
+    } jred_##n##_sliding;                                            \
+    static inline jred_##n##_sliding jred_##n##_against(jred_##n omega) { \
+        jred_##n##_sliding sliding = {omega, false};                 \
+        return sliding;                                              \
+    }                                                                \
+    static inline jred_##n##_sliding jred_##n##_share(jred_##n share) { \
+        jred_##n##_sliding sliding = {share, true};                  \
+        return sliding;                                              \
+    }
+JRED_SLIDING_(f32)
+JRED_SLIDING_(q31)
+JRED_SLIDING_(q15)
+
+/* The greatest speed and acceleration that a table was made for, and a hundredth more, in the numbers of its model: made once of jred_info.
+ * press_checked gives the torque, and whether the motion is beyond; NaN and infinity are, and in fixed point a number that was limited to
+ * its range. speed_beyond is of omega and of what friction is against. What is beyond gets the torque of the nearest motion that the table
+ * was made for, so that the weight of an axis stays held. The bits are those of jred::axis::FeedForward::at_reference. */
+#define JRED_MOTION_RANGE_(n)                                                                                      \
+    typedef struct {                                                                                               \
+        jred_##n omega;                                                                                            \
+        jred_##n alpha;                                                                                            \
+    } jred_##n##_motion_range;                                                                                     \
+    typedef struct {                                                                                               \
+        jred_##n torque;                                                                                           \
+        bool speed_beyond;                                                                                         \
+        bool acceleration_beyond;                                                                                  \
+    } jred_##n##_checked;                                                                                          \
+    jred_status jred_##n##_motion_range_of(const jred_info *info, jred_##n##_motion_range *range);                 \
+    static inline jred_##n jred_##n##_within_(jred_##n x, jred_##n most) {                                         \
+        return x > most ? most : x >= -most ? x : x < -most ? (jred_##n)-most : 0;                                 \
+    }                                                                                                              \
+    static inline bool jred_##n##_exceeds_(jred_##n x, jred_##n most) { return !(x >= -most && x <= most); }
+JRED_MOTION_RANGE_(f32)
+JRED_MOTION_RANGE_(q31)
+JRED_MOTION_RANGE_(q15)
+/* In fixed point every share is one from -1 to 1. */
+static inline bool jred_f32_no_share_(jred_f32 share) { return !(share >= -1.0f && share <= 1.0f); }
+static inline bool jred_q31_no_share_(jred_q31 share) { return (void)share, false; }
+static inline bool jred_q15_no_share_(jred_q15 share) { return (void)share, false; }
+static inline jred_f32 jred_f32_to_share_(jred_f32 share) { return jred_f32_within_(share, 1.0f); }
+static inline jred_q31 jred_q31_to_share_(jred_q31 share) { return share; }
+static inline jred_q15 jred_q15_to_share_(jred_q15 share) { return share; }
 
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
@@ -249,6 +429,8 @@ JRED_FOLLOWER_(q15)
     JRED_C_ jred_status jred_##format##_load(jred_memory *memory, uint16_t set_, const uint32_t *words, size_t length);       \
     JRED_C_ jred_##n jred_##format##_##family##_torque(const jred_memory *memory, uint32_t phase, jred_##n omega,             \
                                                        jred_##n alpha);                                                       \
+    JRED_C_ jred_##n jred_##format##_##family##_torque_with(const jred_memory *memory, uint32_t phase, jred_##n omega,        \
+                                                            jred_##n alpha, jred_##n number, bool is_share);                  \
     JRED_C_ jred_##n jred_##format##_##family##_acceleration(const jred_memory *memory, uint32_t phase,                       \
                                                                        jred_##n omega, jred_##n torque);                      \
     JRED_C_ void jred_##format##_##family##_acceleration_range(const jred_memory *memory, uint32_t phase, jred_##n omega,     \
@@ -267,6 +449,29 @@ JRED_FOLLOWER_(q15)
     }                                                                                                                         \
     static inline jred_##n name##_torque(const name##_model *model, uint32_t phase, jred_##n omega, jred_##n alpha) {         \
         return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque(&model->memory, phase, omega, alpha) : 0;      \
+    }                                                                                                                         \
+    static inline jred_##n name##_torque_with(const name##_model *model, uint32_t phase, jred_##n omega, jred_##n alpha,      \
+                                              jred_##n##_sliding sliding) {                                                   \
+        return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque_with(&model->memory, phase, omega, alpha,      \
+                                                                                    sliding.number, sliding.is_share)         \
+                                           : 0;                                                                               \
+    }                                                                                                                         \
+    static inline jred_##n##_checked name##_checked(const name##_model *model, const jred_##n##_motion_range *range,          \
+                                                    uint32_t phase, jred_##n omega, jred_##n alpha,                           \
+                                                    jred_##n##_sliding sliding) {                                             \
+        jred_##n##_checked checked;                                                                                           \
+        checked.speed_beyond = jred_##n##_exceeds_(omega, range->omega) ||                                                    \
+                               (sliding.is_share ? jred_##n##_no_share_(sliding.number)                                       \
+                                                 : jred_##n##_exceeds_(sliding.number, range->omega));                        \
+        checked.acceleration_beyond = jred_##n##_exceeds_(alpha, range->alpha);                                               \
+        if (checked.speed_beyond || checked.acceleration_beyond) {                                                            \
+            omega = jred_##n##_within_(omega, range->omega);                                                                  \
+            alpha = jred_##n##_within_(alpha, range->alpha);                                                                  \
+            sliding.number = sliding.is_share ? jred_##n##_to_share_(sliding.number)                                          \
+                                              : jred_##n##_within_(sliding.number, range->omega);                             \
+        }                                                                                                                     \
+        checked.torque = name##_torque_with(model, phase, omega, alpha, sliding);                                             \
+        return checked;                                                                                                       \
     }                                                                                                                         \
     static inline jred_##n name##_acceleration(const name##_model *model, uint32_t phase, jred_##n omega,                     \
                                                          jred_##n torque) {                                                   \

@@ -11,7 +11,6 @@ class Phase {
 public:
     constexpr Phase() : bits_(0) {}
     explicit constexpr Phase(uint32_t bits) : bits_(bits) {}
-    static Phase from_counts(uint32_t count, uint32_t per_turn) { return Phase(jred_phase_from_counts(count, per_turn)); }
     static Phase from_radians(float phi) { return Phase(jred_phase_from_radians(phi)); }
     constexpr uint32_t bits() const { return bits_; }
     friend constexpr Phase operator+(Phase a, Phase b) { return Phase(a.bits_ + b.bits_); }
@@ -20,6 +19,49 @@ public:
 
 private:
     uint32_t bits_;
+};
+
+/// An encoder of a drive link that turns: phases of counts.
+class Encoder {
+public:
+    Encoder() : encoder_() {}
+    jred_status make(const jred_mounting &mounting) { return jred_encoder_make(&encoder_, &mounting); }
+    Phase phase(int32_t count) const { return Phase(jred_encoder_phase(&encoder_, count)); }
+    Phase phase_wide(int64_t count) const { return Phase(jred_encoder_phase_wide(&encoder_, count)); }
+
+private:
+    jred_encoder encoder_;
+};
+
+/// A phase of a stroke, limited to its ends, and whether it was.
+struct Place {
+    Phase phase;
+    bool limited;
+};
+
+/// An encoder of a drive link that has a stroke.
+class StrokeEncoder {
+public:
+    StrokeEncoder() : encoder_() {}
+    jred_status make(float from, float to, const jred_scaled &scaled) { return jred_stroke_encoder_make(&encoder_, from, to, &scaled); }
+    Place phase(int32_t count) const { return of(jred_stroke_encoder_phase(&encoder_, count)); }
+    Place phase_wide(int64_t count) const { return of(jred_stroke_encoder_phase_wide(&encoder_, count)); }
+
+private:
+    static Place of(jred_place place) { return {Phase(place.phase), place.limited}; }
+    jred_stroke_encoder encoder_;
+};
+
+/// A counter of so many bits, 1 to 32, that overflows, extended to 64.
+template <uint32_t BITS> class Counter {
+    static_assert(BITS >= 1 && BITS <= 32, "a counter has 1 to 32 bits");
+
+public:
+    explicit Counter(int64_t count = 0) : count_(count) {}
+    int64_t extend(uint32_t reading) { return jred_counter_extend(&count_, BITS, reading); }
+
+private:
+    int64_t count_;
 };
 
 /// Follows a plan, of a model with this number: jred_f32, jred_q31 or jred_q15. `Class::follow` makes it.
@@ -56,11 +98,19 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
     public:                                                                                                           \
         typedef jred_##n Number;                                                                                      \
         typedef jred_##n##_range Range;                                                                               \
+        typedef jred_##n##_sliding Sliding;                                                                           \
+        typedef jred_##n##_checked Checked;                                                                           \
         Class() : model_() {}                                                                                         \
         jred_status load(const uint32_t *words, size_t length) { return machine##_load_words(&model_, words, length); } \
         template <size_t N> jred_status load(const uint32_t (&words)[N]) { return load(words, N); }                   \
         Number torque(jred::Phase phase, Number omega, Number alpha) const {                                          \
             return machine##_torque(&model_, phase.bits(), omega, alpha);                                             \
+        }                                                                                                             \
+        Number torque(jred::Phase phase, Number omega, Number alpha, Sliding sliding) const {                         \
+            return machine##_torque_with(&model_, phase.bits(), omega, alpha, sliding);                               \
+        }                                                                                                             \
+        Checked checked(const jred_##n##_motion_range &range, jred::Phase phase, Number omega, Number alpha, Sliding sliding) const { \
+            return machine##_checked(&model_, &range, phase.bits(), omega, alpha, sliding);                           \
         }                                                                                                             \
         Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                   \
             return machine##_acceleration(&model_, phase.bits(), omega, torque);                                      \

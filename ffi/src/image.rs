@@ -2,7 +2,8 @@
 
 use core::mem::MaybeUninit;
 
-use jred::{Domain, Image, ImageError};
+use jred::number::Bases;
+use jred::{Domain, Image, ImageError, Validity};
 
 use crate::memory::words;
 use crate::status::Status;
@@ -28,6 +29,22 @@ pub(crate) struct Info {
 }
 
 impl Info {
+    pub(crate) const fn bases(&self) -> Bases {
+        Bases {
+            torque: self.torque_base,
+            speed: self.speed_base,
+            inertia: self.inertia_base,
+        }
+    }
+
+    pub(crate) const fn validity(&self) -> Validity {
+        Validity {
+            omega: self.most_speed,
+            alpha: self.most_acceleration,
+            torque_error: self.torque_error,
+        }
+    }
+
     fn of(words: &[u32]) -> Result<Self, ImageError> {
         let image = Image::new(words)?;
         let (stroke, from, to) = match image.domain() {

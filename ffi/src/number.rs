@@ -1,8 +1,12 @@
 //! Numbers of a tick as C has them, and SI units.
 
-use jred::number::{Number, Quantity};
-use jred::{Q15, Q31};
+use core::mem::MaybeUninit;
 
+use jred::axis::MotionRange;
+use jred::number::{Number, Quantity, Sliding};
+use jred::{Q15, Q31, Scale};
+
+use crate::image::Info;
 use crate::status::Status;
 
 /// A number of a tick, and what stands for it in C.
@@ -65,6 +69,16 @@ pub(crate) fn to_c<Q: Quantity<Number: CNumber>>(quantity: Q) -> <Q::Number as C
     CNumber::c(quantity.number())
 }
 
+/// What friction is against: `jred_…_sliding` in C, member by member.
+#[inline]
+pub(crate) fn sliding<N: CNumber>(number: N::C, is_share: bool) -> Sliding<N> {
+    if is_share {
+        Sliding::Share(N::number(number))
+    } else {
+        Sliding::Against(of(number))
+    }
+}
+
 /// `jred_…_range` in C.
 #[repr(C)]
 pub(crate) struct Range<C> {
@@ -72,6 +86,55 @@ pub(crate) struct Range<C> {
     pub(crate) greatest: C,
     pub(crate) least_limited: bool,
     pub(crate) greatest_limited: bool,
+}
+
+/// `jred_…_motion_range` in C.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CMotionRange<C> {
+    pub(crate) omega: C,
+    pub(crate) alpha: C,
+}
+
+/// The motions that a table was made for, in the numbers of its model; rest alone if the bases are none.
+fn motion_range<N: CNumber>(
+    info: Option<&Info>,
+    range: Option<&mut MaybeUninit<CMotionRange<N::C>>>,
+) -> Status {
+    let Some(range) = range else {
+        return Status::Null;
+    };
+    let range = range.write(CMotionRange::default());
+    let Some(info) = info else {
+        return Status::Null;
+    };
+    let Ok(scale) = Scale::new(info.bases()) else {
+        return Status::Figure;
+    };
+    let found = MotionRange::<N>::new(info.validity(), &scale);
+    *range = CMotionRange {
+        omega: to_c(found.omega()),
+        alpha: to_c(found.alpha()),
+    };
+    Status::Ok
+}
+
+macro_rules! motion_ranges {
+    ($($name:ident: $number:ty,)*) => {$(
+        #[unsafe(no_mangle)]
+        pub(crate) extern "C" fn $name(
+            info: Option<&Info>,
+            range: Option<&mut MaybeUninit<CMotionRange<<$number as CNumber>::C>>>,
+        ) -> Status {
+            motion_range::<$number>(info, range)
+        }
+    )*};
+}
+
+motion_ranges! {
+    jred_f32_motion_range_of: f32,
+    jred_q31_motion_range_of: Q31,
+    jred_q15_motion_range_of: Q15,
 }
 
 /// `si` in units of `base`.

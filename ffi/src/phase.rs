@@ -1,13 +1,6 @@
-//! Phases from counts and angles.
-
-use core::num::NonZeroU32;
+//! Phases from angles and places.
 
 use jred::{Domain, Phase};
-
-#[unsafe(no_mangle)]
-pub(crate) extern "C" fn jred_phase_from_counts(count: u32, per_turn: u32) -> u32 {
-    NonZeroU32::new(per_turn).map_or(0, |per_turn| Phase::from_counts(count, per_turn).to_bits())
-}
 
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn jred_phase_from_radians(phi: f32) -> u32 {

@@ -87,7 +87,7 @@ statuses! {
     Stroke = 27 c"JRED_STROKE",
     /// The plan does not end as it begins, so it cannot be repeated.
     Open = 28 c"JRED_OPEN",
-    /// The period or the ramp of the rate does not fit, or the plan is faster than the machine units of the model.
+    /// A figure that does not fit: of an encoder; the period or the ramp of the rate, or a plan that is faster than the machine units of the model; no speed that a table was made for.
     Figure = 29 c"JRED_FIGURE",
     /// There is no model, or no follower, in the memory.
     NotLoaded = 30 c"JRED_NOT_LOADED",

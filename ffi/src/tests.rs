@@ -4,6 +4,7 @@ use jred::{Q31, Set, Spline, curves, include_image};
 
 use crate::memory::Memory;
 
+mod encoder;
 mod follower;
 mod header;
 mod numbers;

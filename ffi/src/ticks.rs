@@ -10,7 +10,7 @@ macro_rules! ticks {
             use jred::Phase;
 
             use $crate::memory::Memory;
-            use $crate::number::{CNumber, Range, of, to_c};
+            use $crate::number::{CNumber, Range, of, sliding, to_c};
 
             type C = <$number as CNumber>::C;
 
@@ -24,6 +24,22 @@ macro_rules! ticks {
                 // SAFETY: as promised by the caller.
                 let model = unsafe { $model(memory) };
                 to_c(model.torque(Phase::from_bits(phase), of(omega), of(alpha)))
+            }
+
+            #[unsafe(export_name = concat!($prefix, "torque_with"))]
+            unsafe extern "C" fn torque_with(
+                memory: &Memory<$format>,
+                phase: u32,
+                omega: C,
+                alpha: C,
+                number: C,
+                is_share: bool,
+            ) -> C {
+                // SAFETY: as promised by the caller.
+                let model = unsafe { $model(memory) };
+                let sliding = sliding::<$number>(number, is_share);
+                let phase = Phase::from_bits(phase);
+                to_c(model.torque_with(phase, of(omega), of(alpha), sliding))
             }
 
             #[unsafe(export_name = concat!($prefix, "acceleration"))]

@@ -1,4 +1,5 @@
 /* Every image that is no image of the model is refused with its own status; a model without an image ticks to 0. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -34,6 +35,77 @@ static int32_t damaged(size_t word) {
     memcpy(copy, press_words, sizeof copy);
     copy[word] ^= 1;
     return press_load_words(&model, copy, WORDS);
+}
+
+/* An encoder of a quarter turn: 1024 counts behind a ratio of 2:1 that count down. */
+static void encoders(void) {
+    jred_encoder encoder;
+    jred_mounting mounting = {1024, {2, 1}, true, -5};
+    EXPECT(jred_encoder_make(&encoder, &mounting), JRED_OK);
+    CLAIM(jred_encoder_phase(&encoder, -5) == 0 && jred_encoder_phase(&encoder, -5 - 512) == 0x40000000u);
+    CLAIM(jred_encoder_phase(&encoder, -5 + 512) == 0xc0000000u && jred_encoder_phase_wide(&encoder, -5 - 3 * 2048) == 0);
+    CLAIM(jred_encoder_phase_wide(&encoder, -5 - ((int64_t)1 << 40) - 1024) == 0x80000000u);
+    mounting.gear[1] = 0;
+    EXPECT(jred_encoder_make(&encoder, &mounting), JRED_FIGURE);
+    CLAIM(jred_encoder_phase(&encoder, 77) == 0 && jred_encoder_phase_wide(&encoder, 77) == 0);
+    EXPECT(jred_encoder_make(NULL, &mounting), JRED_NULL);
+    EXPECT(jred_encoder_make(&encoder, NULL), JRED_NULL);
+
+    /* 24 bits a turn of a screw of 10 mm: 800 mm are 80 turns. The register begins below 2^31 and passes it. */
+    const int64_t home = 0x7fff0000, turn = (int64_t)1 << 24;
+    const jred_scaled scaled = {0.010 / 16777216.0, home, 0.0};
+    jred_stroke_encoder stroke;
+    EXPECT(jred_stroke_encoder_make(&stroke, 0.0f, 0.5f, &scaled), JRED_OK);
+    for (int32_t k = 0; k <= 50; k++) {
+        /* k turns are k/50 of the stroke. */
+        const uint32_t exact = k == 50 ? UINT32_MAX : (uint32_t)((((uint64_t)k << 32) + 25) / 50);
+        const int64_t count = home + k * turn;
+        jred_place narrow = jred_stroke_encoder_phase(&stroke, (int32_t)(uint32_t)count), wide = jred_stroke_encoder_phase_wide(&stroke, count);
+        CLAIM(!narrow.limited && narrow.phase - exact + 1 <= 2 && !wide.limited && wide.phase - exact + 1 <= 2);
+    }
+    CLAIM(jred_stroke_encoder_phase(&stroke, (int32_t)(uint32_t)(home - 1)).limited && jred_stroke_encoder_phase_wide(&stroke, home - 1).limited);
+    EXPECT(jred_stroke_encoder_make(&stroke, 0.0f, 0.8f, &scaled), JRED_OK);
+    CLAIM(jred_stroke_encoder_phase_wide(&stroke, home + 40 * turn).phase - 0x80000000u + 100 <= 200); /* 0.8 in single precision is 1.2e-8 more */
+    EXPECT(jred_stroke_encoder_make(&stroke, 0.5f, 0.5f, &scaled), JRED_FIGURE);
+    CLAIM(jred_stroke_encoder_phase(&stroke, 77).phase == 0);
+    EXPECT(jred_stroke_encoder_make(&stroke, 0.0f, 0.5f, NULL), JRED_NULL);
+
+    int64_t count = 65000;
+    CLAIM(jred_counter_extend(&count, 16, 100) == 65636 && jred_counter_extend(&count, 16, 65000) == 65000 && count == 65000);
+}
+
+static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY, 1e30f, -1e30f};
+
+/* A set-point that is no number, or beyond the table, is said to be, and its torque is that of the nearest motion: the weight stays held. */
+static void set_points(const press_model *press, const jred_info *info) {
+    jred_f32_motion_range range;
+    EXPECT(jred_f32_motion_range_of(info, &range), JRED_OK);
+    CLAIM(range.omega > info->most_speed && range.omega < 1.011f * info->most_speed && range.alpha > info->most_acceleration);
+    const uint32_t phase = 0x20000000u;
+    const float still = press_torque(press, phase, 0.0f, 0.0f);
+    jred_f32_checked checked = press_checked(press, &range, phase, 10.0f, 50.0f, jred_f32_against(10.0f));
+    CLAIM(!checked.speed_beyond && !checked.acceleration_beyond && checked.torque == press_torque(press, phase, 10.0f, 50.0f));
+    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_against(-1.0f)) == press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_share(-1.0f)));
+    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_against(-1.0f)) < checked.torque);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        const float x = wrong[k], side = x > 0.0f ? 1.0f : x < 0.0f ? -1.0f : 0.0f;
+        checked = press_checked(press, &range, phase, x, 50.0f, jred_f32_against(10.0f));
+        CLAIM(checked.speed_beyond && !checked.acceleration_beyond);
+        CLAIM(checked.torque == press_torque_with(press, phase, side * range.omega, 50.0f, jred_f32_against(10.0f)));
+        checked = press_checked(press, &range, phase, 10.0f, x, jred_f32_against(10.0f));
+        CLAIM(!checked.speed_beyond && checked.acceleration_beyond);
+        CLAIM(checked.torque == press_torque_with(press, phase, 10.0f, side * range.alpha, jred_f32_against(10.0f)));
+        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_against(x));
+        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_against(side)));
+        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_share(x));
+        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_share(side)));
+        checked = press_checked(press, &range, phase, x, x, jred_f32_against(x));
+        CLAIM(checked.speed_beyond && checked.acceleration_beyond && (x == x || checked.torque == still));
+        CLAIM(jred_phase_from_radians(x) == 0 && jred_phase_from_stroke(x, 0.0f, 1.0f) == (x > 0.0f ? UINT32_MAX : 0));
+        /* A bare tick does not judge: NaN stays NaN, for who looks. */
+        const float bare = press_torque(press, phase, x, 0.0f), reached = press_acceleration(press, phase, 10.0f, x);
+        CLAIM(!(bare - bare == 0.0f && bare < 1e6f && bare > -1e6f) && !(reached < 1e6f && reached > -1e6f));
+    }
 }
 
 int main(void) {
@@ -99,7 +171,9 @@ int main(void) {
     int16_t half;
     EXPECT(jred_q15_from_si(5.0f, 20.0f, &half), JRED_OK);
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
-    CLAIM(jred_phase_from_counts(1024 + 4096, 4096) == 0x40000000u && jred_phase_from_counts(1, 0) == 0);
+    encoders();
+    set_points(&press, &info);
+    CLAIM(fixed_checked(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, 0, INT32_MIN, INT32_MAX, jred_q31_share(INT32_MIN)).speed_beyond);
 
     /* What is no plan is not followed; no follower waits. */
     static jred_f32_follower follower;

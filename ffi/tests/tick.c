@@ -58,11 +58,38 @@ static uint32_t q15_bits(int16_t x) { return (uint32_t)(int32_t)x; }
 
 KERNELS(KERNEL)
 
+/* From a count to a torque, as a program calls it: with the look whether there is a model. */
+static jred_encoder encoder;
+
+#define COUNTED(kernel, format, n, set)                                                                                      \
+    JRED_MODEL(kernel##_counts, format, set);                                                                                \
+    __attribute__((noinline)) jred_##n c_##kernel##_counts(const kernel##_counts_model *model, int32_t count, jred_##n omega,  \
+                                                           jred_##n alpha) {                                                   \
+        return kernel##_counts_torque(model, jred_encoder_phase(&encoder, count), omega, alpha);                               \
+    }                                                                                                                        \
+    static jred_status run_##kernel##_counts(point *points, size_t count) {                                                  \
+        kernel##_counts_model model;                                                                                         \
+        const jred_mounting mounting = {10000, {1, 1}, false, 0};                                                            \
+        jred_status status = jred_encoder_make(&encoder, &mounting);                                                         \
+        if (status == JRED_OK) status = kernel##_counts_load_words(&model, words, length);                                   \
+        for (point *p = points; status == JRED_OK && p < points + count; p++)                                                \
+            p->phase = n##_bits(c_##kernel##_counts(&model, (int32_t)p->phase, n##_of(p->omega), n##_of(p->third)));         \
+        return status;                                                                                                       \
+    }
+
+#define COUNTED_KERNELS(DO)               \
+    DO(f32, cubic_f32, f32, 49)           \
+    DO(q31_quadratic, quadratic_q31, q31, 49) \
+    DO(q15, rows_q15, q15, 49)
+
+COUNTED_KERNELS(COUNTED)
+
+#define COUNTED_LINE(kernel, format, n, set) {"jred_" #kernel "_counts", run_##kernel##_counts},
 #define LINE(kernel, quantity, format, n, set) {"jred_" #kernel "_" #quantity, run_##kernel##_##quantity},
 static const struct {
     const char *name;
     jred_status (*run)(point *, size_t);
-} kernels[] = {KERNELS(LINE)};
+} kernels[] = {KERNELS(LINE) COUNTED_KERNELS(COUNTED_LINE)};
 
 /* The microbit has 16 KiB of RAM. */
 static uint32_t buffer[2700];

@@ -12,8 +12,8 @@ use crate::{Domain, Model, Phase};
 pub struct Braking {
     /// The torque of the drive against the motion, on the drive link (N·m, or N): the least that it has at any speed up to the greatest.
     pub torque: f32,
-    /// The greatest deceleration (rad/s², or m/s²): that of [`Limits`](super::Limits), or infinite if only the torque limits it. Where a machine stops is told
-    /// without it.
+    /// The greatest deceleration a (rad/s², or m/s²): that of [`Limits`](super::Limits), or infinite if only the torque limits it. Where a machine stops is told
+    /// without it. A [`LookAhead`](super::LookAhead) counts on less of it, by the share 2·a·τ/ω_max for a tick τ: what a tick that begins to brake late must catch up with.
     pub deceleration: f32,
     /// Whether load and friction count where they help to brake. `false` for a load that may be missing, such as a workpiece: then only what drives the
     /// machine on counts.
@@ -201,10 +201,16 @@ impl<const NODES: usize> Course<NODES> {
     /// Lowers the squares of the speed, in units of 2⁻³⁰ of that of `top`, so far that the machine can be braked to each from the one before:
     ///
     /// ```text
-    /// ½·J·ω² ≤ ½·J·ω² there + work between,   ω² ≤ ω² there + 2·a_max·Δφ
+    /// ½·J·ω² ≤ ½·J·ω² there + work between,   ω² ≤ ω² there + 2·a·(1 − 2·a·τ/ω_top)·Δφ
     /// ```
-    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], top: f32) {
-        let [gained, most] = [self.gained, self.most].map(|x| x / top / top);
+    ///
+    /// A tick that begins just before a limit falls moves `tick` = ω_top·τ along it at full speed: then ω² is 2·a·ω_top·τ above it, and nothing could bring it down if the limit itself took all of a. The share
+    /// that is left out makes up for it until the machine rests: 2·a·(2·a·τ/ω_top)·s along the way s = ω_top²/(2·a).
+    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], [top, tick]: [f32; 2]) {
+        let gained = self.gained / top / top;
+        let most = self.most / top / top;
+        // 2·a·τ/ω_top, of a braking way that is longer than some ticks.
+        let most = most * (1.0 - (most / self.step * tick).min(0.5));
         if let (true, Some(end)) = (self.way.stroke, squares.last_mut()) {
             *end = 0;
         }

@@ -73,18 +73,22 @@ impl Mounting {
 /// exact where the phase is a whole number of units, as it is at home and whole turns later (test `the_phase_of_every_count_is_within_a_unit`).
 /// No error accumulates.
 ///
-/// A counter of less than 32 bits, or one that overflows, first goes through a [`Counter`](super::Counter).
+/// A counter of less than 32 bits, or one that overflows, first goes through a [`Counter`](super::Counter): a register of 32 bits that passes 2³¹ keeps its angle by itself only if
+/// 2³² counts are whole turns of the drive link (test `a_register_that_overflows_keeps_its_angle`).
+///
+/// In memory it is a `jred_encoder` of C, whose header computes the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Encoder {
     /// Turns a count in units of 2⁻⁶⁴, to the nearest, modulo a turn.
     step: u64,
-    /// The rest of it, in units of 2⁻⁹⁶.
-    rest: i32,
     /// The phase of count 0 in units of 2⁻⁶⁴, and half a unit of a phase.
     start: u64,
     /// The same of the least count of 32 bits.
     least: u64,
+    /// The rest of `step`, in units of 2⁻⁹⁶.
+    rest: i32,
 }
 
 /// Half a unit of a phase, in units of 2⁻⁶⁴ of a turn.
@@ -147,9 +151,9 @@ impl Encoder {
         let start = home.wrapping_add(HALF);
         Ok(Self {
             step,
-            rest,
             start,
             least: start.wrapping_sub(step << 31),
+            rest,
         })
     }
 

@@ -3,47 +3,16 @@
 use core::marker::PhantomData;
 
 use super::error::{positive, within};
-use super::{AxisError, Motion};
+use super::{AxisError, Motion, MotionRange, Status};
 use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
 use crate::number::{Factor, Number, Quantity, Sliding};
 use crate::{MachineUnits, Model, Phase, Validity};
-
-/// Of the validity.
-const MARGIN: f32 = 1.01;
-/// Of a base: less than the largest number of 16 bits.
-const BELOW_BASE: f32 = 0.9999;
-
-/// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Status {
-    /// The speed is.
-    pub speed_beyond: bool,
-    /// The acceleration is.
-    pub acceleration_beyond: bool,
-}
-
-impl Status {
-    /// The motion is one that the table was made for.
-    #[must_use]
-    pub const fn is_valid(self) -> bool {
-        !(self.speed_beyond || self.acceleration_beyond)
-    }
-
-    /// The same, or the speed of the set-point is beyond.
-    const fn or_beyond(self, beyond: bool) -> Self {
-        Self {
-            speed_beyond: self.speed_beyond || beyond,
-            acceleration_beyond: self.acceleration_beyond,
-        }
-    }
-}
 
 /// A torque on the drive link, and whether the table was made for its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Checked<N: Number> {
-    /// The torque, as [`Model::torque`] gives it.
+    /// The torque, as [`Model::torque`] gives it; of a motion that the table was not made for, the torque of the nearest one that it was made for. Always a finite number.
     pub torque: N::Torque,
     /// What is wrong with the motion.
     pub status: Status,
@@ -55,6 +24,9 @@ pub struct Checked<N: Number> {
 /// long as the machine follows. [`at_measured`](Self::at_measured) takes position and speed from the encoder (computed torque): it is right where the
 /// machine *is*, but feeds the encoder's noise back. In both, Coulomb friction should have the sign of the set-point's speed
 /// (`Sliding::Against(reference.omega)`, or a [`Ramp`]), so that the noise of a measured speed around zero does not turn it over.
+///
+/// Every input has a say in the one [`Status`]: the speed, the acceleration, the set-point's speed, what friction is against; too large, NaN and infinity. A motion that is flagged
+/// gets the torque of the nearest that the table was made for, so that the weight of an axis stays held (test `what_is_flagged_holds_the_weight`).
 ///
 /// What else stands between the model and the drive is put before and after it, each piece for itself: a lead time
 /// ([`Period::later`](super::Period::later)), the gearbox ([`Transmission`](super::Transmission)), the limits of the drive
@@ -95,34 +67,15 @@ pub struct Checked<N: Number> {
 #[derive(Clone, Copy, Debug)]
 pub struct FeedForward<'a, F: Format, const SET: Set> {
     model: Model<'a, F, SET>,
-    omega: SpeedOf<F>,
-    alpha: AccelerationOf<F>,
+    range: MotionRange<F::Number>,
 }
 
 impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
-    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity), of the same image), and a hundredth more: so that the motion that a
-    /// table was made for is valid when it is measured, too. The error of the torque grows by a fiftieth at most there. In fixed point what was limited to
-    /// the range of its numbers is beyond, wherever the range ends.
+    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity), of the same image).
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
-        let scale = model.table().scale();
-        let within = |most: f32, base: f32| {
-            let most = most * MARGIN;
-            if F::Number::FIXED {
-                most.min(base * BELOW_BASE)
-            } else {
-                most
-            }
-        };
-        let omega = scale.omega(within(validity.omega, scale.speed())).value;
-        let alpha = scale
-            .alpha(within(validity.alpha, scale.acceleration()))
-            .value;
-        Self {
-            model,
-            omega,
-            alpha,
-        }
+        let range = MotionRange::new(validity, model.table().scale());
+        Self { model, range }
     }
 
     /// The same over the words that its model was made of, borrowed anew or in another place.
@@ -130,8 +83,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     pub(super) fn moved<'b>(&self, words: &'b [F::Word]) -> FeedForward<'b, F, SET> {
         FeedForward {
             model: self.model.moved(words),
-            omega: self.omega,
-            alpha: self.alpha,
+            range: self.range,
         }
     }
 
@@ -141,37 +93,29 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         &self.model
     }
 
-    /// Whether the table was made for these: |ω| and |α| within its validity. NaN is not.
-    #[inline]
-    pub fn status(&self, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> Status {
-        Status {
-            speed_beyond: omega.exceeds(self.omega),
-            acceleration_beyond: alpha.exceeds(self.alpha),
-        }
+    /// The motions that the table was made for.
+    #[must_use]
+    pub const fn range(&self) -> &MotionRange<F::Number> {
+        &self.range
     }
 
-    /// The torque for the reference, at the reference's phase and speed. The status is of the speed that `sliding` is against, too.
+    /// As [`MotionRange::status`].
+    #[inline]
+    pub fn status(&self, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> Status {
+        self.range.status(omega, alpha)
+    }
+
+    /// The torque for the reference, at the reference's phase and speed. The status is of what `sliding` is against, too.
     #[inline]
     pub fn at_reference(
         &self,
         reference: Motion<F::Number>,
         sliding: Sliding<F::Number>,
     ) -> Checked<F::Number> {
-        let Motion {
-            phase,
-            omega,
-            alpha,
-        } = reference;
-        Checked {
-            torque: self.model.torque_with(phase, omega, alpha, sliding),
-            status: self.status(omega, alpha).or_beyond(match sliding {
-                Sliding::Against(omega) => omega.exceeds(self.omega),
-                Sliding::Share(_) => false,
-            }),
-        }
+        self.checked(reference, sliding, false)
     }
 
-    /// The torque for the reference's acceleration, at the measured phase and speed.
+    /// The torque for the reference's acceleration, at the measured phase and speed. The status is of both speeds, and of what `sliding` is against.
     #[inline]
     pub fn at_measured(
         &self,
@@ -185,7 +129,36 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
             omega,
             alpha: reference.alpha,
         };
-        self.at_reference(measured, sliding)
+        self.checked(
+            measured,
+            sliding,
+            reference.omega.exceeds(self.range.omega()),
+        )
+    }
+
+    #[inline(always)]
+    fn checked(
+        &self,
+        motion: Motion<F::Number>,
+        sliding: Sliding<F::Number>,
+        beyond: bool,
+    ) -> Checked<F::Number> {
+        let mut status = self.range.status(motion.omega, motion.alpha);
+        status.speed_beyond |= beyond || self.range.is_beyond(sliding);
+        let (motion, sliding) = if status.is_valid() {
+            (motion, sliding)
+        } else {
+            self.range.nearest(motion, sliding)
+        };
+        let Motion {
+            phase,
+            omega,
+            alpha,
+        } = motion;
+        Checked {
+            torque: self.model.torque_with(phase, omega, alpha, sliding),
+            status,
+        }
     }
 }
 
@@ -228,7 +201,7 @@ impl<N: Number> Ramp<N> {
         })
     }
 
-    /// How much of c acts at a speed: that of the set-point.
+    /// How much of c acts at a speed: that of the set-point. Nothing at NaN, which the status of [`FeedForward`] finds in the set-point itself; all of it at infinity.
     #[inline]
     pub fn at(&self, omega: N::Speed) -> Sliding<N> {
         Sliding::Share(omega.number().times(&self.share).value.to_unit())
@@ -256,7 +229,7 @@ impl<T: Quantity> TorqueLimits<T> {
     /// From `least` to `greatest`.
     ///
     /// # Errors
-    /// Limits that do not contain 0, or are no numbers; the message has them in machine units.
+    /// Limits that do not contain 0, or are NaN; the message has them in machine units. An infinite limit is none.
     pub fn new(least: T, greatest: T) -> Result<Self, AxisError> {
         let none = T::default();
         for (what, torque, holds, range) in [
@@ -275,7 +248,7 @@ impl<T: Quantity> TorqueLimits<T> {
         })
     }
 
-    /// The torque within the limits, and what they took away.
+    /// The torque within the limits, and what they took away: of NaN the torque is 0, and what was taken away NaN; of infinity the limit and infinity.
     #[inline]
     pub fn limited(&self, torque: T) -> Limited<T> {
         let within = torque.within(self.limits);

@@ -1,6 +1,6 @@
 //! A commanded speed, followed as far as all limits allow.
 
-use super::limits::{Bounded, Limit};
+use super::limits::{Bounded, Limit, finite};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
 use crate::Model;
 use crate::curve::{Format, Set};
@@ -103,7 +103,8 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         })
     }
 
-    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. 0 of what is no number.
+    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. A command that is NaN asks for no acceleration: 0, or the nearest that is possible, and `by` says
+    /// what binds; `unkept` says that it was none. Of a motion whose speed is NaN the acceleration is 0, and `unkept` says so, too.
     #[inline]
     pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
         &self,
@@ -136,15 +137,15 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         } else {
             stopped
         });
-        let wanted = period.needed(commanded.minus(omega).value).value;
+        let known = commanded >= rest || commanded <= rest;
+        let wanted = finite::<N>(period.needed(commanded.minus(omega).value).value);
         let (alpha, by) = if wanted > greatest.alpha {
             (greatest.alpha, Some(greatest.by))
         } else if wanted < least.alpha {
             (least.alpha, Some(least.by))
         } else {
-            (wanted.within([wanted, wanted]), None)
+            (wanted, None)
         };
-        let known = commanded >= rest || commanded <= rest;
         let beyond = (too_fast || too_fast_back).then_some(Limit::Ahead);
         Governed {
             alpha,

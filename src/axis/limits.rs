@@ -112,7 +112,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         &self.period
     }
 
-    /// The accelerations that are possible in this state. Of no number they are 0.
+    /// The accelerations that are possible in this state. At a speed that is NaN they are 0, at an infinite one finite; `unkept` says so of both.
     #[inline]
     pub fn feasible<F: Format<Number = N>, const SET: Set>(
         &self,
@@ -199,12 +199,17 @@ fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
     }
 }
 
+/// 0 of what is no number; an infinite one is no more than a number can say.
+#[inline]
+pub(super) fn finite<N: Number>(alpha: N::Acceleration) -> N::Acceleration {
+    alpha.within([f32::MIN, f32::MAX].map(|end| N::Acceleration::of(N::per_unit(end, 1.0).value)))
+}
+
 #[inline]
 fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> Bounded<N> {
     let Outcome { value, saturated } = alpha;
     Bounded {
-        // 0 of what is no number.
-        alpha: value.within([value, value]),
+        alpha: finite::<N>(value),
         by: if saturated {
             Limit::Range
         } else {

@@ -30,7 +30,8 @@ pub enum Direction {
 /// ```
 ///
 /// Within an interval the straight line needs more than the braking torque by what that torque, and J, change in it: give the look-ahead some percent
-/// less torque than the drive has. With the same work it tells where the machine would stop, if no viscous friction stopped it earlier:
+/// less torque than the drive has. Of the greatest deceleration it leaves out by itself what a tick needs ([`Braking::deceleration`]), so that a
+/// [`Governor`](super::Governor) with the same one in its [`Limits`](super::Limits) keeps below the greatest speed (test `the_deceleration_of_the_limits_gives_no_false_alarm`). With the same work it tells where the machine would stop, if no viscous friction stopped it earlier:
 ///
 /// ```text
 /// ½·J·ω² = ∫ (T_brake + c − load) dφ
@@ -124,7 +125,12 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             let share = beside(k).into_iter().fold(top, f32::min) / top;
             *square = (share * share * ONE) as u32;
         }
-        course.slow_down(&mut squares, top);
+        let scale = model.table().scale();
+        let moved = period
+            .moved(in_range(SPEED, top, scale.speed(), scale.omega(top))?)
+            .to_bits();
+        let tick = moved as f32 / way.width as f32 * course.step;
+        course.slow_down(&mut squares, [top, tick]);
         let shift = course.works(&mut works, &mut inertias, top)?;
         let mut inverses = [0; NODES];
         for (k, inverse) in (0..).zip(&mut inverses) {
@@ -133,10 +139,6 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             *inverse = ((1 << (31 + width.ilog2())) / u64::from(width)) as u32;
         }
 
-        let scale = model.table().scale();
-        let moved = period
-            .moved(in_range(SPEED, top, scale.speed(), scale.omega(top))?)
-            .to_bits();
         let ticks = (way.width as f32 / moved as f32 * 256.0) as u32;
         let holds = moved > 0 && moved < 1 << 31 && (256..1 << 30).contains(&ticks);
         within(
@@ -173,7 +175,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         self.way.direction
     }
 
-    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all: for plots and tests, not for the tick.
+    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all, NaN if that is NaN: for plots and tests, not for the tick.
     #[must_use]
     pub fn speed_at(&self, phase: Phase, top: f32) -> f32 {
         let (k, part) = self.way.cell(phase);

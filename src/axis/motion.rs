@@ -88,25 +88,31 @@ impl<N: Number> Period<N> {
         N::of_count(tracked.speed, &self.speed).map(N::Speed::of)
     }
 
-    /// The acceleration of what a [`Tracker`](super::Tracker) found in this period.
+    /// The acceleration of what a [`Tracker`](super::Tracker) found in this period. Flagged, too, if it was limited there.
     #[inline]
     pub fn alpha(&self, tracked: Tracked) -> Outcome<N::Acceleration> {
-        N::of_count(tracked.acceleration, &self.acceleration).map(N::Acceleration::of)
+        let Outcome { value, saturated } =
+            N::of_count(tracked.acceleration, &self.acceleration).map(N::Acceleration::of);
+        Outcome {
+            value,
+            saturated: saturated || matches!(tracked.acceleration, i32::MIN | i32::MAX),
+        }
     }
 
     /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to six units of 2⁻³² of the range, and 2⁻²³ of the way.
+    /// Limited to half of the range; 0 at NaN.
     #[inline]
     pub fn moved(&self, omega: N::Speed) -> Phase {
         Phase::from_bits(omega.number().to_count(&self.moved).cast_unsigned())
     }
 
-    /// The speed that it gains in the period at this acceleration.
+    /// The speed that it gains in the period at this acceleration; NaN of NaN.
     #[inline]
     pub fn gained(&self, alpha: N::Acceleration) -> Outcome<N::Speed> {
         alpha.times(&self.gained)
     }
 
-    /// The acceleration that it needs to gain this speed in the period.
+    /// The acceleration that it needs to gain this speed in the period; NaN of NaN.
     #[inline]
     pub fn needed(&self, gain: N::Speed) -> Outcome<N::Acceleration> {
         gain.times(&self.needed)
@@ -115,7 +121,7 @@ impl<N: Number> Period<N> {
     /// The motion a period later, if the acceleration stays: φ + ω·τ + ½·α·τ², ω + α·τ. On a stroke limited to its ends. Flagged, if the speed was limited.
     ///
     /// With a lead time as the period it makes up for the dead time of a drive: the torque is that of the time when it acts. The drive link
-    /// must move less than half of its range in it.
+    /// must move less than half of its range in it. NaN and infinity stay in the speed, where the status of [`FeedForward`](super::FeedForward) finds them; of NaN the way is 0.
     #[inline]
     pub fn later(&self, motion: Motion<N>) -> Outcome<Motion<N>> {
         let gained = self.gained(motion.alpha);
@@ -136,7 +142,7 @@ impl<N: Number> Period<N> {
     /// from the one speed to the other. On a stroke limited to its ends. Flagged, if the acceleration was limited.
     ///
     /// For firmware whose reference is a speed each tick, without an acceleration. The speed that is reached errs by the third power of the
-    /// period; with the acceleration at the beginning and the curves there, by the second (test `the_middle_of_a_tick_is_one_order_better`).
+    /// period; with the acceleration at the beginning and the curves there, by the second (test `the_middle_of_a_tick_is_one_order_better`). NaN and infinity stay in speed and acceleration.
     #[inline]
     pub fn between(&self, phase: Phase, from: N::Speed, to: N::Speed) -> Outcome<Motion<N>> {
         let gain = to.minus(from);

@@ -13,12 +13,13 @@ use crate::{Domain, Outcome, Phase};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Scaled {
     /// How far a count moves the drive link (m, or rad for one that swings); negative if the encoder counts down while the position
     /// grows.
     pub resolution: f64,
     /// The count at the position `at_home`.
-    pub home: i32,
+    pub home: i64,
     /// Position at the count `home` (m, or rad).
     pub at_home: f64,
 }
@@ -39,27 +40,43 @@ pub struct Scaled {
 /// # Ok::<(), jred::axis::AxisError>(())
 /// ```
 ///
-/// Accuracy: less than a unit of 2⁻³² of the stroke off, for every count of 32 bits; half of one for strokes of up to a million counts (test `the_phase_along_a_stroke_is_within_a_unit`).
+/// A register of 32 bits may overflow within the stroke, whether the program takes it as signed or as unsigned: [`phase`](Self::phase) takes the count that is nearest to the middle of the
+/// stroke (test `a_register_may_overflow_within_the_stroke`). A register of fewer bits goes through a [`Counter`](super::Counter) first.
+///
+/// Accuracy: less than a unit of 2⁻³² of the stroke off, for every count; half of one for strokes of up to a million counts (tests `the_phase_along_a_stroke_is_within_a_unit`,
+/// `strokes_of_many_counts_are_within_a_unit`).
+///
+/// In memory it is a `jred_stroke_encoder` of C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct StrokeEncoder {
-    /// A count as a part of the stroke, in units of 2⁻⁶⁴.
+    /// A count as a part of the stroke, in units of 2⁻⁶⁴, to the nearest.
     step: i64,
-    /// The phase of count 0 and half a unit, in units of 2⁻³².
+    /// The phase of the count `middle`, and half a unit, in units of 2⁻³²; for counts of 32 bits, far beyond the stroke if they do not suffice for it.
     start: i64,
-    /// The rest of it, in units of 2⁻⁶⁴.
-    rest: u32,
+    start_narrow: i64,
+    /// The count next to the middle of the stroke.
+    middle: i64,
+    /// Counts of the stroke and one more: farther from the middle there is nothing.
+    reach: i64,
+    /// The rest of `start`, in units of 2⁻⁶⁴.
+    part: u32,
+    /// The rest of `step`, in units of 2⁻⁹⁶.
+    rest: i32,
 }
 
 /// 2³²
-const STROKE: f64 = 4_294_967_296.0;
+const UNITS: f64 = 4_294_967_296.0;
+/// Beyond the stroke whatever count of 32 bits is added.
+const FAR: i64 = 1 << 61;
 
 impl StrokeEncoder {
     /// Of an encoder mounted like this, on a drive link with this stroke.
     ///
     /// # Errors
-    /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2³⁰ counts (a turn has no stroke), or a
-    /// home 100,000 strokes away.
+    /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2⁵³ counts (a turn has no stroke), a
+    /// home 100,000 strokes away, or so far from the stroke that its counts have more than 62 bits.
     pub fn new<R: Real>(domain: Domain<R>, scaled: Scaled) -> Result<Self, AxisError> {
         let Scaled {
             resolution,
@@ -81,12 +98,12 @@ impl StrokeEncoder {
         // A stroke from its upper to its lower end is none.
         let step = resolution / span.max(0.0);
         let counts = 1.0 / math::abs(step);
-        let holds = (16.0..=1_073_741_824.0).contains(&counts);
+        let holds = (16.0..=9_007_199_254_740_992.0).contains(&counts);
         within(
             "the number of counts of the stroke",
             counts as f32,
             holds,
-            "from 16 to 1073741824",
+            "from 16 to 9007199254740992",
         )?;
         let at_home = (at_home - from) / span;
         let holds = math::abs(at_home) <= 1e5;
@@ -96,35 +113,80 @@ impl StrokeEncoder {
             holds,
             "from -100000 to 100000",
         )?;
-        let step = math::rint(step * STROKE * STROKE) as i64;
-        let at_home = (at_home * STROKE * STROKE) as i128;
-        let start = at_home - i128::from(home) * i128::from(step) + (1 << 31);
+        // From home to the middle; the whole counts of it, and what is left.
+        let way = (0.5 - at_home) / step;
+        let whole = math::rint(way);
+        let middle = i128::from(home) + whole as i128;
+        let holds = middle.unsigned_abs() < 1 << 62;
+        within(
+            "the count in the middle of the stroke",
+            middle as f32,
+            holds,
+            "of at most 62 bits",
+        )?;
+        let all = (step * UNITS * UNITS * UNITS) as i128;
+        let nearest = (all + (1 << 31)) >> 32;
+        let start = ((0.5 - (way - whole) * step) * UNITS * UNITS) as i128 + (1 << 31);
+        // Both ends are less than 2³¹ counts from the count next to the middle.
+        let narrow = counts <= UNITS - 2.0;
         Ok(Self {
-            step,
+            step: nearest as i64,
             start: (start >> 32) as i64,
-            rest: start as u32,
+            start_narrow: if narrow { (start >> 32) as i64 } else { FAR },
+            middle: middle as i64,
+            reach: counts as i64 + 1,
+            part: start as u32,
+            rest: (all - (nearest << 32)) as i32,
         })
     }
 
-    /// The phase at a count; limited to the stroke, and flagged there.
+    /// The phase at a count of 32 bits, as it is in a register that overflows; limited to the stroke, and flagged there. A stroke of more than 2³² counts needs
+    /// [`phase_wide`](Self::phase_wide): here every count of it is flagged.
     #[must_use]
     #[inline(always)]
     pub const fn phase(&self, count: i32) -> Outcome<Phase> {
-        let count = count as i64;
-        let lower = (count * (self.step as u32 as i64) + self.rest as i64) >> 32;
+        let count = count.wrapping_sub(self.middle as i32) as i64;
+        let lower = (count * (self.step as u32 as i64) + self.part as i64) >> 32;
         // |count·step| ≤ 2³¹·2⁶⁰, so that each of the terms is less than 2⁶⁰.
-        let phase = count * (self.step >> 32) + lower + self.start;
-        let end = 1 << 32;
-        let value = if phase < 0 {
-            0
-        } else if phase < end {
-            phase as u32
+        limited(count * (self.step >> 32) + lower + self.start_narrow)
+    }
+
+    /// The phase at a count of 64 bits; limited to the stroke, and flagged there.
+    #[must_use]
+    #[inline]
+    pub const fn phase_wide(&self, count: i64) -> Outcome<Phase> {
+        let count = count.saturating_sub(self.middle);
+        let count = if count > self.reach {
+            self.reach
+        } else if count < -self.reach {
+            -self.reach
         } else {
-            u32::MAX
+            count
         };
-        Outcome {
-            value: Phase::from_bits(value),
-            saturated: phase < 0 || phase > end,
-        }
+        // |count·step| is less than 2⁶⁶, so that none of the terms is more than 2³⁴.
+        let (upper, lower) = (count >> 32, count as u32 as u64);
+        let low = lower * (self.step as u32 as u64);
+        // In units of 2⁻⁶², so that the sum has room.
+        let rest = upper * self.rest as i64 + ((lower as i64 * self.rest as i64) >> 32);
+        let rests = (rest >> 2) + (self.part >> 2) as i64;
+        let parts = ((low >> 2) as i64 + rests) >> 30;
+        limited(upper * self.step + lower as i64 * (self.step >> 32) + parts + self.start)
+    }
+}
+
+/// The phase of a place in units of 2⁻³² of the stroke.
+#[inline(always)]
+const fn limited(place: i64) -> Outcome<Phase> {
+    let end = 1 << 32;
+    let value = if place < 0 {
+        0
+    } else if place < end {
+        place as u32
+    } else {
+        u32::MAX
+    };
+    Outcome {
+        value: Phase::from_bits(value),
+        saturated: place < 0 || place > end,
     }
 }

@@ -105,7 +105,7 @@ impl<N: Number> Transmission<N> {
         self.base
     }
 
-    /// A torque on the motor's shaft (N·m) in its machine units.
+    /// A torque on the motor's shaft (N·m) in its machine units. In fixed point limited and flagged, 0 and flagged of NaN; in floating point it is what it is.
     pub fn to_torque(&self, torque: f32) -> Outcome<N::MotorTorque> {
         N::MotorTorque::from_si(torque, self.base)
     }
@@ -116,7 +116,7 @@ impl<N: Number> Transmission<N> {
     }
 
     /// The torque on the motor's shaft for `torque` on the drive link, which accelerates with `alpha` and moves (or is to move) with `omega`. At rest the
-    /// motor is taken to drive.
+    /// motor is taken to drive, and at a speed that is NaN. A torque or acceleration that is NaN gives NaN, which [`TorqueLimits`](super::TorqueLimits) makes 0.
     #[inline]
     pub fn motor(
         &self,

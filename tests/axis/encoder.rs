@@ -85,7 +85,7 @@ proptest! {
         from in -10.0..10.0f64,
         counts in 16.0..1e9f64,
         down: bool,
-        home in -1_000_000..1_000_000i32,
+        home in -1_000_000..1_000_000i64,
         part in -0.5..1.5,
         at in prop::collection::vec(-1.2..1.2f64, 8),
     ) {
@@ -97,13 +97,16 @@ proptest! {
         let encoder = StrokeEncoder::new(domain, Scaled { resolution, home, at_home }).unwrap();
         for at in at {
             let count = (at * counts) as i32;
-            let counted = f64::from(count) - f64::from(home);
+            let counted = f64::from(count) - home as f64;
             let exact = (counted * (resolution / span) + (at_home - from) / span) * 4_294_967_296.0;
             let found = encoder.phase(count);
             let limited = exact.clamp(0.0, 4_294_967_295.0);
-            // Half a unit, a quarter for a step that is half a unit of 2⁻⁶⁴ off 2³¹ times, and what double precision leaves of the reference.
-            let most = 0.5 + 0.25 * f64::from(count).abs() / 2_147_483_648.0 + 1e-5;
+            // Half a unit, a quarter for a step that is half a unit of 2⁻⁶⁴ off 2³¹ times from the middle on, and what double precision leaves of the reference.
+            let from_middle = counted - (from + 0.5 * span - at_home) / resolution;
+            let most = 0.5 + 0.25 * (from_middle.abs() + 1.0) / 2_147_483_648.0 + 1e-5;
             prop_assert!((f64::from(found.value.to_bits()) - limited).abs() < most, "{count}: {exact}");
+            let wide = encoder.phase_wide(count.into());
+            prop_assert!((f64::from(wide.value.to_bits()) - limited).abs() < 0.5 + 1e-5, "{count}: {exact}");
             if !(-1.0..1.0).contains(&exact) && (exact - 4_294_967_296.0).abs() > 1.0 {
                 prop_assert_eq!(found.saturated, !(0.0..4_294_967_296.0).contains(&exact));
             }
@@ -199,7 +202,7 @@ fn an_encoder_that_cannot_be_is_refused() {
         (
             Domain::Turn,
             good,
-            "the number of counts of the stroke is 0, but must be from 16 to 1073741824",
+            "the number of counts of the stroke is 0, but must be from 16 to 9007199254740992",
         ),
         (
             stroke,
@@ -215,7 +218,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: 0.0,
                 ..good
             },
-            "the number of counts of the stroke is infinite, but must be from 16 to 1073741824",
+            "the number of counts of the stroke is infinite, but must be from 16 to 9007199254740992",
         ),
         (
             stroke,
@@ -286,8 +289,10 @@ fn the_extremes_keep_the_promises() {
     }
     // As few counts as a stroke may have, as far away as home may be.
     let domain = Domain::Stroke { from: 0.0, to: 1.0 };
-    for (resolution, home, at_home) in [(1.0 / 16.0, i32::MIN, 1e5), (-1.0 / 16.0, i32::MAX, -1e5)]
-    {
+    for (resolution, home, at_home) in [
+        (1.0 / 16.0, i64::from(i32::MIN), 1e5),
+        (-1.0 / 16.0, i64::from(i32::MAX), -1e5),
+    ] {
         let encoder = StrokeEncoder::new(
             domain,
             Scaled {
@@ -297,7 +302,145 @@ fn the_extremes_keep_the_promises() {
             },
         )
         .unwrap();
-        let far = encoder.phase(if resolution > 0.0 { i32::MAX } else { i32::MIN });
-        assert_eq!((far.value.to_bits(), far.saturated), (u32::MAX, true));
+        let far = if resolution > 0.0 { i64::MAX } else { i64::MIN };
+        let [up, down] = [far, !far].map(|count| encoder.phase_wide(count));
+        assert_eq!((up.value.to_bits(), up.saturated), (u32::MAX, true));
+        assert_eq!((down.value.to_bits(), down.saturated), (0, true));
+    }
+}
+
+/// A screw of 10 mm a turn and a stroke of whole turns: every turn is a fraction of the stroke that can be written down. From encoders of 17 bits to some of 45, whose stroke has 2⁵² counts.
+#[test]
+fn strokes_of_many_counts_are_within_a_unit() {
+    for (bits, turns) in [
+        (17, 50),
+        (20, 80),
+        (24, 60),
+        (24, 80),
+        (26, 100),
+        (32, 100),
+        (45, 128),
+    ] {
+        for (sign, home) in [(1, 0), (-1, 12_345), (1, -(1 << 40)), (-1, 1 << 60)] {
+            let a_turn = 1_i64 << bits;
+            let scaled = Scaled {
+                resolution: sign as f64 * 0.010 / a_turn as f64,
+                home,
+                at_home: 0.25,
+            };
+            let stroke = Domain::Stroke {
+                from: 0.25,
+                to: 0.25 + 0.010 * f64::from(turns),
+            };
+            let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
+            for k in 0..=turns {
+                // 2³²·k/turns to half a unit; the ends of the stroke are off by what double precision leaves of 0.25 + 0.8.
+                let exact = f64::from(k) / f64::from(turns) * 4_294_967_296.0;
+                let found = encoder.phase_wide(home + sign * i64::from(k) * a_turn);
+                let off = (f64::from(found.value.to_bits()) - exact.min(4_294_967_295.0)).abs();
+                assert!(off < 0.51, "{bits} bits, {k} of {turns}: {off}");
+                assert!(!found.saturated || off < 0.51 && [0, turns].contains(&k));
+            }
+            let [before, behind] = [-9, i64::from(turns) * a_turn + 9]
+                .map(|count| encoder.phase_wide(home + sign * count));
+            assert!(bits > 30 || before.saturated && behind.saturated);
+        }
+    }
+}
+
+/// A register of 32 bits, signed or not, may overflow anywhere within the stroke.
+#[test]
+fn a_register_may_overflow_within_the_stroke() {
+    let stroke = Domain::Stroke { from: 0.0, to: 0.3 };
+    let a_turn = 1_i64 << 20;
+    for home in [
+        0x7fff_0000,
+        -0x8000_0000 - 15 * a_turn,
+        0xffff_fff0,
+        -3,
+        i64::MAX >> 3,
+    ] {
+        let scaled = Scaled {
+            resolution: 0.01 / a_turn as f64,
+            home,
+            at_home: 0.0,
+        };
+        let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
+        for count in [0, 1, 0xffff, 0x1_0000, a_turn * 15, a_turn * 30] {
+            let exact = count as f64 / (30 * a_turn) as f64 * 4_294_967_296.0;
+            let found = encoder.phase((home + count) as u32 as i32);
+            let off = f64::from(found.value.to_bits()) - exact.min(4_294_967_295.0);
+            assert!(
+                !found.saturated && off.abs() < 0.76,
+                "{home} {count}: {off}"
+            );
+        }
+        for count in [-1, 30 * a_turn + 1, 1 << 30] {
+            assert!(encoder.phase((home + count) as u32 as i32).saturated);
+        }
+    }
+    // More counts than the register has: each is flagged, never read as another place.
+    let scaled = Scaled {
+        resolution: 1e-11,
+        home: 0,
+        at_home: 0.0,
+    };
+    let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
+    for count in [i32::MIN, -1, 0, 1, i32::MAX] {
+        assert!(encoder.phase(count).saturated);
+    }
+    assert!(!encoder.phase_wide(1 << 33).saturated);
+    let error = StrokeEncoder::new(
+        stroke,
+        Scaled {
+            home: i64::MIN,
+            ..scaled
+        },
+    )
+    .unwrap_err();
+    assert!(
+        error.to_string().starts_with(
+            "the count in the middle of the stroke is -more than 4000000000, but must be"
+        ),
+        "{error}"
+    );
+}
+
+/// A register of 32 bits that passes 2³¹ in one direction: with a power of two of counts a turn of the drive link it keeps its angle by itself, with others a `Counter` keeps it.
+#[test]
+fn a_register_that_overflows_keeps_its_angle() {
+    for (counts_per_turn, gear) in [
+        (4096, [1, 1]),
+        (10_000, [1, 1]),
+        (1 << 24, [57, 13]),
+        (10_000, [16, 625]),
+    ] {
+        let mounting = Mounting {
+            gear,
+            ..Mounting::direct(counts_per_turn)
+        };
+        let encoder = Encoder::new(mounting).unwrap();
+        let whole =
+            (u128::from(gear[1]) << 32) % (u128::from(counts_per_turn) * u128::from(gear[0])) == 0;
+        let mut counter = Counter::<32>::default();
+        let (mut position, mut jumped) = (0_i64, false);
+        for k in 0..40_000_i64 {
+            position += 300_000 + k % 977;
+            let register = position as u32;
+            let count = counter.extend(register);
+            assert_eq!(count, position);
+            check(&mounting, position, encoder.phase_wide(count).to_bits());
+            let narrow = encoder.phase(register.cast_signed());
+            if whole {
+                check(&mounting, position, narrow.to_bits());
+            } else {
+                let off = (narrow - encoder.phase_wide(count)).to_bits().cast_signed();
+                jumped |= off.unsigned_abs() > 1 << 8;
+            }
+        }
+        assert!(
+            position > 2 << 32 && jumped != whole,
+            "{counts_per_turn} {gear:?}"
+        );
     }
 }

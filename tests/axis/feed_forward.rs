@@ -272,3 +272,98 @@ fn the_measured_state_is_where_the_curves_are_read() {
         assert_eq!(ramp.at(f64::NAN), Sliding::Share(0.0));
     });
 }
+
+/// A vertical axis: whatever is flagged, NaN, infinity, too fast, the torque is that of the nearest motion of the table, and never less than the weight needs at rest.
+#[test]
+fn what_is_flagged_holds_the_weight() {
+    fn held<F: Format>(scale: Scale, wrong: &[f64], error: f64) {
+        with_model::<F, { curves::LOAD }>(scale, |model| {
+            let scale = *model.table().scale();
+            let feed_forward = FeedForward::new(
+                model,
+                Validity {
+                    omega: 4.0,
+                    alpha: 0.1,
+                    torque_error: 0.0,
+                },
+            );
+            // At a quarter turn the load is 3 N·m, J is 1, ½·J′ is −0.125.
+            let phase = Phase::from_bits(1 << 30);
+            for &wrong in wrong {
+                let (omega, alpha) = si::<F::Number>(&scale, [wrong, wrong]);
+                let sides = [wrong.clamp(-4.04, 4.04), wrong.clamp(-0.101, 0.101)];
+                let [w, a] = sides.map(|x| if x.is_nan() { 0.0 } else { x });
+                let motion = Motion {
+                    phase,
+                    omega,
+                    alpha,
+                };
+                let none = Motion {
+                    phase,
+                    ..Motion::default()
+                };
+                for (found, exact) in [
+                    (
+                        feed_forward.at_reference(motion, Sliding::Against(omega)),
+                        a - 0.125 * w * w - 3.0,
+                    ),
+                    (
+                        feed_forward.at_reference(
+                            Motion {
+                                alpha: Default::default(),
+                                ..motion
+                            },
+                            Sliding::Against(omega),
+                        ),
+                        -0.125 * w * w - 3.0,
+                    ),
+                    (
+                        feed_forward.at_reference(
+                            Motion {
+                                omega: Default::default(),
+                                ..motion
+                            },
+                            Sliding::Against(none.omega),
+                        ),
+                        a - 3.0,
+                    ),
+                    (
+                        feed_forward.at_measured(phase, omega, none, Sliding::Against(none.omega)),
+                        -0.125 * w * w - 3.0,
+                    ),
+                    (
+                        feed_forward.at_measured(
+                            phase,
+                            none.omega,
+                            motion,
+                            Sliding::Against(none.omega),
+                        ),
+                        a - 3.0,
+                    ),
+                    (
+                        feed_forward.at_measured(
+                            phase,
+                            none.omega,
+                            Motion {
+                                alpha: none.alpha,
+                                ..motion
+                            },
+                            Sliding::Share(F::Number::default()),
+                        ),
+                        -3.0,
+                    ),
+                ] {
+                    assert!(!found.status.is_valid(), "{wrong}: {found:?}");
+                    let torque = value(found.torque) * f64::from(scale.torque());
+                    assert_near(&format!("{} at {wrong}", F::NAME), torque, exact, error);
+                }
+            }
+        });
+    }
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    held::<Spline<f32>>(Scale::SI, &[nan, -nan, inf, -inf, 1e30, -5.0, 50.0], 1e-4);
+    held::<Cubic<f64>>(Scale::SI, &[nan, inf, -inf, 5.0], 1e-4);
+    // In fixed point a set-point beyond the base is limited to it.
+    held::<Spline<Q31>>(scale_of(150.0, 10.0, 1.5), &[1e30, -1e30, 5.0, -9.0], 1e-4);
+    held::<Rows16>(scale_of(150.0, 10.0, 1.5), &[1e30, -1e30, 5.0, -9.0], 0.03);
+}

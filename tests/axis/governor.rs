@@ -408,3 +408,112 @@ fn a_start_from_rest_is_a_valid_motion() {
     starts::<Cubic<Q31>>(scale_of(250.0, 11.5, 1.5));
     starts::<Rows16>(scale_of(250.0, 11.5, 1.5));
 }
+
+/// Look-ahead and limits have the same deceleration, the drive more torque than it takes: the machine brakes from the top speed to nearly rest, and is never
+/// beyond what can be kept. At 64 ticks or more of braking.
+#[test]
+fn the_deceleration_of_the_limits_gives_no_false_alarm() {
+    fn alarms<F: Format>(scale: Scale) {
+        with_model::<F, SET>(scale, |model| {
+            let scale = *model.table().scale();
+            for (tick, most, top) in [
+                (0.000_5_f32, 40.0_f32, 9.0_f32),
+                (0.000_5, 10.0, 9.0),
+                (0.001, 40.0, 9.0),
+                (0.003, 40.0, 9.0),
+                (0.000_1, 70.0, 3.0),
+                (0.000_5, 60.0, 2.0),
+            ] {
+                let period = Period::new(tick, &model).unwrap();
+                let envelope = Envelope::new([[10.5, 120.0]], 120.0, &model).unwrap();
+                let limits = Limits::new(envelope, 10.0, most, period, &model).unwrap();
+                let braking = Braking {
+                    torque: 116.0,
+                    deceleration: most,
+                    helped: true,
+                };
+                let slow = |phase: Phase| {
+                    if phase.to_bits() >> 30 == 2 {
+                        0.05 * top
+                    } else {
+                        top
+                    }
+                };
+                let ahead = LookAhead::<F::Number, 64>::new(
+                    &model,
+                    Direction::Forward,
+                    braking,
+                    slow,
+                    &period,
+                )
+                .unwrap();
+                let governor = Governor::one_way(&ahead);
+                let (wanted, _) = si::<F::Number>(&scale, [top.into(), 0.0]);
+                let mut motion = Motion::default();
+                let (mut turns, mut fastest) = (0, 0.0_f64);
+                for _ in 0..100_000 {
+                    let governed = governor.govern(&limits, &model, &motion, wanted);
+                    assert_eq!(
+                        governed.unkept,
+                        None,
+                        "{} {tick} {most} {top}: {motion:?}",
+                        F::NAME
+                    );
+                    motion.alpha = governed.alpha;
+                    fastest = fastest.max(value(motion.omega) * f64::from(scale.speed()));
+                    let next = period.later(motion).value;
+                    turns += u32::from(next.phase.to_bits() < motion.phase.to_bits());
+                    motion = next;
+                    if turns > 1 {
+                        break;
+                    }
+                }
+                assert!(turns > 0 || tick < 0.000_2, "it comes round");
+                assert!(
+                    fastest > 0.9 * f64::from(top).min((f64::from(most) * 3.0).sqrt()),
+                    "{fastest}"
+                );
+            }
+        });
+    }
+    alarms::<Cubic<f64>>(Scale::SI);
+    alarms::<Spline<f32>>(Scale::SI);
+    alarms::<Cubic<Q31>>(scale_of(250.0, 11.5, 1.5));
+}
+
+/// A command that is none gets the nearest acceleration to 0 that is possible, and what binds is named.
+#[test]
+fn a_command_that_is_no_number_stays_within_what_is_possible() {
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let period = Period::new(TICK, &model).unwrap();
+        let braking = Braking {
+            torque: BRAKE,
+            deceleration: 40.0,
+            helped: true,
+        };
+        let ahead =
+            LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, |_| 9.0, &period)
+                .unwrap();
+        let governor = Governor::one_way(&ahead);
+        // A weak drive: at a quarter turn the load pulls with 3 N·m, friction is 0.5 and 0.1·ω, J is 1.
+        let envelope = Envelope::new([[12.0, 1.0]], 1.0, &model).unwrap();
+        let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
+        let motion = Motion {
+            phase: Phase::from_bits(1 << 30),
+            omega: 2.0,
+            alpha: 0.0,
+        };
+        let governed = governor.govern(&limits, &model, &motion, f64::NAN);
+        // ½·J′·ω² = −0.125·4.
+        let least = -1.0 + 3.0 - 0.5 - 0.2 + 0.5;
+        assert!((governed.alpha - least).abs() < 1e-4, "{governed:?}");
+        assert_eq!(governed.by, Some(Limit::Torque));
+        assert_eq!(governed.unkept, Some(Limit::Speed));
+        // A strong one: no acceleration, nothing binds, and the command is said to be none.
+        let envelope = Envelope::new([[12.0, 8.0]], 8.0, &model).unwrap();
+        let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
+        let governed = governor.govern(&limits, &model, &motion, f64::NAN);
+        assert_eq!((governed.alpha.to_bits(), governed.by), (0, None));
+        assert_eq!(governed.unkept, Some(Limit::Speed));
+    });
+}

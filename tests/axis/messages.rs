@@ -96,8 +96,8 @@ fn an_axis_error_says_value_limit_and_cure() {
     };
     says(
         StrokeEncoder::new(stroke, scaled),
-        "the number of counts of the stroke is 2, but must be from 16 to 1073741824; \
-         give a value from 16 to 1073741824",
+        "the number of counts of the stroke is 2, but must be from 16 to 9007199254740992; \
+         give a value from 16 to 9007199254740992",
     );
 }
 

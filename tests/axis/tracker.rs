@@ -123,6 +123,7 @@ fn rates_give_the_motion_in_every_number() {
         phase: Phase::default(),
         speed: (omega * f64::from(period) / TAU / UNIT) as i32,
         acceleration: (alpha * f64::from(period).powi(2) / TAU / UNIT * 256.0) as i32,
+        ..Tracked::default()
     };
     let scale = scale_of(100.0, 20.0, 0.2);
     let wanted = [omega, alpha, f64::from(tracked.speed)];
@@ -319,4 +320,114 @@ proptest! {
         let off = last.speed.abs_diff(moves);
         prop_assert!(off < 1 << 22, "speed: {off}");
     }
+}
+
+/// A sudden change of the acceleration leaves a residual of at most 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on, which is no jump. The response of the
+/// error (1 − z)³/(1 − θ·z)³ to Δα·k²/2 is ½·(c(n − 1) + c(n − 2)) with c(k) = (k + 1)·(k + 2)/2·θᵏ.
+#[test]
+fn a_change_of_the_acceleration_is_no_jump() {
+    for memory in [0.0_f64, 0.12, 0.5, 0.9, 0.97] {
+        let rest = 1.0 - memory;
+        let alpha = 1e-3 * rest * rest;
+        let step = Phase::from_bits((0.53 * alpha / (rest * rest) * 4_294_967_296.0) as u32);
+        let mut tracker = Tracker::new(memory as f32).unwrap().with_largest_step(step);
+        let c = |k: i32| {
+            if k < 0 {
+                0.0
+            } else {
+                f64::from((k + 1) * (k + 2)) / 2.0 * memory.powi(k)
+            }
+        };
+        let mut most = 0.0_f64;
+        for n in 1..(20.0 / rest) as i32 {
+            let turn = 0.5 * alpha * f64::from(n) * f64::from(n);
+            let found = tracker.update(Phase::from_bits(
+                (turn.rem_euclid(1.0) * 4_294_967_296.0) as u32,
+            ));
+            let exact = 0.5 * alpha * (c(n - 1) + c(n - 2)) * 4_294_967_296.0;
+            assert_near(
+                "the residual",
+                found.residual.into(),
+                exact,
+                4.0 + 1e-3 * exact,
+            );
+            assert!(!found.jumped, "{memory} {n}: {found:?}");
+            most = most.max(exact);
+        }
+        let share = most / (alpha / (rest * rest) * 4_294_967_296.0);
+        assert!(
+            share <= if memory < 0.9 { 0.53 } else { 0.29 },
+            "{memory}: {share}"
+        );
+    }
+}
+
+#[test]
+fn a_count_that_jumps_is_flagged_and_forgotten() {
+    for stroke in [false, true] {
+        // 0.001 of the range a period; at most 0.002, either way.
+        let speed = 4_294_967_u32;
+        for largest in [2 * speed, (2 * speed).wrapping_neg()] {
+            let start = Phase::from_bits(1 << 30);
+            let mut tracker = Tracker::new(0.8)
+                .unwrap()
+                .at(start)
+                .with_largest_step(Phase::from_bits(largest));
+            let mut flags = Vec::new();
+            for k in 1..400_u32 {
+                let jump = if k == 200 { 3 * speed } else { 0 };
+                let phase = Phase::from_bits((1 << 30) + k * speed + jump);
+                let found = if stroke {
+                    tracker.update_stroke(phase)
+                } else {
+                    tracker.update(phase)
+                };
+                if k == 200 {
+                    assert!(
+                        found.residual.abs_diff(3 * speed.cast_signed()) < 1000,
+                        "{found:?}"
+                    );
+                }
+                if found.jumped {
+                    flags.push(k);
+                }
+            }
+            // The jump, and perhaps the readings behind it that are off the prediction that it has moved; not the start from rest, nor the steady motion.
+            assert!(
+                flags.first() == Some(&200) && flags.iter().all(|k| (200..215).contains(k)),
+                "{flags:?}"
+            );
+        }
+        // Without a largest step it is a quarter of the range.
+        let mut tracker = Tracker::new(0.8).unwrap();
+        let jump = |bits: u32, tracker: &mut Tracker| {
+            let phase = Phase::from_bits(bits);
+            if stroke {
+                tracker.update_stroke(phase)
+            } else {
+                tracker.update(phase)
+            }
+            .jumped
+        };
+        assert!(!jump(1 << 20, &mut tracker) && jump(1 << 31, &mut tracker));
+    }
+}
+
+/// An acceleration beyond 32 bits is limited in what the tracker gives, and flagged in machine units, whatever their base.
+#[test]
+fn an_acceleration_that_was_limited_is_flagged() {
+    let period = Period::new(0.001, &in_units::<Spline<f32>>(Domain::Turn, Scale::SI)).unwrap();
+    let tracked = |acceleration| Tracked {
+        acceleration,
+        ..Tracked::default()
+    };
+    assert!(period.alpha(tracked(i32::MAX)).saturated && period.alpha(tracked(i32::MIN)).saturated);
+    assert!(!period.alpha(tracked(i32::MAX - 1)).saturated);
+    let mut tracker = Tracker::new(0.0).unwrap();
+    tracker.update(Phase::from_bits(0));
+    let found = tracker.update(Phase::from_bits(1 << 27));
+    assert!(
+        found.acceleration == i32::MAX && period.alpha(found).saturated,
+        "{found:?}"
+    );
 }

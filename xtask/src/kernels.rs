@@ -37,10 +37,15 @@ pub(crate) struct Kernel {
     pub(crate) origin: Origin,
     pub(crate) number: Number,
     pub(crate) data: Data,
+    /// Its first argument is a count of an encoder with [`COUNTS`] a turn, not a phase.
+    pub(crate) counts: bool,
 }
 
+/// Counts a turn of the encoder in `benches/tick/library.rs` and in `ffi/tests/tick.c`.
+pub(crate) const COUNTS: u32 = 10_000;
+
 macro_rules! kernels {
-    ($($name:ident $quantity:ident $origin:ident $number:ident $data:expr, $title:literal;)*) => {
+    ($counts:literal: $($name:ident $quantity:ident $origin:ident $number:ident $data:expr, $title:literal;)*) => {
         [$(Kernel {
             name: stringify!($name),
             title: $title,
@@ -48,6 +53,7 @@ macro_rules! kernels {
             origin: Origin::$origin,
             number: Number::$number,
             data: $data,
+            counts: $counts,
         }),*]
     };
 }
@@ -64,7 +70,7 @@ const fn table(layout: Layout, set: jred::Set) -> Data {
 
 /// Every kernel, in the order of the tables of results.
 #[rustfmt::skip]
-pub(crate) const KERNELS: &[Kernel] = &kernels![
+pub(crate) const KERNELS: &[Kernel] = &kernels![false:
     // symbol                    quantity     origin number  data, title
     jred_f32_torque              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic";
     jred_f32_spline_torque       Torque       Jred  PhaseF32 table(Spline, FULL), "jred f32, spline";
@@ -96,6 +102,14 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![
     cmsis_q31_acceleration       Acceleration Peer  PhaseQ31 Data::LinearQ31, "arm_linear_interp_q31 × 2, 64-bit division";
     cmsis_q15_acceleration       Acceleration Peer  PhaseQ15 Data::LinearQ15, "arm_linear_interp_q15 × 2";
     cmsis_analytic_acceleration  Acceleration Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
+];
+
+/// From a count to a torque, as a program calls it: for the comparison of C with Rust.
+#[rustfmt::skip]
+pub(crate) const COUNTED: &[Kernel] = &kernels![true:
+    jred_f32_counts              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic, 10,000 counts";
+    jred_q31_quadratic_counts    Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic, 10,000 counts";
+    jred_q15_counts              Torque       Jred  PhaseQ15 table(Rows16, FULL), "jred q15, 16-bit rows, 10,000 counts";
 ];
 
 impl Kernel {

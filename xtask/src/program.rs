@@ -7,7 +7,7 @@ use anyhow::{Context, Result, ensure};
 
 use crate::cores::Core;
 use crate::data::{self, Words};
-use crate::kernels::{Kernel, Quantity};
+use crate::kernels::{COUNTS, Kernel, Quantity};
 use crate::machine::{Example, motions};
 
 /// The workspace.
@@ -97,7 +97,7 @@ impl Work {
         let scale = data::scale(kernel, example)?;
         let data = data::words(kernel, example, &scale)?;
         let (number, of) = (kernel.number, kernel.quantity);
-        let mut points = Vec::new();
+        let mut points: Vec<[u32; 3]> = Vec::new();
         let mut expected = Vec::new();
         for [turn, omega, alpha] in motions() {
             let phi = turn * std::f64::consts::TAU;
@@ -108,10 +108,19 @@ impl Work {
                     curves.inertia * alpha + curves.half_slope * omega * omega
                 }
             };
-            let words = number.encode(&scale, of, [turn, omega, third]);
+            let mut words = number.encode(&scale, of, [turn, omega, third]);
+            let counted = kernel.counts.then(|| {
+                let count = (u64::from(words[0]) * u64::from(COUNTS)) >> 32;
+                words[0] = ((count << 32) / u64::from(COUNTS)) as u32;
+                // Some turns away, either way.
+                let turns = points.len() as u32 % 7;
+                (count as u32)
+                    .wrapping_add(COUNTS * turns)
+                    .wrapping_sub(3 * COUNTS)
+            });
             // The reference is for the arguments as they were rounded: the error is the kernel's own.
             let [phi, omega, third] = number.decode(&scale, of, words);
-            points.push(words);
+            points.push([counted.unwrap_or(words[0]), words[1], words[2]]);
             expected.push(match of {
                 Quantity::Torque => example.torque(phi, omega, third),
                 Quantity::Acceleration => example.acceleration(phi, omega, third),

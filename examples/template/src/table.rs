@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use jred::ImageError;
 use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission};
+use jred::{ImageError, Phase};
 
 use crate::board::RATE;
 use crate::machine::{
@@ -20,6 +20,8 @@ pub struct Table {
 #[derive(Clone, Copy)]
 pub struct Units {
     pub tick: Period<Number>,
+    /// The largest step of the crank in a tick: at the greatest speed that the table was made for.
+    pub step: Phase,
     pub lead: Period<Number>,
     pub ramp: Ramp<Number>,
     pub gearbox: Transmission<Number>,
@@ -67,11 +69,13 @@ impl Table {
             return Ok(());
         };
         let press = feed_forward.model();
+        let tick = Period::new(1.0 / RATE as f32, press)?;
         let gearbox = Transmission::new(GEARBOX, press)?;
         let [least, most] =
             [-MOST_TORQUE, MOST_TORQUE].map(|torque| gearbox.to_torque(torque).value);
         self.units = Some(Units {
-            tick: Period::new(1.0 / RATE as f32, press)?,
+            tick,
+            step: tick.moved(feed_forward.range().omega()),
             lead: Period::new(LEAD, press)?,
             ramp: Ramp::new(FRICTION_RAMP, press)?,
             gearbox,

@@ -32,11 +32,12 @@ pub struct Status {
 pub struct With {
     pub first_tick: u32,
     pub ticks: u32,
-    /// Ticks whose motion was beyond what the table was made for, or their numbers beyond its machine units: they command 0.
+    /// Ticks whose motion was beyond what the table was made for, or their numbers beyond its machine units, or whose count has jumped: they command the torque of the nearest
+    /// motion that the table was made for, so that a weight stays held.
     pub flagged: u32,
     /// Ticks whose command the limits of the drive have cut.
     pub clipped: u32,
-    /// Largest command (N·m).
+    /// Largest command of the ticks that were not flagged (N·m).
     pub most: f32,
 }
 
@@ -92,6 +93,7 @@ impl Tick {
         let phase = ENCODER.phase_wide(count);
         let tracker = Tracker::with_bandwidth(BANDWIDTH, 1.0 / RATE as f32)
             .ok()?
+            .with_largest_step(table.units?.step)
             .at(phase);
         Some(Self {
             table,
@@ -161,10 +163,11 @@ impl Tick {
             self.board.command(0.0);
             return passes; // cannot be: the tick is only given tables that were checked
         };
+        let alpha = units.tick.alpha(wanted);
         let reference = Motion {
             phase: wanted.phase,
             omega: units.tick.omega(wanted).value,
-            alpha: units.tick.alpha(wanted).value,
+            alpha: alpha.value,
         };
         // Where the machine is, and will be when the torque acts; friction by the sign of the set-point.
         let omega = units.tick.omega(measured);
@@ -181,18 +184,17 @@ impl Tick {
             .motor(needed.torque, reference.omega, reference.alpha);
         let limited = units.limits.limited(motor.value);
         // In fixed point a number that does not fit is limited and marked.
-        let beyond = omega.saturated || later.saturated || motor.saturated;
-        let valid = needed.status.is_valid() && !beyond;
+        let beyond = omega.saturated || alpha.saturated || later.saturated || motor.saturated;
+        let jumped = measured.jumped || wanted.jumped;
+        let valid = needed.status.is_valid() && !beyond && !jumped;
         let with = &mut self.with;
-        // Beyond the table the drive's own controller works alone.
-        let torque = if valid {
-            units.gearbox.torque_si(limited.torque)
-        } else {
-            0.0
-        };
+        // What is flagged is limited to the motions of the table, never dropped to 0: a vertical axis must not fall.
+        let torque = units.gearbox.torque_si(limited.torque);
         with.flagged += u32::from(!valid);
         with.clipped += u32::from(limited.clipped != Default::default());
-        with.most = with.most.max(torque);
+        if valid {
+            with.most = with.most.max(torque);
+        }
         self.board.command(torque);
         passes
     }
@@ -201,6 +203,9 @@ impl Tick {
     /// references change their owners: the next tick computes with the one or with the other, never with parts of both.
     fn exchange(&mut self, cs: CriticalSection<'_>) {
         if let Some(next) = OFFERED.borrow(cs).take() {
+            if let Some(units) = next.units {
+                self.tracker = self.tracker.with_largest_step(units.step);
+            }
             let last = core::mem::replace(&mut self.table, next);
             RETURNED.borrow(cs).set(Some(last));
             STATUS.borrow(cs).before.set(self.with);

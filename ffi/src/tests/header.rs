@@ -1,12 +1,17 @@
 //! The header declares what is exported.
 
 use core::ffi::{CStr, c_char};
+use core::mem::MaybeUninit;
+
+use jred::axis::{Encoder, Scaled, StrokeEncoder};
+
+use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 
 use crate::follower::{CPlan, CStage, WORDS};
 use crate::image::{Info, jred_image_info};
 use crate::memory::{ANY, POINTERS};
 use crate::number::{jred_q15_from_si, jred_q15_to_si, jred_q31_from_si, jred_q31_to_si};
-use crate::phase::{jred_phase_from_counts, jred_phase_from_radians, jred_phase_from_stroke};
+use crate::phase::{jred_phase_from_radians, jred_phase_from_stroke};
 use crate::status::{Status, jred_status_name};
 
 const HEADER: &str = include_str!("../../include/jred.h");
@@ -23,12 +28,14 @@ macro_rules! c {
 c! {
     u32: "uint32_t", i32: "int32_t", i16: "int16_t", f32: "float", usize: "size_t", Status: "jred_status",
     *const u32: "const uint32_t *", *const c_char: "const char *",
-    Option<&mut i32>: "int32_t *", Option<&mut i16>: "int16_t *", Option<&mut core::mem::MaybeUninit<Info>>: "jred_info *",
+    Option<&mut i32>: "int32_t *", Option<&mut i16>: "int16_t *", Option<&mut MaybeUninit<Info>>: "jred_info *",
+    Option<&mut MaybeUninit<Encoder>>: "jred_encoder *", Option<&CMounting>: "const jred_mounting *",
+    Option<&mut MaybeUninit<StrokeEncoder>>: "jred_stroke_encoder *", Option<&Scaled>: "const jred_scaled *",
 }
 
 /// Whether the header declares a function so, whatever its arguments are called.
 macro_rules! declared {
-    ($name:ident($($argument:ty),*) -> $result:ty) => {{
+    ($name:ident($($argument:ty),* $(,)?) -> $result:ty) => {{
         let _: unsafe extern "C" fn($($argument),*) -> $result = $name;
         let start = format!("{} {}(", <$result as C>::NAME, stringify!($name)).replace("* ", "*");
         let (_, rest) = HEADER.split_once(&start).unwrap_or_else(|| panic!("{start} is not declared"));
@@ -45,10 +52,18 @@ macro_rules! declared {
 fn the_header_declares_what_is_exported() {
     type Number<'a, N> = Option<&'a mut N>;
     declared!(jred_status_name(i32) -> *const c_char);
-    declared!(jred_phase_from_counts(u32, u32) -> u32);
+    declared!(jred_encoder_make(Number<MaybeUninit<Encoder>>, Option<&CMounting>) -> Status);
+    declared!(
+        jred_stroke_encoder_make(
+            Number<MaybeUninit<StrokeEncoder>>,
+            f32,
+            f32,
+            Option<&Scaled>,
+        ) -> Status
+    );
     declared!(jred_phase_from_radians(f32) -> u32);
     declared!(jred_phase_from_stroke(f32, f32, f32) -> u32);
-    declared!(jred_image_info(*const u32, usize, Number<core::mem::MaybeUninit<Info>>) -> Status);
+    declared!(jred_image_info(*const u32, usize, Number<MaybeUninit<Info>>) -> Status);
     declared!(jred_q31_from_si(f32, f32, Number<i32>) -> Status);
     declared!(jred_q15_from_si(f32, f32, Number<i16>) -> Status);
     declared!(jred_q31_to_si(i32, f32) -> f32);

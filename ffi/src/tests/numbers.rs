@@ -3,7 +3,7 @@
 use jred::Phase;
 
 use crate::number::{jred_q15_from_si, jred_q15_to_si, jred_q31_from_si, jred_q31_to_si};
-use crate::phase::{jred_phase_from_counts, jred_phase_from_radians, jred_phase_from_stroke};
+use crate::phase::{jred_phase_from_radians, jred_phase_from_stroke};
 use crate::status::Status;
 
 #[test]
@@ -55,12 +55,46 @@ fn numbers_beyond_the_range_are_limited() {
 
 #[test]
 fn phases_are_those_of_rust() {
-    assert_eq!(jred_phase_from_counts(1024 + 4096, 4096), 1 << 30);
-    assert_eq!(jred_phase_from_counts(1024, 0), 0);
     assert_eq!(
         jred_phase_from_radians(1.5),
         Phase::from_radians_f32(1.5).to_bits()
     );
     assert_eq!(jred_phase_from_stroke(0.5, 0.0, 1.0), 1 << 31);
     assert_eq!(jred_phase_from_stroke(2.0, 0.0, 1.0), u32::MAX);
+}
+
+#[test]
+fn the_range_of_motion_is_that_of_an_image_and_nothing_else() {
+    use crate::image::{Info, jred_image_info};
+    use crate::number::{
+        CMotionRange, jred_f32_motion_range_of, jred_q15_motion_range_of, jred_q31_motion_range_of,
+    };
+    use core::mem::MaybeUninit;
+
+    let words = super::press();
+    let mut info = MaybeUninit::<Info>::uninit();
+    // SAFETY: words and their number.
+    let read = unsafe { jred_image_info(words.as_ptr(), words.len(), Some(&mut info)) };
+    assert_eq!(read, Status::Ok);
+    // SAFETY: it was read.
+    let info = unsafe { info.assume_init() };
+    let mut range = MaybeUninit::uninit();
+    let made = jred_f32_motion_range_of(Some(&info), Some(&mut range));
+    assert_eq!(made, Status::Ok);
+    // SAFETY: it was made.
+    let found: CMotionRange<f32> = unsafe { range.assume_init() };
+    // 29.4524 rad/s and 226.725 rad/s², and a hundredth.
+    assert!(
+        (found.omega - 1.01 * 29.4524).abs() < 1e-3 && (found.alpha - 1.01 * 226.725).abs() < 1e-2
+    );
+    // Bases that are none, and no pointers: rest alone.
+    assert_eq!(
+        jred_f32_motion_range_of(None, Some(&mut range)),
+        Status::Null
+    );
+    // SAFETY: it is written in any case.
+    assert_eq!(unsafe { range.assume_init() }, CMotionRange::default());
+    assert_eq!(jred_f32_motion_range_of(Some(&info), None), Status::Null);
+    assert_eq!(jred_q31_motion_range_of(Some(&info), None), Status::Null);
+    assert_eq!(jred_q15_motion_range_of(Some(&info), None), Status::Null);
 }

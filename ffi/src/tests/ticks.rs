@@ -3,6 +3,7 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
+use jred::number::Sliding;
 use jred::table::Format;
 use jred::{Cubic, Image, Model, Phase, Set, Spline, curves};
 
@@ -25,6 +26,14 @@ unsafe extern "C" {
         phase: u32,
         omega: f32,
         torque: f32,
+    ) -> f32;
+    fn jred_spline_f32_s21_torque_with(
+        memory: *const Press,
+        phase: u32,
+        omega: f32,
+        alpha: f32,
+        number: f32,
+        is_share: bool,
     ) -> f32;
     fn jred_spline_f32_any_torque(memory: *const Press, phase: u32, omega: f32, alpha: f32) -> f32;
 }
@@ -72,6 +81,44 @@ fn a_tick_through_c_has_the_bits_of_one_in_rust() {
             ],
             &|phase, omega, torque| jred_spline_f32_s21_acceleration(memory, phase, omega, torque),
         );
+    }
+}
+
+/// Friction against another speed, and a share of it.
+#[test]
+fn friction_of_a_set_point_has_the_bits_of_rust() {
+    let words = press();
+    let model: Model<'_, Spline<f32>, PRESS> = Image::new(&words).unwrap().model().unwrap();
+    // SAFETY: zeros are no model; the words outlive it.
+    let mut memory: Press = unsafe { zeroed() };
+    // SAFETY: as above.
+    let status =
+        unsafe { jred_spline_f32_load(&raw mut memory, PRESS, words.as_ptr(), words.len()) };
+    assert_eq!(status, 0);
+    for k in 0..1000_u32 {
+        let phase = k.wrapping_mul(4_294_967);
+        let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
+        let (against, share) = (15.3 - k as f32 * 0.03, k as f32 * 0.002 - 1.0);
+        for (number, is_share) in [(against, false), (share, true), (0.0, false), (0.0, true)] {
+            let sliding = if is_share {
+                Sliding::Share(number)
+            } else {
+                Sliding::Against(number)
+            };
+            let of_rust = model.torque_with(Phase::from_bits(phase), omega, alpha, sliding);
+            // SAFETY: the model was loaded.
+            let of_c = unsafe {
+                jred_spline_f32_s21_torque_with(
+                    &raw const memory,
+                    phase,
+                    omega,
+                    alpha,
+                    number,
+                    is_share,
+                )
+            };
+            assert_eq!(of_c.to_bits(), of_rust.to_bits(), "{k} {sliding:?}");
+        }
     }
 }
 

@@ -378,6 +378,10 @@ pub struct Export {
     /// title.
     #[arg(long, value_name = "NUMBER", value_parser = machine_id, allow_negative_numbers = true)]
     pub machine_id: Option<u32>,
+    /// Name of the table in the program, for --format c and rust: the names in C begin with it, in Rust it is a module; if not given, C takes the name of the
+    /// file to write.
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
     /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; some seconds. The image then states the error
     /// that is proven. Exit code 1 if that is larger than --torque-error, or if it cannot be proven.
     #[arg(long)]

@@ -59,19 +59,28 @@ impl Board {
         TIM2.cnt().read() as u16
     }
 
-    /// The set-point of this tick. Here the machine is to stand still at φ = 0: take it from what plans your motion.
+    /// The set-point of this tick. Here the machine is to stand still at φ = 0: take it from what plans your motion, in rad, rad/s and rad/s².
     pub fn wanted(&mut self) -> Tracked {
-        Tracked {
-            phase: Phase::from_bits(0),
-            speed: 0,
-            acceleration: 0,
-        }
+        set_point(Phase::from_radians_f32(0.0), 0.0, 0.0)
     }
 
     /// The drive's torque command (N·m).
     pub fn command(&mut self, torque: f32) {
         let share = 0.5 + 0.5 * torque / MOST_TORQUE;
         DAC1.dhr12r(0).write(|w| w.set_dhr((share * 4095.0) as u16));
+    }
+}
+
+/// A set-point in SI units (rad/s, rad/s²) in those of the tick. One that is no number is marked as one that jumped, so that its tick is flagged.
+fn set_point(phase: Phase, omega: f32, alpha: f32) -> Tracked {
+    const SPEED: f32 = 4_294_967_296.0 / core::f32::consts::TAU / RATE as f32;
+    const ACCELERATION: f32 = SPEED * 256.0 / RATE as f32;
+    Tracked {
+        phase,
+        speed: (omega * SPEED) as i32,
+        acceleration: (alpha * ACCELERATION) as i32,
+        residual: 0,
+        jumped: !(omega.is_finite() && alpha.is_finite()),
     }
 }
 

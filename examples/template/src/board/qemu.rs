@@ -108,6 +108,7 @@ impl Board {
             phase: Phase::from_bits((self.place >> 8) as u32),
             speed: (self.speed >> 8) as i32,
             acceleration: acceleration as i32,
+            ..Tracked::default()
         };
         // The machine of the next tick.
         self.tick += 1;

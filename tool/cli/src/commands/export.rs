@@ -9,7 +9,9 @@ use crate::options;
 use crate::output;
 use jred::Reducible as _;
 use jred_machine::analysis::duty::Duty;
-use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Proven, Task};
+use jred_machine::export::{
+    Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task,
+};
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
@@ -43,6 +45,28 @@ fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
     Ok(edges)
 }
 
+/// The name of the table in a program, if one is given.
+fn name(options: &options::Export) -> Result<Option<Name>> {
+    let Some(text) = &options.name else {
+        return Ok(None);
+    };
+    if !matches!(options.format, Form::C | Form::Rust) {
+        return Err(miette!(
+            help = "remove --name, or use --format c or rust",
+            "--name is of source code, and --format {} has no names",
+            options.format
+        ));
+    }
+    let name = Name::new(text).map_err(|(why, other)| {
+        miette!(
+            help = format!("use --name {}", other.as_str()),
+            "--name {} cannot be used: {why}",
+            plain::quoted(text)
+        )
+    })?;
+    Ok(Some(name))
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -50,6 +74,7 @@ fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
 pub(super) fn run(options: &options::Export) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--out", &options.out)])?;
+    let name = name(options)?;
     variator::refuse(&file, "export")?;
     let reciprocal = match options.reciprocal {
         Choice::Auto => options.forward && options.number != Number::F32,
@@ -127,12 +152,15 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
     if let Some(out) = &options.out {
-        let bytes = export.write(options.format).ok_or_else(|| {
-            miette!(
-                help = "use --format rust, c or json",
-                "one image cannot hold the tables of several pieces"
-            )
-        })?;
+        let file = out.file_name().unwrap_or_default().to_string_lossy();
+        let bytes = export
+            .write(options.format, name.as_ref(), &file)
+            .ok_or_else(|| {
+                miette!(
+                    help = "use --format rust, c or json",
+                    "one image cannot hold the tables of several pieces"
+                )
+            })?;
         output::write(out, &bytes)?;
     }
     warn(&file, [omega, 0.0])?;

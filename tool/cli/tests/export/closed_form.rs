@@ -15,7 +15,7 @@ const SET: Set = curves::LOAD
     | terms::LOAD_SIN
     | terms::LOAD_COS;
 
-fn shipped(name: &str) -> std::path::PathBuf {
+pub(super) fn shipped(name: &str) -> std::path::PathBuf {
     press_file().with_file_name(name)
 }
 

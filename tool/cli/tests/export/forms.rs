@@ -14,7 +14,7 @@ fn words_in(source: &str) -> Vec<u32> {
         .filter(|line| line.starts_with("    0x"))
         .flat_map(|line| line.split(|c: char| !c.is_ascii_alphanumeric()))
         .filter_map(|word| word.strip_prefix("0x"))
-        .map(|word| u32::from_str_radix(word, 16).unwrap())
+        .map(|word| u32::from_str_radix(word.trim_end_matches('u'), 16).unwrap())
         .collect()
 }
 
@@ -31,7 +31,7 @@ fn source_texts_hold_the_image() {
             "0.5 N m",
         ];
         let of = |form: &str| {
-            let out = folder.path(form);
+            let out = folder.path(&format!("press.{form}"));
             export_of(
                 &press_file(),
                 &[&kind[..], &["--format", form]].concat(),
@@ -126,7 +126,7 @@ fn the_rust_file_is_a_program() {
 fn the_c_file_is_c_and_cpp() {
     let folder = Folder::new();
     let edges = ["--pieces", "auto"];
-    for (pieces, table) in [(&[][..], "press_words"), (&edges[..], "press_tables")] {
+    for (pieces, table) in [(&[][..], "table_words"), (&edges[..], "table_tables")] {
         let options = [
             "--format",
             "c",
@@ -178,6 +178,132 @@ fn the_c_file_is_c_and_cpp() {
             }
         }
     }
+}
+
+/// Compiles a program of C that includes these files, and returns what the compiler says if it fails.
+#[cfg(unix)]
+fn compiled(folder: &Folder, files: &[&str]) -> Result<(), String> {
+    let include = |file: &&str| format!("#include \"{file}\"\n");
+    let text: String = files.iter().map(include).collect();
+    folder.file("two.c", text + "int main(void) { return 0; }\n");
+    let run = std::process::Command::new("cc")
+        .current_dir(folder.path(""))
+        .args([
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-pedantic",
+            "-Werror",
+            "-fsyntax-only",
+            "two.c",
+        ])
+        .output();
+    let run = run.expect("a C compiler is what Rust links with");
+    let words = String::from_utf8_lossy(&run.stderr).into_owned();
+    if run.status.success() {
+        Ok(())
+    } else {
+        Err(words)
+    }
+}
+
+/// Two tables in one program: by the names of their files, or by those that are given. Two of one name do not compile, whatever made them equal.
+#[cfg(unix)]
+#[test]
+fn two_tables_of_one_name_do_not_compile() {
+    let folder = Folder::new();
+    let four_bar = super::closed_form::shipped("four-bar.toml");
+    let write = |file: &std::path::Path, out: &str, more: &[&str]| {
+        let fixed = [
+            "--format",
+            "c",
+            "--torque-error",
+            "2 N m",
+            "--omega",
+            "10 rad/s",
+            "--alpha",
+            "10 rad/s^2",
+        ];
+        export_of(file, &[&fixed[..], more].concat(), Some(&folder.path(out))).ends(0);
+    };
+    // Machine files of one name, each in a folder of its own; two tables of one machine.
+    let machine = folder.file(
+        "machine.toml",
+        std::fs::read_to_string(press_file()).unwrap(),
+    );
+    write(&machine, "axis1.h", &[]);
+    write(&four_bar, "axis2.h", &[]);
+    write(&press_file(), "coarse.h", &["--layout", "cubic"]);
+    // Names in Chinese of equal length.
+    write(&press_file(), "\u{51b2}\u{5e8a}.h", &[]);
+    write(&four_bar, "\u{538b}\u{673a}.h", &[]);
+    let all = [
+        "axis1.h",
+        "axis2.h",
+        "coarse.h",
+        "\u{51b2}\u{5e8a}.h",
+        "\u{538b}\u{673a}.h",
+        "axis1.h",
+    ];
+    assert_eq!(compiled(&folder, &all), Ok(()));
+
+    write(&press_file(), "press-1.h", &[]);
+    write(&four_bar, "press_1.h", &[]);
+    write(&four_bar, "four.h", &["--name", "axis1"]);
+    // The same machine and name, another layout.
+    write(
+        &press_file(),
+        "other.h",
+        &["--name", "coarse", "--layout", "spline"],
+    );
+    for (files, name) in [
+        (["press-1.h", "press_1.h"], "press_1"),
+        (["axis1.h", "four.h"], "axis1"),
+        (["four.h", "axis1.h"], "axis1"),
+        (["coarse.h", "other.h"], "coarse"),
+    ] {
+        let says = format!(
+            "two tables have the name {name} in one program: export one of them with another --name"
+        );
+        let words = compiled(&folder, &files).unwrap_err();
+        assert!(words.contains(&says), "{files:?}: {words}");
+    }
+    // A name tells them apart; the same table twice is one.
+    write(&four_bar, "press_1.h", &["--name", "bar"]);
+    assert_eq!(
+        compiled(&folder, &["press-1.h", "press_1.h", "press-1.h"]),
+        Ok(())
+    );
+}
+
+#[test]
+fn a_name_that_is_no_word_is_refused_with_one_that_is() {
+    let folder = Folder::new();
+    let out = folder.path("table.rs");
+    let named = |name: &str, form: &str| {
+        let more = ["--torque-error", "2 N m", "--format", form, "--name", name];
+        export_of(&press_file(), &more, Some(&out))
+    };
+    named("press 1", "c").ends(2).says(&[
+        "--name",
+        "press 1",
+        "cannot be used: a name in a program begins with a letter from a to z",
+        "use --name press_1",
+    ]);
+    named("type", "rust").ends(2).says(&[
+        "a word of the programming language Rust",
+        "use --name type_table",
+    ]);
+    named("press", "image")
+        .ends(2)
+        .says(&["--format image has no names", "remove --name"]);
+    // In Rust a module: two tables in one file.
+    named("press", "rust").ends(0);
+    let text = std::fs::read_to_string(&out).unwrap();
+    assert!(
+        text.contains("\npub mod press {\n    use jred::*;\n") && text.ends_with("];\n}\n"),
+        "{text}"
+    );
 }
 
 /// A title goes into a comment, and must not leave it.

@@ -389,11 +389,11 @@ fn the_source_text_is_a_program() {
         .enumerate()
     {
         let head = format!(
-            "const uint32_t press_words_{}[{}] = {{\n    0x4445524a, ",
+            "const uint32_t press_pieces_words_{}[{}] = {{\n    0x4445524au, ",
             k + 1,
             table.len()
         );
         assert!(text.contains(&head), "{text}");
     }
-    assert!(text.contains("const uint32_t press_starts[4] = { 0x00000000, 0xe0000000, "));
+    assert!(text.contains("const uint32_t press_pieces_starts[4] = { 0x00000000u, 0xe0000000u, "));
 }

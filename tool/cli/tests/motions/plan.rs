@@ -54,9 +54,9 @@ fn a_plan_is_the_motion() {
     fastest(&c_source, "table");
     let [text, c_text] = [&source, &c_source].map(|path| std::fs::read_to_string(path).unwrap());
     for text in [&text, &c_text] {
-        let hexadecimal = text
-            .split("0x")
-            .skip(2)
+        let rows = text.lines().filter(|line| line.starts_with("    0x"));
+        let hexadecimal = rows
+            .flat_map(|row| row.split("0x").skip(1))
             .map(|rest| u32::from_str_radix(&rest[..8], 16).unwrap());
         assert_eq!(hexadecimal.collect::<Vec<_>>(), words);
     }

@@ -7,6 +7,7 @@ use jred::Domain;
 use super::Export;
 use super::candidate::Made;
 use super::figures::rust_arguments;
+use super::name::Name;
 
 crate::words! {
     /// Output format of an export.
@@ -25,18 +26,20 @@ crate::words! {
 const INDENT: &str = "    ";
 
 impl Export {
-    /// The table in one of the forms; `None` for several pieces as one image.
-    pub fn write(&self, form: Form) -> Option<Vec<u8>> {
+    /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with that of the file `out`; in Rust it is a module `name`, or
+    /// has none, because its file is one.
+    pub fn write(&self, form: Form, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
         let tables = &self.chosen().tables;
+        let named = name.cloned().unwrap_or_else(|| Name::of_file(out));
         Some(match (form, self.whole()) {
             (Form::Image, Some(table)) => {
                 table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
             }
             (Form::Image, None) => return None,
-            (Form::Rust, Some(table)) => self.source(&self.rust_whole(table)),
-            (Form::Rust, None) => self.source(&self.rust_pieces(tables)),
-            (Form::C, Some(table)) => self.source(&self.c_table(table)),
-            (Form::C, None) => self.source(&self.c_pieces(tables)),
+            (Form::Rust, Some(table)) => self.source(&module(name, &self.rust_whole(table))),
+            (Form::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
+            (Form::C, Some(table)) => self.source(&self.c_table(table, &named)),
+            (Form::C, None) => self.source(&self.c_pieces(tables, &named)),
             (Form::Json, _) => format!("{:#}\n", self.json()).into_bytes(),
         })
     }
@@ -116,18 +119,35 @@ impl Export {
 
 // `include_image!` and these arrays are aligned as the words are; rows of a power of two then do not cross cache lines.
 
+/// Code of Rust as a module of this name.
+fn module(name: Option<&Name>, code: &str) -> String {
+    let Some(name) = name else {
+        return code.to_owned();
+    };
+    let mut text = format!("pub mod {} {{\n", name.as_str());
+    for line in code.lines() {
+        if line.is_empty() {
+            text.push('\n');
+        } else {
+            let _ = writeln!(text, "{INDENT}{line}");
+        }
+    }
+    text + "}\n"
+}
+
 pub(super) fn rust_table(name: &str, words: &[u32]) -> String {
     format!(
         "pub static {name}: [u32; {}] = [\n{}];\n",
         words.len(),
-        rows(words)
+        rows(words, "")
     )
 }
 
-pub(super) fn rows(words: &[u32]) -> String {
+/// Words in hexadecimal, each with this suffix.
+pub(super) fn rows(words: &[u32], suffix: &str) -> String {
     let mut text = String::new();
     for row in words.chunks(8) {
-        let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}")).collect();
+        let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}{suffix}")).collect();
         let _ = writeln!(text, "    {},", words.join(", "));
     }
     text

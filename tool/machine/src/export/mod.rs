@@ -8,6 +8,7 @@ mod fault;
 mod figures;
 mod form;
 mod harmonic;
+mod name;
 mod pieces;
 mod place;
 mod plan;
@@ -22,6 +23,7 @@ pub use c_source::plan_c_source;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;
+pub use name::Name;
 pub use plan::plan_source;
 pub use proof::Proven;
 pub use search::EXHAUSTIVE;
@@ -88,8 +90,6 @@ const MOST_CELLS: usize = 1 << 19;
 /// A table ready to be written, and those of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
-    /// Name of the machine file.
-    name: String,
     title: String,
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
@@ -236,7 +236,6 @@ impl Export {
             identify(&mut table.words, id).map_err(ticks::refusal)?;
         }
         Ok(Self {
-            name: file.name.clone(),
             title: file.title.clone(),
             coordinate,
             domain,

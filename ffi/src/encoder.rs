@@ -1,0 +1,75 @@
+//! Encoders, which are made here; what they do with a count stands in the header, inlined where C calls.
+
+use core::mem::MaybeUninit;
+
+use jred::Domain;
+use jred::axis::{AxisError, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
+
+use crate::status::Status;
+
+/// `jred_mounting` in C.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CMounting {
+    pub(crate) counts_per_turn: u32,
+    pub(crate) gear: [u32; 2],
+    /// A `bool` of C, whatever is in it.
+    pub(crate) counts_down: u8,
+    pub(crate) home: i64,
+}
+
+impl From<CMounting> for Mounting {
+    fn from(mounting: CMounting) -> Self {
+        Self {
+            counts_per_turn: mounting.counts_per_turn,
+            gear: mounting.gear,
+            counting: if mounting.counts_down == 0 {
+                Counting::Up
+            } else {
+                Counting::Down
+            },
+            home: mounting.home,
+        }
+    }
+}
+
+/// Keeps what was made; zeros, whose phase is 0, if it cannot be.
+fn keep<E>(memory: &mut MaybeUninit<E>, made: Result<E, AxisError>) -> Status {
+    match made {
+        Ok(encoder) => {
+            memory.write(encoder);
+            Status::Ok
+        }
+        Err(_) => {
+            *memory = MaybeUninit::zeroed();
+            Status::Figure
+        }
+    }
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_encoder_make(
+    encoder: Option<&mut MaybeUninit<Encoder>>,
+    mounting: Option<&CMounting>,
+) -> Status {
+    let (Some(encoder), Some(mounting)) = (encoder, mounting) else {
+        return Status::Null;
+    };
+    keep(encoder, Encoder::new((*mounting).into()))
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_stroke_encoder_make(
+    encoder: Option<&mut MaybeUninit<StrokeEncoder>>,
+    from: f32,
+    to: f32,
+    scaled: Option<&Scaled>,
+) -> Status {
+    let (Some(encoder), Some(scaled)) = (encoder, scaled) else {
+        return Status::Null;
+    };
+    keep(
+        encoder,
+        StrokeEncoder::new(Domain::Stroke { from, to }, *scaled),
+    )
+}

@@ -1,0 +1,585 @@
+//! NaN and infinity in every function of the axis that takes a number.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use jred::axis::plan::{Errors, Knot, encode, image_len};
+use jred::axis::{
+    Braking, Direction, Envelope, FeedForward, Follower, Gearbox, Governor, Limits, LookAhead,
+    Motion, MotionRange, Period, Plan, Ramp, Scaled, StrokeEncoder, TorqueLimits, Tracker,
+    Transmission,
+};
+use jred::number::Sliding;
+use jred::{Domain, Model, Phase, Scale, Set, Spline, Validity, curves, include_image};
+
+use super::machine::with_model;
+use crate::no_panic_list::public_of;
+use crate::support::images::VALIDITY;
+
+const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+type Press<'a> = Model<'a, Spline<f32>, SET>;
+
+/// What a function makes of a number that is none.
+#[derive(Debug, PartialEq)]
+enum Becomes {
+    /// An error.
+    Refused,
+    /// A flag, and numbers that are finite.
+    Flagged,
+    /// A finite number or an end, as the documentation says; what follows has a flag of its own for the input.
+    Finite,
+    /// NaN, or infinity, as it came: the status of what follows finds it.
+    Carried,
+}
+use Becomes::{Carried, Finite, Flagged, Refused};
+
+fn refused<T, E>(made: Result<T, E>) -> Becomes {
+    if made.is_err() { Refused } else { Finite }
+}
+
+fn carried(values: &[f32]) -> Becomes {
+    if values.iter().all(|x| x.is_finite()) {
+        Finite
+    } else {
+        Carried
+    }
+}
+
+fn flagged(flag: bool, values: &[f32]) -> Becomes {
+    match (flag, carried(values)) {
+        (true, Finite) => Flagged,
+        (_, other) => other,
+    }
+}
+
+fn motion(omega: f32, alpha: f32) -> Motion<f32> {
+    Motion {
+        phase: Phase::from_bits(1 << 29),
+        omega,
+        alpha,
+    }
+}
+
+type Case = (&'static str, Becomes, fn(&Press<'_>, f32) -> Becomes);
+
+fn limits(model: &Press<'_>) -> Limits<f32, 1> {
+    let envelope = Envelope::new([[12.0, 8.0]], 8.0, model).unwrap();
+    let period = Period::new(0.001, model).unwrap();
+    Limits::new(envelope, 10.0, 40.0, period, model).unwrap()
+}
+
+fn ahead(model: &Press<'_>) -> LookAhead<f32, 32> {
+    made(model, 8.0, 40.0, 9.0).unwrap()
+}
+
+fn made(
+    model: &Press<'_>,
+    torque: f32,
+    deceleration: f32,
+    limit: f32,
+) -> Result<LookAhead<f32, 32>, jred::axis::AxisError> {
+    let period = Period::new(0.001, model).unwrap();
+    let braking = Braking {
+        torque,
+        deceleration,
+        helped: true,
+    };
+    LookAhead::new(model, Direction::Forward, braking, |_| limit, &period)
+}
+
+fn governed(model: &Press<'_>, motion: Motion<f32>, commanded: f32) -> Becomes {
+    let ahead = ahead(model);
+    let governed = Governor::one_way(&ahead).govern(&limits(model), model, &motion, commanded);
+    let range = limits(model).feasible(model, motion.phase, motion.omega);
+    let [least, greatest] = [range.least.alpha, range.greatest.alpha];
+    assert!(
+        (least..=greatest).contains(&governed.alpha),
+        "{governed:?} {range:?}"
+    );
+    // What is no finite number binds a limit, or is said to be none.
+    flagged(
+        governed.unkept.is_some() || governed.by.is_some(),
+        &[governed.alpha],
+    )
+}
+
+fn gearbox(
+    model: &Press<'_>,
+    gearbox: Gearbox,
+) -> Result<Transmission<f32>, jred::axis::AxisError> {
+    Transmission::new(gearbox, model)
+}
+
+const GEARBOX: Gearbox = Gearbox {
+    ratio: 8.0,
+    efficiency: 0.9,
+    rotor: 0.002,
+};
+const STROKE: Domain = Domain::Stroke { from: 0.0, to: 0.5 };
+const SCALED: Scaled = Scaled {
+    resolution: 1e-6,
+    home: 0,
+    at_home: 0.0,
+};
+
+fn followed(model: &Press<'_>, period: f32, ramp: f32) -> Becomes {
+    let plan = Plan::from_bytes(include_image!("../../examples/data/press_plan.jred"), model);
+    refused(Follower::new(plan.unwrap(), period, ramp, model))
+}
+
+fn encoded(knot: Knot, errors: Errors) -> Becomes {
+    let mut words = [0; image_len(3)];
+    let rest = |t| Knot {
+        t,
+        ..Knot::default()
+    };
+    refused(encode(
+        &[rest(0.0), knot, rest(2.0)],
+        STROKE,
+        7,
+        errors,
+        &mut words,
+    ))
+}
+
+fn checked(model: &Press<'_>, omega: f32, alpha: f32, sliding: Sliding<f32>) -> Becomes {
+    let feed_forward = FeedForward::new(*model, VALIDITY);
+    let found = feed_forward.at_reference(motion(omega, alpha), sliding);
+    flagged(!found.status.is_valid(), &[found.torque])
+}
+
+fn measured(
+    model: &Press<'_>,
+    omega: f32,
+    reference: Motion<f32>,
+    sliding: Sliding<f32>,
+) -> Becomes {
+    let feed_forward = FeedForward::new(*model, VALIDITY);
+    let found = feed_forward.at_measured(Phase::default(), omega, reference, sliding);
+    flagged(!found.status.is_valid(), &[found.torque])
+}
+
+fn nearest(omega: f32, alpha: f32, sliding: Sliding<f32>) -> Becomes {
+    let range = MotionRange::<f32>::new(VALIDITY, &Scale::SI);
+    let (motion, sliding) = range.nearest(motion(omega, alpha), sliding);
+    let (Sliding::Against(x) | Sliding::Share(x)) = sliding;
+    carried(&[motion.omega, motion.alpha, x])
+}
+
+fn status(omega: f32, alpha: f32) -> Becomes {
+    let range = MotionRange::<f32>::new(VALIDITY, &Scale::SI);
+    flagged(!range.status(omega, alpha).is_valid(), &[])
+}
+
+/// A range that is not wider than what is known.
+fn ranged(omega: f32, alpha: f32) -> Becomes {
+    let validity = Validity {
+        omega,
+        alpha,
+        torque_error: 0.0,
+    };
+    let range = MotionRange::<f32>::new(validity, &Scale::SI);
+    assert!(!range.status(f32::INFINITY, f32::NAN).is_valid());
+    carried(&[range.omega(), range.alpha()])
+}
+
+/// Each function with NaN in one of its arguments, or in all; what infinity becomes is what NaN does, or a limit.
+const CASES: &[Case] = &[
+    ("MotionRange::new", Finite, |_, x| ranged(x, 1.0)),
+    ("MotionRange::new", Finite, |_, x| ranged(1.0, x)),
+    ("MotionRange::status", Flagged, |_, x| status(x, 1.0)),
+    ("MotionRange::status", Flagged, |_, x| status(1.0, x)),
+    ("MotionRange::nearest", Finite, |_, x| {
+        nearest(x, x, Sliding::Against(x))
+    }),
+    ("MotionRange::nearest", Finite, |_, x| {
+        nearest(x, x, Sliding::Share(x))
+    }),
+    ("FeedForward::new", Flagged, |m, x| {
+        let validity = Validity {
+            omega: x,
+            alpha: x,
+            torque_error: 0.0,
+        };
+        let feed_forward = FeedForward::new(*m, validity);
+        let found = feed_forward.at_reference(motion(f32::NAN, 1.0), Sliding::Share(0.0));
+        flagged(!found.status.is_valid(), &[])
+    }),
+    ("FeedForward::status", Flagged, |m, x| {
+        flagged(
+            !FeedForward::new(*m, VALIDITY).status(x, 0.0).is_valid(),
+            &[],
+        )
+    }),
+    ("FeedForward::at_reference", Flagged, |m, x| {
+        checked(m, x, 1.0, Sliding::Against(1.0))
+    }),
+    ("FeedForward::at_reference", Flagged, |m, x| {
+        checked(m, 1.0, x, Sliding::Against(1.0))
+    }),
+    ("FeedForward::at_reference", Flagged, |m, x| {
+        checked(m, 1.0, 1.0, Sliding::Against(x))
+    }),
+    ("FeedForward::at_reference", Flagged, |m, x| {
+        checked(m, 1.0, 1.0, Sliding::Share(x))
+    }),
+    ("FeedForward::at_reference", Flagged, |m, x| {
+        let ramp = Ramp::new(0.5, m).unwrap();
+        checked(m, x, x, ramp.at(x))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, x, motion(1.0, 1.0), Sliding::Share(0.5))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, 1.0, motion(x, 1.0), Sliding::Share(0.5))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, 1.0, motion(x, 1.0), Sliding::Against(1.0))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, 1.0, motion(1.0, x), Sliding::Share(0.5))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, 1.0, motion(1.0, 1.0), Sliding::Share(x))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        measured(m, 1.0, motion(1.0, 1.0), Sliding::Against(x))
+    }),
+    ("FeedForward::at_measured", Flagged, |m, x| {
+        // The ramp drops what the status finds in the set-point.
+        let ramp = Ramp::new(0.5, m).unwrap();
+        measured(m, 1.0, motion(x, 1.0), ramp.at(x))
+    }),
+    ("Ramp::new", Refused, |m, x| refused(Ramp::new(x, m))),
+    ("Ramp::at", Finite, |m, x| {
+        match Ramp::new(0.5, m).unwrap().at(x) {
+            Sliding::Share(share) => carried(&[share]),
+            Sliding::Against(omega) => carried(&[omega]),
+        }
+    }),
+    ("TorqueLimits::new", Refused, |_, x| {
+        // An infinite limit is none.
+        if x.is_nan() {
+            refused(TorqueLimits::new(x, 1.0)).max(refused(TorqueLimits::new(-1.0, x)))
+        } else {
+            assert!(TorqueLimits::new(-1.0, x.abs()).is_ok());
+            Refused
+        }
+    }),
+    ("TorqueLimits::limited", Flagged, |_, x| {
+        let found = TorqueLimits::new(-2.0, 5.0).unwrap().limited(x);
+        flagged(found.clipped != 0.0, &[found.torque])
+    }),
+    ("Transmission::new", Refused, |m, x| {
+        refused(gearbox(
+            m,
+            Gearbox {
+                ratio: x,
+                ..GEARBOX
+            },
+        ))
+    }),
+    ("Transmission::new", Refused, |m, x| {
+        refused(gearbox(
+            m,
+            Gearbox {
+                efficiency: x,
+                ..GEARBOX
+            },
+        ))
+    }),
+    ("Transmission::new", Refused, |m, x| {
+        refused(gearbox(
+            m,
+            Gearbox {
+                rotor: x,
+                ..GEARBOX
+            },
+        ))
+    }),
+    ("Transmission::to_torque", Carried, |m, x| {
+        carried(&[gearbox(m, GEARBOX).unwrap().to_torque(x).value])
+    }),
+    ("Transmission::torque_si", Carried, |m, x| {
+        carried(&[gearbox(m, GEARBOX).unwrap().torque_si(x)])
+    }),
+    ("Transmission::motor", Carried, |m, x| {
+        carried(&[gearbox(m, GEARBOX).unwrap().motor(x, 1.0, 1.0).value])
+    }),
+    ("Transmission::motor", Carried, |m, x| {
+        carried(&[gearbox(m, GEARBOX).unwrap().motor(1.0, 1.0, x).value])
+    }),
+    ("Transmission::motor", Finite, |m, x| {
+        carried(&[gearbox(m, GEARBOX).unwrap().motor(1.0, x, 1.0).value])
+    }),
+    ("Period::new", Refused, |m, x| refused(Period::new(x, m))),
+    ("Period::moved", Finite, |m, x| {
+        let moved = Period::new(0.001, m).unwrap().moved(x);
+        assert!(!x.is_nan() || moved == Phase::default());
+        Finite
+    }),
+    ("Period::gained", Carried, |m, x| {
+        carried(&[Period::new(0.001, m).unwrap().gained(x).value])
+    }),
+    ("Period::needed", Carried, |m, x| {
+        carried(&[Period::new(0.001, m).unwrap().needed(x).value])
+    }),
+    ("Period::later", Carried, |m, x| {
+        carried(&[Period::new(0.001, m)
+            .unwrap()
+            .later(motion(x, 1.0))
+            .value
+            .omega])
+    }),
+    ("Period::later", Carried, |m, x| {
+        carried(&[Period::new(0.001, m)
+            .unwrap()
+            .later(motion(1.0, x))
+            .value
+            .omega])
+    }),
+    ("Period::between", Carried, |m, x| {
+        let found = Period::new(0.001, m)
+            .unwrap()
+            .between(Phase::default(), x, 1.0)
+            .value;
+        assert!(!found.omega.is_finite() && !found.alpha.is_finite());
+        Carried
+    }),
+    ("Period::between", Carried, |m, x| {
+        carried(&[Period::new(0.001, m)
+            .unwrap()
+            .between(Phase::default(), 1.0, x)
+            .value
+            .omega])
+    }),
+    ("Tracker::new", Refused, |_, x| refused(Tracker::new(x))),
+    ("Tracker::with_bandwidth", Refused, |_, x| {
+        refused(Tracker::with_bandwidth(x, 0.001))
+    }),
+    ("Tracker::with_bandwidth", Refused, |_, x| {
+        refused(Tracker::with_bandwidth(50.0, x))
+    }),
+    ("StrokeEncoder::new", Refused, |_, x| {
+        refused(StrokeEncoder::new(
+            STROKE,
+            Scaled {
+                resolution: x.into(),
+                ..SCALED
+            },
+        ))
+    }),
+    ("StrokeEncoder::new", Refused, |_, x| {
+        refused(StrokeEncoder::new(
+            STROKE,
+            Scaled {
+                at_home: x.into(),
+                ..SCALED
+            },
+        ))
+    }),
+    ("StrokeEncoder::new", Refused, |_, x| {
+        refused(StrokeEncoder::new(
+            Domain::Stroke { from: x, to: 0.5 },
+            SCALED,
+        ))
+    }),
+    ("StrokeEncoder::new", Refused, |_, x| {
+        refused(StrokeEncoder::new(
+            Domain::Stroke { from: 0.0, to: x },
+            SCALED,
+        ))
+    }),
+    ("Envelope::new", Refused, |m, x| {
+        refused(Envelope::new([[x, 8.0]], 8.0, m))
+    }),
+    ("Envelope::new", Refused, |m, x| {
+        refused(Envelope::new([[12.0, x]], 8.0, m))
+    }),
+    ("Envelope::new", Refused, |m, x| {
+        refused(Envelope::new([[12.0, 8.0]], x, m))
+    }),
+    ("Envelope::of_motor", Refused, |m, x| {
+        let gearbox = Gearbox {
+            rotor: 0.0,
+            ..GEARBOX
+        };
+        refused(Envelope::of_motor([[x, 8.0]], 8.0, gearbox, m))
+            .max(refused(Envelope::of_motor([[12.0, x]], 8.0, gearbox, m)))
+            .max(refused(Envelope::of_motor([[12.0, 8.0]], x, gearbox, m)))
+            .max(refused(Envelope::of_motor(
+                [[12.0, 8.0]],
+                8.0,
+                Gearbox {
+                    ratio: x,
+                    ..gearbox
+                },
+                m,
+            )))
+    }),
+    ("Envelope::torques", Finite, |m, x| {
+        let torques = limits(m).envelope().torques(x);
+        assert!(!x.is_nan() || torques == [0.0; 2]);
+        carried(&torques)
+    }),
+    ("Limits::new", Refused, |m, x| {
+        let (envelope, period) = (*limits(m).envelope(), *limits(m).period());
+        refused(Limits::new(envelope, x, 40.0, period, m))
+            .max(refused(Limits::new(envelope, 10.0, x, period, m)))
+    }),
+    ("Limits::feasible", Flagged, |m, x| {
+        let found = limits(m).feasible(m, Phase::default(), x);
+        flagged(
+            found.unkept.is_some(),
+            &[found.least.alpha, found.greatest.alpha],
+        )
+    }),
+    ("LookAhead::new", Refused, |m, x| {
+        refused(made(m, x, 40.0, 9.0)).max(refused(made(m, 8.0, 40.0, x)))
+    }),
+    ("LookAhead::new", Refused, |m, x| {
+        // An infinite deceleration is one that only the torque limits.
+        if x == f32::INFINITY {
+            Refused
+        } else {
+            refused(made(m, 8.0, x, 9.0))
+        }
+    }),
+    ("LookAhead::speed_at", Carried, |m, x| {
+        carried(&[ahead(m).speed_at(Phase::default(), x)])
+    }),
+    ("LookAhead::stop", Flagged, |m, x| {
+        flagged(ahead(m).stop(Phase::default(), x).beyond, &[])
+    }),
+    ("Governor::govern", Flagged, |m, x| {
+        governed(m, motion(x, 0.0), 1.0)
+    }),
+    ("Governor::govern", Flagged, |m, x| {
+        governed(m, motion(1.0, 0.0), x)
+    }),
+    ("Governor::govern", Flagged, |m, x| {
+        governed(m, motion(x, x), x)
+    }),
+    ("Follower::new", Refused, |m, x| followed(m, x, 0.1)),
+    ("Follower::new", Refused, |m, x| followed(m, 0.001, x)),
+    ("encode", Refused, |_, x| {
+        let wide = f64::from(x);
+        let (knot, none) = (
+            Knot {
+                t: 1.0,
+                ..Knot::default()
+            },
+            Errors::default(),
+        );
+        encoded(Knot { t: wide, ..knot }, none)
+            .max(encoded(
+                Knot {
+                    position: wide,
+                    ..knot
+                },
+                none,
+            ))
+            .max(encoded(
+                Knot {
+                    omega: wide,
+                    ..knot
+                },
+                none,
+            ))
+            .max(encoded(
+                Knot {
+                    alpha: [wide, 0.0],
+                    ..knot
+                },
+                none,
+            ))
+            .max(encoded(
+                Knot {
+                    alpha: [0.0, wide],
+                    ..knot
+                },
+                none,
+            ))
+    }),
+];
+
+impl Becomes {
+    /// What is not refused counts.
+    fn max(self, other: Self) -> Self {
+        if self == Refused { other } else { self }
+    }
+}
+
+#[test]
+fn no_function_takes_what_is_no_number_in_silence() {
+    with_model::<Spline<f32>, SET>(Scale::SI, |model| {
+        for (name, expected, found) in CASES {
+            for x in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+                assert_eq!(found(&model, x), *expected, "{name} {x}");
+            }
+        }
+    });
+}
+
+/// The functions of the axis are here, or take no number of floating point.
+#[test]
+fn every_function_of_the_axis_is_tried() {
+    // Bytes, counts, phases, and what was made of them.
+    const WITHOUT: &[&str] = &[
+        "Status::is_valid",
+        "MotionRange::omega",
+        "MotionRange::alpha",
+        "ImageSlot",
+        "image_len",
+        "Plan::new",
+        "Plan::from_bytes",
+        "Plan::of_machine",
+        "Plan::machine",
+        "Plan::errors",
+        "Plan::most",
+        "Plan::rows",
+        "Plan::duration",
+        "Plan::end",
+        "Plan::at",
+        "LookAhead::direction",
+        "Period::omega",
+        "Period::alpha",
+        "Governor::one_way",
+        "Governor::both_ways",
+        "Counter",
+        "Mounting",
+        "Encoder",
+        "Limits::envelope",
+        "Limits::period",
+        "Tracker::with_largest_step",
+        "Tracker::at",
+        "Tracker::update",
+        "Tracker::update_stroke",
+        "Transmission::base",
+        "Rate::percent",
+        "Follower::repeating",
+        "Follower::plan",
+        "Follower::start",
+        "Follower::reset",
+        "Follower::next",
+        "FeedForward::model",
+        "FeedForward::range",
+        "StrokeEncoder::phase",
+        "StrokeEncoder::phase_wide",
+    ];
+    let mut all = BTreeSet::new();
+    public_of(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src/axis"),
+        &mut all,
+    );
+    let tried: BTreeSet<&str> = CASES.iter().map(|(name, ..)| *name).collect();
+    for function in &all {
+        let of = function.split("::").next().unwrap();
+        let without = WITHOUT.contains(&function.as_str()) || WITHOUT.contains(&of);
+        assert!(
+            without != tried.contains(function.as_str()),
+            "{function}: tried, or without a number"
+        );
+    }
+    assert!(tried.iter().all(|name| all.contains(*name)), "{tried:?}");
+}
