@@ -345,14 +345,19 @@ impl AnyMechanism {
         self.coordinate
     }
 
-    /// The names of the links, as loads and reports use them.
+    /// The names of the links that are parts of the mechanism, as loads and reports use them.
     pub fn link_names(&self) -> &[String] {
+        self.links.get(..self.own_links()).unwrap_or_default()
+    }
+
+    /// The same, and behind them the names of the curves that links stand in for.
+    pub fn names(&self) -> &[String] {
         &self.links
     }
 
-    /// The names of the joints.
+    /// The names of the joints that are parts of the mechanism.
     pub fn joint_names(&self) -> &[String] {
-        &self.joints
+        self.joints.get(..self.own_joints()).unwrap_or_default()
     }
 
     /// The points that have a name.
