@@ -8,7 +8,7 @@ use jred_machine::model::motion::{Closing, Motion, Recording};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
-use crate::reading::{machine_path, parse_in, read};
+use crate::reading::{machine_path, parse_in, read, refuses};
 
 const CRANK: &str = r#"gravity = ["9.81 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -63,8 +63,8 @@ fn wrong_units_are_implausible() {
         ),
         (
             "42 kg",
-            "0.03 g",
-            &["has a mass of 9 kg", "slider with 3.000e-5 kg"],
+            "0.003 g",
+            &["has a mass of 9 kg", "slider with 3.000e-6 kg"],
         ),
     ] {
         let text = edited(from, to);
@@ -78,7 +78,7 @@ fn wrong_units_are_implausible() {
         warnings(&read(&text))
             .unwrap()
             .join("\n")
-            .contains("has a length of 400 m, 1.333e4 times")
+            .contains("has a length of 400 m, 13330 times")
     );
 }
 
@@ -219,5 +219,41 @@ fn noisy_records_name_their_cure() {
     assert_eq!(
         found(&noisy, &format!("smoothing = \"{line}\"")),
         Vec::<String>::new()
+    );
+}
+
+/// A microsecond in ten million seconds, whose times have the digits of 2e-9 s; and an end of a load that is rounded.
+#[test]
+fn what_is_too_short_for_its_digits() {
+    let text = |pause: &str| {
+        format!(
+            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = {{ inertia = \"1 kg m^2\" }}\n\
+             [motion]\ntype = \"point-to-point\"\nsegment = [{{ dwell = \"{pause}\" }}, \
+             {{ law = \"polynomial-345\", move = \"1e-6 deg\", duration = \"1 us\" }}]\n"
+        )
+    };
+    warns(&text("60 min"), &[]);
+    warns(
+        &text("9e6 s"),
+        &[
+            "segment 2 lasts 1.000e-6 s in a motion of 9.000e6 s",
+            "rounded by 0.001998",
+        ],
+    );
+    let load = |from: f64| {
+        format!(
+            "{CRANK}[[load]]\non = \"slider\"\nforce = [\"-1 N\", \"0 N\"]\nbetween = [\"{from} deg\", \"{} deg\"]\nramp = \"0.0004 deg\"\n",
+            from + 0.001
+        )
+    };
+    read(&load(320.0));
+    refuses(
+        &load(5e8),
+        &["so far from zero", "rounded by 1.1", "first turn"],
+    );
+    let still = text("1 s").replace("1e-6 deg", "1e-9 deg");
+    refuses(
+        &still,
+        &["is 1e-9 deg, too small for any machine: nothing moves"],
     );
 }

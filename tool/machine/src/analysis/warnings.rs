@@ -4,6 +4,7 @@ use jred::Error;
 
 use crate::model::machine::MachineFile;
 
+mod digits;
 mod driving;
 mod endless;
 mod near_centre;
@@ -20,6 +21,7 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     warnings.extend(endless::of(file)?);
     warnings.extend(near_centre::of(file)?);
     warnings.extend(overshoot::of(file));
+    warnings.extend(digits::of(file));
     warnings.extend(noise::of(file));
     warnings.extend(plausible::of(file)?);
     Ok(warnings)

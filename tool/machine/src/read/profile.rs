@@ -160,7 +160,7 @@ fn read_columns(
         [true, false, false] | [false, true, false] | [true, true, _]
     ) {
         return Err(Problem::new(
-            "the header must have a column either for the position or for the speed, or for position, speed and acceleration",
+            "the header must have a column for the position, for the speed, or for both; an acceleration needs both",
         )
         .at(csv::header_place(text), "header")
         .help(format!(

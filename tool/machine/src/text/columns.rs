@@ -198,7 +198,7 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     let titles: Vec<Title> = titles
         .map(|title| title.underscored(format.known))
         .collect();
-    if layout.titles.is_none() {
+    if layout.titles.is_none() && !titles.is_empty() {
         check_first_lines(text, &titles, format, layout)?;
     }
     let mut first = table.advance().transpose()?;
@@ -224,12 +224,10 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     let mut values: Vec<Option<Vec<f64>>> = vec![None; format.known.len()];
     let mut headers = vec![(String::new(), 1.0); format.known.len()];
     for (column, title) in columns.iter().zip(&titles) {
-        if let Some((index, scale)) = column {
+        if let Some((index, unit, scale)) = column {
             values[*index] = Some(Vec::new());
-            let unit = title
-                .unit
-                .as_ref()
-                .map_or_else(String::new, |unit| format!(" [{unit}]"));
+            let unit = unit.as_ref().filter(|unit| *unit != "1");
+            let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
             headers[*index] = (format!("{}{unit}", title.name), *scale);
         }
     }
@@ -237,9 +235,10 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     while first.is_some() {
         let (number, place) = (places.len() + 1, table.row_place());
         for ((field, column), title) in table.row().iter().zip(&columns).zip(&titles) {
-            let Some((index, scale)) = *column else {
+            let Some((index, _, scale)) = column else {
                 continue;
             };
+            let (index, scale) = (*index, *scale);
             let field = unquoted(field);
             let fault = |what: &str| {
                 let [field, name] = [field, title.whole.as_str()].map(plain::cut);

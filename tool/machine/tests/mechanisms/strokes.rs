@@ -214,7 +214,20 @@ fn a_slotted_lever_between_its_ranges() {
     );
 }
 
-/// A knuckle-joint press with a crank too long to turn, and one with a lower link too short.
+/// The dead points that a cure names: "… stays inside φ = 12.00° and 80.00°".
+fn dead_points(text: &str) -> [f64; 2] {
+    let report = rendered(&parse(text).unwrap_err());
+    let rest = report
+        .split("stays inside φ = ")
+        .nth(1)
+        .unwrap_or_else(|| panic!("{report}"));
+    let mut ends = rest
+        .split('°')
+        .map(|end| end.trim_start_matches(" and ").parse().unwrap());
+    [ends.next().unwrap(), ends.next().unwrap()]
+}
+
+/// A knuckle-joint press with a crank too long to turn, and one with a lower link too short: between the dead points of the cure.
 #[test]
 fn a_toggle_press_over_a_stroke() {
     let press = |crank: f64, lower: f64, stroke: &str| {
@@ -232,28 +245,14 @@ fn a_toggle_press_over_a_stroke() {
             link("lower", lower)
         )
     };
-    refuses(
-        &press(300.0, 300.0, ""),
-        &["cannot turn fully", "over a stroke"],
-    );
-    joints_close(&press(300.0, 300.0, &swings(-60.0, -20.0)));
-    let report = rendered(&parse(&press(60.0, 60.0, "")).unwrap_err());
-    assert!(
-        report.contains("the lower link no longer reaches")
-            && report.contains("over a stroke that stays inside"),
-        "{report}"
-    );
-    let ends: Vec<f64> = report
-        .split("φ = ")
-        .skip(2)
-        .chain(report.split(" and ").skip(1))
-        .filter_map(|rest| rest.split('°').next()?.trim().parse().ok())
-        .collect();
-    let [from, to] = [ends[0], ends[ends.len() - 1]];
-    assert!(to > from && to - from < 360.0, "{report}");
-    joints_close(&press(60.0, 60.0, &swings(from + 0.1, to - 0.1)));
-    refuses(
-        &press(60.0, 60.0, &swings(from + 0.1, to + 0.1)),
-        &["reaches a dead point", "the lower link is perpendicular"],
-    );
+    for (crank, lower, locked) in [
+        (300.0, 300.0, "rod and upper link are in line"),
+        (60.0, 60.0, "the lower link is perpendicular to the guide"),
+    ] {
+        let [from, to] = dead_points(&press(crank, lower, ""));
+        assert!(to > from && to - from < 360.0, "{from} {to}");
+        joints_close(&press(crank, lower, &swings(from + 0.1, to - 0.1)));
+        let beyond = press(crank, lower, &swings(from + 0.1, to + 0.1));
+        refuses(&beyond, &["reaches a dead point", locked]);
+    }
 }

@@ -15,8 +15,8 @@ const MISSED: [f64; 2] = [0.05, 0.7];
 /// The same of the largest speed and of the largest position, for short steps: digits that were cut.
 const DIGITS: f64 = 1e-4;
 
-const CURE: &str = "each column is the derivative of the one before over the time: check the units; without the columns of speed and \
-                    acceleration, a smooth curve is laid through the positions";
+const CURE: &str = "each column is the derivative of the one before over the time: check the units; to lay a smooth curve through the \
+                    positions alone, name them: columns = { time = \"…\", position = \"…\" }";
 
 /// The accelerations of rows with positions and speeds only: the slope of the twice continuously differentiable curve through the speeds.
 pub(super) fn slopes(

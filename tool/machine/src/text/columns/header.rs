@@ -11,13 +11,16 @@ use crate::units::{self, did_you_mean};
 /// For each title of the file the format's column that it is, and its unit if the machine file gives it; `None` if it is passed over.
 type Indices<'l> = Vec<Option<(usize, Option<&'l str>)>>;
 
-/// For each title of the file the format's column that it is, and the size of its unit (SI); `None` if it is passed over.
+/// A column of the format: its index, its unit and the size of that (SI).
+pub(super) type Found = (usize, Option<String>, f64);
+
+/// For each title of the file the format's column that it is; `None` if it is passed over.
 pub(super) fn columns(
     table: &Table,
     titles: &[Title],
     format: &Format,
     layout: &Layout,
-) -> Result<Vec<Option<(usize, f64)>>, Fault> {
+) -> Result<Vec<Option<Found>>, Fault> {
     let indices = match &layout.mapped {
         Some(_) => mapped(titles, format, layout)?,
         None => named(table, titles, format, layout)?,
@@ -40,7 +43,7 @@ pub(super) fn columns(
                 },
             })
         })?;
-        columns.push(Some((index, scale)));
+        columns.push(Some((index, unit.map(ToOwned::to_owned), scale)));
     }
     Ok(columns)
 }
