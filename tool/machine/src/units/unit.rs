@@ -93,7 +93,10 @@ fn spaced(text: &str, known: &'static [Word]) -> String {
         let end = rest.find([' ', '*', '/', '(', ')']).unwrap_or(rest.len());
         let (token, after) = rest.split_at(end);
         let (word, exponent) = token.split_at(token.find('^').unwrap_or(end));
-        let apart = apart(word, exponent, known).filter(|_| slip(word, known).is_none());
+        // What is a unit of its own elsewhere does not run together: "degF" is no angle.
+        let is_foreign = FOREIGN.iter().any(|(words, _)| words.contains(&word));
+        let together = !is_foreign && slip(word, known).is_none();
+        let apart = apart(word, exponent, known).filter(|_| together);
         spaced += &apart.unwrap_or_else(|| token.to_owned());
         let mut separators = after.chars();
         spaced.extend(separators.next());

@@ -91,7 +91,7 @@ fn values_are_exact_to_the_last_digit() {
 
 #[test]
 fn what_is_wrong_is_said_with_its_cure() {
-    let cases: [(&str, &Kind, &str, &str); 47] = [
+    let cases: [(&str, &Kind, &str, &str); 48] = [
         ("120", &LENGTH, "no unit", "120 mm"),
         ("", &LENGTH, "empty", "120 mm"),
         ("  ", &LENGTH, "empty", "120 mm"),
@@ -117,6 +117,7 @@ fn what_is_wrong_is_said_with_its_cure() {
             "\"0.0005852793187 kg m^2\"",
         ),
         ("10 ft lbf", &TORQUE, "\"ft\"", "\"13.55817948 N m\""),
+        ("230 degF", &TEMPERATURE, "\"degF\"", "times 5/9"),
         ("200 kp", &FORCE, "\"kp\"", "\"1961.33 N\""),
         ("2 h", &MASS, "\"h\"", "3600 s"),
         ("4 in", &LENGTH, "\"in\"", "\"101.6 mm\""),
