@@ -114,7 +114,7 @@ fn what_is_wrong_is_said_with_its_cure() {
             "2 lb in^2",
             &INERTIA,
             "\"lb\"",
-            "\"0.0005852793187 kg m^2\"",
+            "\"0.0005852793069 kg m^2\"",
         ),
         ("10 ft lbf", &TORQUE, "\"ft\"", "\"13.55817948 N m\""),
         ("230 degF", &TEMPERATURE, "\"degF\"", "times 5/9"),
