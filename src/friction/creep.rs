@@ -68,6 +68,12 @@ impl CreepContact {
         Ok(Self(limit))
     }
 
+    /// Where it begins to slide.
+    #[must_use]
+    pub const fn limit(&self) -> CreepLimit {
+        self.0
+    }
+
     /// The torque at the speed i·ω₁ of the first surface and ω₂ of the second, both as angular speeds of the second shaft
     /// (rad/s).
     #[must_use]

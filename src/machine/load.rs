@@ -38,8 +38,8 @@ pub struct Window {
     from: f64,
     width: f64,
     ramp: f64,
-    /// It comes again with every turn.
-    repeats: bool,
+    /// After how many turns it comes again; 0: never.
+    turns: u32,
 }
 
 impl Window {
@@ -54,12 +54,42 @@ impl Window {
     /// # Errors
     /// A window narrower than its two ramps, or wider than a turn on one; a ramp shorter than
     /// [`SHORTEST_RAMP`](Self::SHORTEST_RAMP).
-    pub fn new(domain: Domain, [from, to]: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
+    pub fn new(domain: Domain, ends: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
+        let turns = match domain {
+            Domain::Turn => 1,
+            Domain::Stroke { .. } => 0,
+        };
+        Self::coming_again(turns, Self::SHORTEST_RAMP * domain.span(), ends, ramp)
+    }
+
+    /// One of a drive link that turns which comes again after some turns, as of an engine in four strokes after two: positions count over
+    /// all of them. Only what follows the drive link from turn to turn may have such a load: no table of one turn contains it.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new); no turns, or more than [`MAX_TURNS`](Self::MAX_TURNS).
+    pub fn over_turns(turns: u32, ends: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
+        if !(1..=Self::MAX_TURNS).contains(&turns) {
+            return Err(RangeError::OutOfRange {
+                what: "turns of the load's window",
+                value: f64::from(turns),
+                min: 1.0,
+                max: f64::from(Self::MAX_TURNS),
+            });
+        }
+        Self::coming_again(turns, Self::SHORTEST_RAMP * TAU, ends, ramp)
+    }
+
+    /// The most turns after which a window comes again.
+    pub const MAX_TURNS: u32 = 64;
+
+    fn coming_again(
+        turns: u32,
+        least: f64,
+        [from, to]: [f64; 2],
+        ramp: f64,
+    ) -> Result<Self, RangeError> {
         let from = finite("start of the load's window", from)?;
-        let (what, least) = (
-            "ramp of the load's window",
-            Self::SHORTEST_RAMP * domain.span(),
-        );
+        let what = "ramp of the load's window";
         let ramp = positive(what, ramp)?;
         if ramp < least {
             return Err(RangeError::OutOfRange {
@@ -73,13 +103,10 @@ impl Window {
             "width of the load's window",
             finite("end of the load's window", to)? - from,
         )?;
-        let (what, max, repeats) = match domain {
-            Domain::Turn => ("width of the load's window (rad)", TAU, true),
-            Domain::Stroke { .. } => (
-                "width of the load's window (m or rad)",
-                f64::INFINITY,
-                false,
-            ),
+        let (what, max) = if turns == 0 {
+            ("width of the load's window (m or rad)", f64::INFINITY)
+        } else {
+            ("width of the load's window (rad)", f64::from(turns) * TAU)
         };
         if width > max || width < 2.0 * ramp {
             return Err(RangeError::OutOfRange {
@@ -93,7 +120,7 @@ impl Window {
             from,
             width,
             ramp,
-            repeats,
+            turns,
         })
     }
 
@@ -114,17 +141,23 @@ impl Window {
         self.width
     }
 
-    /// Whether it comes again with every turn.
+    /// Whether it comes again with every turn, or after some.
     pub const fn repeats(&self) -> bool {
-        self.repeats
+        self.turns > 0
+    }
+
+    /// After how many turns it comes again; 0: never.
+    pub const fn turns(&self) -> u32 {
+        self.turns
     }
 
     /// How much of the load acts at `phi` (rad, or m of a stroke): 0 to 1.
     #[must_use]
     pub fn factor(&self, phi: f64) -> f64 {
-        let into = if self.repeats {
-            let turns = (phi - self.from) / TAU;
-            (turns - math::floor(turns)) * TAU
+        let into = if self.turns > 0 {
+            let period = f64::from(self.turns) * TAU;
+            let times = (phi - self.from) / period;
+            (times - math::floor(times)) * period
         } else {
             phi - self.from
         };

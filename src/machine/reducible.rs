@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 
 use crate::machine::error::PoseError;
+use crate::machine::load::Load;
 use crate::machine::mechanism::Mechanism;
 use crate::machine::reduction::{Machine, Reduction};
 use crate::{Domain, math};
@@ -79,9 +80,11 @@ impl<M: Mechanism> Reducible for Machine<M> {
 
     /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a
     /// part of the turn only: a force or a weight of fixed direction needs a link that points the same way again, a spring the
-    /// same length.
+    /// same length. A load that comes again after some turns only does not repeat.
     fn check_repeats(&self) -> Result<(), PoseError> {
         let links = self.mechanism().links();
+        let mut windows = self.loads().iter().filter_map(Load::window);
+        let once = windows.all(|window| window.turns() <= 1);
         for phi in SAMPLES {
             let [now, later] = [
                 self.mechanism().frames(phi)?,
@@ -114,7 +117,7 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 links.sum::<f64>() + self.flywheel()
             });
             let inert = math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b));
-            if !(forced && weighed && sprung && inert) {
+            if !(once && forced && weighed && sprung && inert) {
                 return Err(PoseError::NotPeriodic { phi });
             }
         }

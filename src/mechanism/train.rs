@@ -208,6 +208,15 @@ impl Train {
     /// with α, so forward dynamics through the losses is a Newton step away.
     #[must_use]
     pub fn input(&self, output: &TrainOutput) -> TrainInput {
+        self.input_by_stages(output, |_, _| ())
+    }
+
+    /// The same; `seen` is shown each stage with the torque that it delivers to the shaft behind it (N·m), from the output on.
+    pub fn input_by_stages(
+        &self,
+        output: &TrainOutput,
+        mut seen: impl FnMut(&Stage, f64),
+    ) -> TrainInput {
         let mut input = TrainInput {
             torque: output.torque,
             torque_per_alpha: output.torque_per_alpha,
@@ -217,6 +226,7 @@ impl Train {
         let mut direction = output.direction;
         for stage in self.stages.iter().rev() {
             let delivered = input.torque + stage.driven * alpha;
+            seen(stage, delivered);
             let loss = if delivered * direction < 0.0 {
                 stage.efficiency
             } else {

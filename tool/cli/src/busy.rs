@@ -1,13 +1,15 @@
-//! A line on a terminal that says what is done and for how long, from the second second on.
+//! A line that says what is done and for how long: on a terminal from the second second on; elsewhere, as in a log, after two
+//! seconds and then every ten, unless the environment has `JRED_PROGRESS=never`.
 //!
 //! A command without rows to count (`rows/run.rs` counts those) shows that it is at work. Ctrl-C ends it at once: until its
 //! result is complete it has written nothing, and a file is written beside its place.
 
-use std::io::IsTerminal as _;
+use std::io::{IsTerminal as _, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -17,30 +19,57 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// How often the line is drawn.
 const TICK: Duration = Duration::from_millis(200);
 
+/// The same of a command whose stderr is no terminal.
+const PATIENCE_OF_LOGS: Duration = Duration::from_secs(2);
+
+/// How often a log gets a line.
+const TICK_OF_LOGS: Duration = Duration::from_secs(10);
+
 static LINE: Mutex<Option<Line>> = Mutex::new(None);
 
+/// Rows that are there, and rows in all: zero where none are counted.
+static ROWS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
+
 struct Line {
-    bar: ProgressBar,
+    /// `None` in a log, where nothing is taken away again.
+    bar: Option<ProgressBar>,
     stop: Sender<()>,
     thread: JoinHandle<()>,
 }
 
-/// Begins to show that `what` is done, such as `checking the machine`; nothing where stderr is no terminal.
+/// Begins to show that `what` is done, such as `checking the machine`.
 pub fn begin(what: &'static str) {
-    if !std::io::stderr().is_terminal() {
-        return;
-    }
     end();
-    let line = Line::begin(what, ProgressDrawTarget::stderr(), PATIENCE);
+    let line = if std::io::stderr().is_terminal() {
+        Line::begin(what, ProgressDrawTarget::stderr(), PATIENCE)
+    } else if std::env::var_os("JRED_PROGRESS").is_some_and(|word| word == "never") {
+        return;
+    } else {
+        Line::in_log(what, std::io::stderr(), [PATIENCE_OF_LOGS, TICK_OF_LOGS])
+    };
     *LINE.lock().unwrap_or_else(PoisonError::into_inner) = Some(line);
 }
 
 /// Runs `print`, which writes to stderr, without the line.
 pub fn aside(print: impl FnOnce()) {
     match &*LINE.lock().unwrap_or_else(PoisonError::into_inner) {
-        Some(line) => line.bar.suspend(print),
-        None => print(),
+        Some(Line { bar: Some(bar), .. }) => bar.suspend(print),
+        _ => print(),
     }
+}
+
+/// Goes on with rows, `done` of `of`, which a bar shows on a terminal; elsewhere the line counts them.
+pub fn rows(done: u64, of: u64) {
+    if std::io::stderr().is_terminal() {
+        end();
+    }
+    ROWS[0].store(done, Ordering::Relaxed);
+    ROWS[1].store(of, Ordering::Relaxed);
+}
+
+/// One more row is there.
+pub fn row() {
+    ROWS[0].fetch_add(1, Ordering::Relaxed);
 }
 
 /// Takes the line away.
@@ -69,7 +98,40 @@ impl Line {
                 }
             }
         });
-        Self { bar, stop, thread }
+        Self {
+            bar: Some(bar),
+            stop,
+            thread,
+        }
+    }
+
+    /// Begins to write lines to a log, the first after a time and more after another.
+    fn in_log(
+        what: &'static str,
+        mut log: impl Write + Send + 'static,
+        [patience, tick]: [Duration; 2],
+    ) -> Self {
+        let (stop, stopped) = channel();
+        let begun = Instant::now();
+        let thread = std::thread::spawn(move || {
+            let mut wait = patience;
+            while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                let [done, of] = [&ROWS[0], &ROWS[1]].map(|rows| rows.load(Ordering::Relaxed));
+                let rows = match of {
+                    0 => String::new(),
+                    _ => format!(", {done} of {of} rows"),
+                };
+                let seconds = begun.elapsed().as_secs();
+                // A log that cannot be written is no reason to stop.
+                let _ = writeln!(log, "{what}: {seconds} s{rows}");
+                wait = tick;
+            }
+        });
+        Self {
+            bar: None,
+            stop,
+            thread,
+        }
     }
 
     /// Takes it away.
@@ -77,7 +139,9 @@ impl Line {
         drop(self.stop);
         // It does nothing that could fail.
         let _ = self.thread.join();
-        self.bar.finish_and_clear();
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
     }
 }
 
@@ -144,6 +208,43 @@ mod tests {
         fn flush(&self) -> Result<()> {
             Ok(())
         }
+    }
+
+    /// What is written to a log.
+    struct Log(Sender<String>);
+
+    impl Write for Log {
+        fn write(&mut self, text: &[u8]) -> Result<usize> {
+            // A test that has seen enough looks no more.
+            let _ = self.0.send(String::from_utf8_lossy(text).into_owned());
+            Ok(text.len())
+        }
+        fn flush(&mut self) -> Result<()> {
+            Ok(())
+        }
+    }
+
+    /// A log gets whole lines, and the rows that are there; a short command writes none.
+    #[test]
+    fn a_log_gets_lines() {
+        let (sender, written) = channel();
+        rows(3, 8);
+        let line = Line::in_log("sizing", Log(sender), [Duration::ZERO; 2]);
+        let mut text = String::new();
+        // Waits for the second line, however long it takes.
+        while text.matches('\n').count() < 2 {
+            text += &written.recv().expect("it goes on");
+        }
+        line.end();
+        rows(0, 0);
+        let first = text.lines().next().unwrap_or_default();
+        assert!(
+            first.starts_with("sizing: ") && first.ends_with(" s, 3 of 8 rows"),
+            "{first}"
+        );
+        let (sender, written) = channel();
+        Line::in_log("sizing", Log(sender), [Duration::from_secs(3600); 2]).end();
+        assert_eq!(written.iter().count(), 0);
     }
 
     fn shows(told: &Told) -> bool {

@@ -275,7 +275,22 @@ pub struct Steady {
     /// Constant torque of the motor instead of that in `[simulation]`, e.g. "20 N m".
     #[arg(long, allow_hyphen_values = true, value_parser = jred_machine::read::torque_argument)]
     pub torque: Option<f64>,
-    /// Number of positions in the list, which ends with the end of the turn.
+    /// Mean speed of the drive link over the time, e.g. "300 rpm"; find how large the torque of the motor must be for it, or a constant torque if
+    /// `[simulation]` gives no motor. Less than zero, the motor brakes what the process drives. A negative speed turns the machine backwards.
+    #[arg(
+        long,
+        value_name = "SPEED",
+        allow_hyphen_values = true,
+        conflicts_with = "torque"
+    )]
+    pub mean_speed: Option<String>,
+    /// Find how large the loads of this name must be for that mean speed, under the motor as it is.
+    #[arg(long, value_name = "LOAD", requires = "mean_speed")]
+    pub scale: Option<String>,
+    /// Turns of the drive link in a cycle; as many as the loads need, if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub turns: Option<u32>,
+    /// Number of positions in the list for each turn; the list ends with the end of the cycle.
     #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub positions: u32,
     /// Write a report as one self-contained HTML page: speed, torque and energies over the turn, without and with the flywheel.

@@ -3,11 +3,17 @@
 //! A file is written beside its place and renamed when it is complete, so that an error, a full disk or a kill leaves what was
 //! there. Only where the new file cannot get the owner of the old one, the old one is written into. A file of a study's rows is
 //! different: it grows row by row, to be continued after an interruption (`rows/store.rs`).
+//!
+//! A message that cannot be written to stderr is dropped: the results and the exit code stay. No other place of the command writes to
+//! stdout or stderr.
 
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs::{File, Metadata, OpenOptions};
-use std::io::{Error, ErrorKind, IsTerminal as _, Result as IoResult, Write};
+use std::io::{Error, ErrorKind, IsTerminal as _, Result as IoResult, Stdout, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError, mpsc};
+use std::time::Duration;
 
 use crate::busy;
 use jred_machine::plain;
@@ -30,7 +36,7 @@ pub fn print(text: &str) -> Result<()> {
 /// # Errors
 /// As for [`print()`].
 pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
-    let mut stdout = std::io::stdout();
+    let mut stdout = stdout()?;
     for part in parts {
         if stdout.is_terminal() {
             busy::end();
@@ -51,16 +57,47 @@ pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<(
     Ok(())
 }
 
+/// Stdout, if it is not a file that this command has read.
+///
+/// # Errors
+/// It is: `jred reduce press.toml >> press.toml`.
+pub fn stdout() -> Result<Stdout> {
+    let stdout = std::io::stdout();
+    if let Some(read) = stdout_metadata().and_then(|own| disk::read_under(&own)) {
+        return Err(miette!(
+            help = "redirect stdout to another file",
+            "stdout is redirected to {}, which this command reads: nothing is written to it",
+            plain::path(read)
+        ));
+    }
+    Ok(stdout)
+}
+
 /// Prints a line to stderr.
 pub fn say(line: &str) {
-    busy::aside(|| eprintln!("{}", plain::lines(line)));
+    busy::aside(|| message(&plain::lines(line)));
+}
+
+/// Prints a warning to stderr, once: a command that repeats a run has the same to say again.
+pub fn warn(line: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if said.insert(line.to_owned()) {
+        say(&format!("warning: {line}"));
+    }
+}
+
+/// Writes a line to stderr; one that cannot be written, as to a full disk or a closed pipe, is dropped.
+fn message(line: &str) {
+    let mut stderr = std::io::stderr();
+    let _ = writeln!(stderr, "{line}").and_then(|()| stderr.flush());
 }
 
 /// Prints an error to stderr; `plainly`: without colours, every hidden character escaped.
 pub fn complain(report: &Report, plainly: bool) {
     busy::end();
     if !plainly {
-        eprintln!("{report:?}");
+        message(&format!("{report:?}"));
         return;
     }
     let mut text = String::new();
@@ -136,14 +173,28 @@ fn place(path: &Path) -> PathBuf {
 /// Whether a path is the regular file that stdout is redirected to.
 #[cfg(unix)]
 fn is_stdout(path: &Path) -> bool {
-    use std::os::fd::AsFd as _;
-    let stdout = std::io::stdout().as_fd().try_clone_to_owned();
-    stdout.is_ok_and(|stdout| is_same(File::from(stdout).metadata(), path.metadata()))
+    let (Some(stdout), Ok(path)) = (stdout_metadata(), path.metadata()) else {
+        return false;
+    };
+    is_same(Ok(stdout), Ok(path))
 }
 
 #[cfg(not(unix))]
 fn is_stdout(_: &Path) -> bool {
     false
+}
+
+/// What stdout is.
+#[cfg(unix)]
+fn stdout_metadata() -> Option<Metadata> {
+    use std::os::fd::AsFd as _;
+    let stdout = std::io::stdout().as_fd().try_clone_to_owned().ok()?;
+    File::from(stdout).metadata().ok()
+}
+
+#[cfg(not(unix))]
+fn stdout_metadata() -> Option<Metadata> {
+    None
 }
 
 /// Whether two paths are hard links of one regular file.
@@ -217,6 +268,7 @@ pub fn failed(path: &Path, error: &Error) -> Report {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             "free some space, or choose another disk"
         }
+        ErrorKind::TimedOut => "start the program that reads it first, or name a regular file",
         _ => "choose another file",
     };
     miette!(help = help, "cannot write {}: {error}", plain::path(path))
@@ -256,6 +308,7 @@ impl Output {
             Err(error) => return Err(error),
         };
         let write = |path: &Path| OpenOptions::new().write(true).open(path);
+        let write_special = |path: &Path| patiently(path, PATIENCE);
         let in_place = |file| Self {
             file,
             places: None,
@@ -264,7 +317,7 @@ impl Output {
         let place = followed(path);
         // Who may not write a file must not replace it either.
         let old = match old {
-            Some(old) if !old.is_file() => return Ok(in_place(write(path)?)),
+            Some(old) if !old.is_file() => return Ok(in_place(write_special(path)?)),
             Some(_) if is_new => return Err(ErrorKind::AlreadyExists.into()),
             Some(old) => Some((write(&place)?, old)),
             None => None,
@@ -322,6 +375,28 @@ impl Drop for Output {
             let _ = std::fs::remove_file(unfinished);
         }
     }
+}
+
+/// How long is waited for a program that reads a pipe.
+pub const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Opens a pipe or a device to write it. Opening a pipe waits for its reader; so a thread opens it, which ends with the program at the latest.
+///
+/// # Errors
+/// It cannot be written, or nobody reads it.
+pub fn patiently(path: &Path, patience: Duration) -> IoResult<File> {
+    let (sender, receiver) = mpsc::channel();
+    let path = path.to_owned();
+    std::thread::spawn(move || {
+        let _ = sender.send(OpenOptions::new().write(true).open(path));
+    });
+    receiver.recv_timeout(patience).map_err(|_| {
+        let message = format!(
+            "it is a pipe, and no program has read it within {} s",
+            patience.as_secs_f64()
+        );
+        Error::new(ErrorKind::TimedOut, message)
+    })?
 }
 
 /// Where a symbolic link leads, so that the link stays: to a file that need not exist.

@@ -24,6 +24,7 @@ fn run(arguments: &[&str]) -> Run {
     let output = Command::new(env!("CARGO_BIN_EXE_jred"))
         .args(arguments)
         .env("NO_COLOR", "1")
+        .env("JRED_PROGRESS", "never")
         .output()
         .unwrap();
     let run = Run {

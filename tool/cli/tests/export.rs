@@ -50,7 +50,8 @@ fn export_of(file: &Path, more: &[&str], out: Option<&Path>) -> Run {
         .arg("export")
         .arg(file)
         .args(more)
-        .env("NO_COLOR", "1");
+        .env("NO_COLOR", "1")
+        .env("JRED_PROGRESS", "never");
     if let Some(out) = out {
         command.arg("--out").arg(out);
     }

@@ -23,7 +23,7 @@ fn the_command_lists_quantities() {
     ]);
     let names = run.out.lines().next().unwrap();
     assert!(
-        names.starts_with("quantity,value,moves most,% of limit per +1 %"),
+        names.starts_with("quantity,value,unit,affects most,slope [% of limit per +1 %]"),
         "{names}"
     );
     assert!(
@@ -33,7 +33,7 @@ fn the_command_lists_quantities() {
     assert!(
         run.out
             .lines()
-            .any(|line| line.starts_with("mechanism.rack.mass,85 kg,")),
+            .any(|line| line.starts_with("mechanism.rack.mass,85,kg,")),
         "{}",
         run.out
     );

@@ -156,6 +156,7 @@ fn wrong_options_are_refused_with_their_cure() {
         arguments.extend(more);
         let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
             .env("NO_COLOR", "1")
+            .env("JRED_PROGRESS", "never")
             .args(&arguments)
             .output()
             .unwrap();

@@ -10,8 +10,7 @@ use crate::support::{Folder, jred, press_file, press_text};
 
 /// The rows of a CSV file by column.
 fn rows(text: &str) -> Vec<HashMap<String, String>> {
-    let body: Vec<&str> = text.lines().filter(|l| !l.starts_with("# ")).collect();
-    let mut reader = csv_reader(&body.join("\n"));
+    let mut reader = csv_reader(text);
     let names: Vec<String> = reader.remove(0);
     let row = |cells: Vec<String>| names.iter().cloned().zip(cells).collect();
     reader.into_iter().map(row).collect()

@@ -70,6 +70,7 @@ impl Desk {
         let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
             .current_dir(self.0.path(""))
             .env("NO_COLOR", "1")
+            .env("JRED_PROGRESS", "never")
             .env_remove("CLICOLOR_FORCE")
             .env_remove("FORCE_COLOR")
             .args(arguments)

@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp)]
 
 mod axis;
+mod bends;
 mod branches;
 mod columns;
 mod control;

@@ -1,6 +1,7 @@
 //! Steady cycles and flywheels against closed forms, simulations and a search by hand.
 
 mod flywheel;
+mod process;
 mod refusals;
 mod simulated;
 mod together;
@@ -25,7 +26,7 @@ pub(crate) fn try_of(text: &str, delta: Option<f64>) -> Result<Steady, SteadyErr
 fn of_file(file: &MachineFile, delta: Option<f64>) -> Result<Steady, SteadyError> {
     let request = Request {
         delta,
-        positions: 36,
+        ..Request::default()
     };
     steady(file, file.simulation.as_ref().unwrap(), &request)
 }

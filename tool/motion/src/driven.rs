@@ -166,6 +166,16 @@ impl Motor for DriveMotor<'_> {
             [least, most]
         }
     }
+
+    fn bends(&self) -> Vec<f64> {
+        let envelope = &self.actuator.envelope;
+        let limits = [true, false].map(|braking| envelope.limit(braking));
+        let ends = limits.iter().flat_map(|limit| limit.pieces());
+        let ends = ends.map(|piece| piece.to).filter(|to| to.is_finite());
+        let speeds = ends.flat_map(|to| [to * (1.0 - EASE), to, to * (1.0 + EASE)]);
+        let speeds = speeds.filter(|speed| *speed > 0.0);
+        speeds.flat_map(|speed| [speed, -speed]).collect()
+    }
 }
 
 /// Observes what the drive bears.

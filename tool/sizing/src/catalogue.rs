@@ -7,6 +7,7 @@
 mod amplifier;
 mod cell;
 mod column;
+mod derating;
 #[cfg(feature = "fs")]
 mod disk;
 mod drive;
@@ -27,6 +28,7 @@ mod toml_table;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
+pub use derating::{Basis as DeratingBasis, Derated, Derating};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};

@@ -15,6 +15,7 @@ use jred_machine::model::site::Site;
 use jred_machine::units::Vocabulary;
 
 mod bits;
+mod brake;
 pub mod check;
 mod cure;
 mod electric;
@@ -24,6 +25,7 @@ mod motor;
 mod outcome;
 pub mod overload;
 mod screen;
+mod site;
 mod stiffness;
 mod thermal;
 mod voltage;
@@ -162,11 +164,13 @@ impl<'a> Context<'a> {
     /// where there is more than one.
     pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
         voltage::measure(self.motor, findings);
+        site::measure(self, findings);
         gearbox::measure_alone(self, rules, findings);
         stiffness::measure(self, findings);
         motor::measure_speed(self.cycle, self.motor, self.ratio, findings);
         motor::measure_inertia(self, rules, findings);
         motor::measure_torques(self, findings);
+        brake::measure(self, findings);
         motor::measure_peak(self, findings);
         gearbox::measure_stop(self, findings);
         electric::measure(self, findings);
@@ -213,14 +217,18 @@ impl<'a> Context<'a> {
 
     fn words(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
         use Rule::{
-            AmplifierVoltage, Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean,
-            GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
-            HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
-            PeakTorque, RmsTorque, Speed, WindingTemperature,
+            Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeTorque, BrakeWork,
+            CabinetTemperature, ConstantTorque, GearboxCubicMean, GearboxCycles, GearboxEmergency,
+            GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque, HousingTemperature,
+            InertiaRatio, MotorVoltage, NaturalFrequency, PeakTorque, RmsTorque, Speed,
+            WindingTemperature,
         };
         match rule {
-            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
-            | InertiaRatio => motor::words(self, rules, rule, finding),
+            BrakeTorque | BrakeWork => brake::words(self, rule, finding),
+            AmbientTemperature | CabinetTemperature | Altitude => site::words(self, rule),
+            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio => {
+                motor::words(self, rules, rule, finding)
+            }
             GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
             | GearboxCycles => gearbox::words(self, rules, rule, finding),
             WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),

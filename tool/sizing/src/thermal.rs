@@ -30,7 +30,7 @@ use jred_machine::units::{Sentence, Vocabulary};
 
 use course::{Course, Hottest, Point};
 use jred_machine::model::operation::Operation;
-use jred_machine::model::surroundings::{REFERENCE, Surroundings};
+use jred_machine::model::surroundings::Surroundings;
 use network::{Losses, Network};
 
 /// Housing time constant assumed when none is given, as a multiple of the longest other one.
@@ -59,8 +59,10 @@ pub enum Model {
     },
     /// Shares of the rated rise.
     Relative {
-        /// S1 torque at standstill (N·m).
+        /// Torque that makes the rated rise at standstill (N·m).
         standstill: f64,
+        /// S1 torque at standstill (N·m) at the site.
+        s1: f64,
         /// Time constant (s), if one is stated.
         time: Option<f64>,
     },
@@ -174,8 +176,8 @@ impl Model {
                 format!("S1 {torque} over speed (thermal resistances and winding data not given)")
             });
         }
-        let standstill = prepared.envelope.standstill();
-        if !(standstill.is_finite() && standstill > 0.0) {
+        let s1 = prepared.envelope.standstill();
+        if !(s1.is_finite() && s1 > 0.0) {
             return Err(|Vocabulary { torque, .. }| {
                 format!(
                     "S1 {torque}, or resistance, {torque} constant and thermal resistances of the winding"
@@ -183,8 +185,11 @@ impl Model {
             });
         }
         let [winding, whole] = times;
+        let derated = motor.derated(surroundings);
         Ok(Self::Relative {
-            standstill,
+            // The site leaves a smaller rise, not a smaller torque for the same rise, unless the maker states it so.
+            standstill: s1 * (derated.torque / derated.factor),
+            s1,
             time: whole.or(winding),
         })
     }
@@ -218,8 +223,8 @@ impl Model {
         let speed = signed.abs();
         let other = match self {
             Self::Bodies { .. } | Self::Steady { .. } => (coulomb + viscous * speed) * speed,
-            Self::Relative { standstill, .. } => {
-                let s1 = prepared.envelope.continuous_torque(speed) / standstill;
+            Self::Relative { s1, .. } => {
+                let s1 = prepared.envelope.continuous_torque(speed) / s1;
                 (1.0 - s1 * s1).max(0.0)
             }
         };
@@ -341,15 +346,9 @@ impl Model {
 
 /// Allowed rise (K, or as a share of the rated rise). `None`: no data.
 pub fn allowed_rise(motor: &Motor, surroundings: &Surroundings, relative: bool) -> Option<f64> {
-    let limit = usable(motor.thermal.max_temperature);
-    let factor = surroundings.altitude_factor();
-    let rise = limit.map(|limit| limit - surroundings.ambient);
-    if !relative {
-        return Some(factor * rise?);
+    if relative {
+        return Some(motor.derated(surroundings).rise);
     }
-    match (limit, rise) {
-        (Some(limit), Some(rise)) if limit > REFERENCE => Some(factor * rise / (limit - REFERENCE)),
-        _ if surroundings.ambient <= REFERENCE => Some(factor),
-        _ => None,
-    }
+    let limit = usable(motor.thermal.max_temperature)?;
+    Some(surroundings.altitude_factor() * (limit - surroundings.ambient))
 }

@@ -43,6 +43,7 @@ fn lossy(catalogue: &mut Catalogue) -> Drive<'_> {
     motor.brake = Some(jred_sizing::catalogue::Brake {
         torque: 20.0,
         inertia: 3e-4,
+        ..Default::default()
     });
     let gearbox = &mut catalogue.gearboxes[2];
     (gearbox.efficiency, gearbox.back_efficiency) = (0.9, 0.85);

@@ -4,14 +4,17 @@
 
 mod backlash;
 mod bigger;
+mod brake;
 mod emergency;
 mod gearbox;
 mod holding;
 mod inertia;
 mod judged;
+mod lasting;
 mod moves;
 mod overload;
 mod rigidity;
+mod site;
 mod voltage;
 mod words;
 
@@ -123,7 +126,7 @@ impl Stand {
     fn brake(&mut self, torque: f64) {
         self.motor.brake = Some(Brake {
             torque,
-            inertia: 0.0,
+            ..Brake::default()
         });
     }
 }

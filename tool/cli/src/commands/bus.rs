@@ -63,7 +63,7 @@ pub fn run(options: &Options) -> Result<Done> {
         axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
     }
     // Drawn on standard error, and only where that is a terminal.
-    busy::end();
+    busy::rows(0, 0);
     let bar = ProgressBar::new(0);
     let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();

@@ -30,7 +30,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
         change: options.change / 100.0,
         most: options.most.max(options.change) / 100.0,
     };
-    busy::end();
+    busy::rows(0, 0);
     let bar = ProgressBar::new(study.document.quantities().len() as u64);
     let sensitivity = Sensitivity::new(&study, &one, reach, || bar.inc(1))?;
     bar.finish_and_clear();

@@ -29,7 +29,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
-    let file = read::read(path)?;
+    let file = read::read_over_turns(path)?;
     let others = read_all(others)?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([("--plot", &options.plot)])?;
@@ -101,7 +101,8 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
 
 /// Further machines.
 pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<MachineFile>> {
-    paths.iter().map(|path| read::read(path)).collect()
+    let files = paths.iter();
+    files.map(|path| read::read_over_turns(path)).collect()
 }
 
 /// Where the drive links of further machines start.

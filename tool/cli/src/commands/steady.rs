@@ -2,12 +2,12 @@
 
 use miette::{Result, miette};
 
-use crate::commands::Done;
 use crate::commands::simulate::{read_all, starts};
+use crate::commands::{Done, rate};
 use crate::options;
 use crate::output::{self, print, print_parts};
 use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{self, Request};
+use jred_machine::analysis::steady::{self, Level, MeanSpeed, Request};
 use jred_machine::model::characteristic::Characteristic;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
@@ -29,21 +29,25 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
-    let (file, others) = (read::read(path)?, read_all(others)?);
+    let (file, others) = (read::read_over_turns(path)?, read_all(others)?);
     output::check([("--report", &options.report)])?;
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), &simulation)?;
+    let asked = options.mean_speed.as_deref();
+    let speed = rate("mean-speed", asked, read::drive_speed, &file.axis())?;
     let request = Request {
         delta: options.delta,
+        mean_speed: mean_speed(speed, options)?,
+        turns: options.turns,
         positions: options.positions as usize,
     };
     let steady = steady::steady_together(&machines, &simulation, &request)?;
     if let Some(path) = &options.report {
         let finer = Request {
             positions: request.positions.max(DRAWN),
-            ..request
+            ..request.clone()
         };
         let page = page::steady_page(
             &machines,
@@ -62,10 +66,30 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     Ok(Done::Holds)
 }
 
+/// The mean speed that is asked for.
+fn mean_speed(speed: Option<f64>, options: &options::Steady) -> Result<Option<MeanSpeed>> {
+    let by = match &options.scale {
+        Some(name) => Level::Load(name.clone()),
+        None => Level::Motor,
+    };
+    match speed {
+        Some(0.0) => Err(miette!(
+            help = "give the speed at which the machine runs; a machine that stands has no cycle",
+            "--mean-speed is zero"
+        )),
+        Some(speed) => Ok(Some(MeanSpeed { speed, by })),
+        None => Ok(None),
+    }
+}
+
 /// That of the file, with the torque of the command line instead of its own.
 fn simulation(options: &options::Steady, file: &MachineFile) -> Result<Simulation> {
-    let Some(torque) = options.torque else {
-        return file.simulation.clone().ok_or_else(|| {
+    let own = file.simulation.as_ref();
+    // A mean speed asks for no motor: how large its torque is, is found.
+    let unknown = options.mean_speed.is_some() && options.scale.is_none();
+    let unknown = unknown && own.is_none_or(|own| own.torque.is_none());
+    let Some(torque) = options.torque.or(unknown.then_some(1.0)) else {
+        return own.cloned().ok_or_else(|| {
             miette!(
                 help = "give --torque \"20 N m\", or add a [simulation] with start_angle, duration, output_step and the motor: torque, \
                         torque_speed, dc_motor or induction_motor; docs/machine-file.md shows how",

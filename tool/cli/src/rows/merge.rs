@@ -11,7 +11,7 @@ use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::store;
 use crate::output::{self, Output};
-use jred_report::table::rows::RowFormat;
+use jred_report::table::rows::{RowFormat, with_study};
 use jred_sizing::study::header::Header;
 
 /// The largest share that comes from a pipe (bytes); files are read line by line.
@@ -20,9 +20,14 @@ const MAX_PIPE: u64 = 64 << 20;
 /// A share, read line by line.
 struct Part {
     path: PathBuf,
-    header: Header,
     form: RowFormat,
+    /// `None`: a share without rows, in CSV.
+    header: Option<Header>,
+    /// The names of the columns of CSV.
+    names: String,
     reader: BufReader<Box<dyn Read>>,
+    /// The row that was read with the header.
+    first: Option<String>,
     /// Lines read.
     lines: u64,
 }
@@ -32,33 +37,56 @@ impl Part {
         let file = disk::open(path, MAX_PIPE)
             .into_diagnostic()
             .wrap_err_with(|| format!("cannot read {}", plain::path(path)))?;
-        let mut reader = BufReader::new(file);
-        let mut line = String::new();
-        store::read_line(&mut reader, &mut line, path)?;
-        let (header, form) = store::parse(line.trim_end(), path)?;
-        let mut lines = 1;
-        if form == RowFormat::Csv {
-            lines += 1;
-            store::read_line(&mut reader, &mut line, path)?;
-        }
-        Ok(Self {
+        let mut part = Self {
             path: path.to_owned(),
-            header,
-            form,
-            reader,
-            lines,
-        })
+            form: RowFormat::Json,
+            header: None,
+            names: String::new(),
+            reader: BufReader::new(file),
+            first: None,
+            lines: 0,
+        };
+        let mut line = String::new();
+        part.read(&mut line)?;
+        part.form = store::form(line.trim_end(), path)?;
+        if part.form == RowFormat::Json {
+            part.header = Some(store::parse(line.trim_end(), path)?);
+            return Ok(part);
+        }
+        line.trim_end().clone_into(&mut part.names);
+        if part.read(&mut line)? {
+            let Some((study, _)) = RowFormat::study_of(line.trim_end()) else {
+                return Err(part.damaged(line.trim_end()));
+            };
+            part.header = Some(store::parse(&study, path)?);
+            part.first = Some(line);
+        }
+        Ok(part)
+    }
+
+    fn read(&mut self, line: &mut String) -> Result<bool> {
+        let read = store::read_line(&mut self.reader, line, &self.path)?;
+        self.lines += u64::from(read);
+        Ok(read)
+    }
+
+    fn damaged(&self, line: &str) -> Report {
+        let what = format!("{} cannot be merged", plain::path(&self.path));
+        store::damaged(&what, self.lines, line)
     }
 
     /// The next row: its number and its line.
     fn next(&mut self) -> Result<Option<(u64, String)>> {
         let mut line = String::new();
-        if !store::read_line(&mut self.reader, &mut line, &self.path)? {
-            return Ok(None);
+        match self.first.take() {
+            Some(first) => line = first,
+            None => {
+                if !self.read(&mut line)? {
+                    return Ok(None);
+                }
+            }
         }
-        self.lines += 1;
-        let whole = line.strip_suffix('\n').map(ToOwned::to_owned);
-        let Some(whole) = whole else {
+        let Some(whole) = line.strip_suffix('\n') else {
             return Err(miette!(
                 help = "continue the share with --resume: it computes the incomplete row again",
                 "{} contains an incomplete row: \"{}\"",
@@ -66,13 +94,10 @@ impl Part {
                 plain::cut(line.trim_end())
             ));
         };
-        match store::row(self.form, &self.header.columns, &whole) {
-            Some((index, _)) => Ok(Some((index, whole))),
-            None => Err(store::damaged(
-                &format!("{} cannot be merged", plain::path(&self.path)),
-                self.lines,
-                &whole,
-            )),
+        let columns = self.header.as_ref().map(|header| header.columns.as_slice());
+        match store::row(self.form, columns.unwrap_or_default(), whole) {
+            Some((index, _)) => Ok(Some((index, whole.to_owned()))),
+            None => Err(self.damaged(whole)),
         }
     }
 }
@@ -86,18 +111,23 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
         .iter()
         .map(|path| Part::open(path))
         .collect::<Result<Vec<_>>>()?;
-    let Some(first) = parts.first() else {
+    if parts.is_empty() {
         return Err(miette!("name the files to merge"));
+    }
+    let with_rows = parts
+        .iter()
+        .find_map(|part| Some((part, part.header.as_ref()?)));
+    let Some((first, header)) = with_rows else {
+        return Err(miette!(
+            help = "name all shares",
+            "none of the files contains a row"
+        ));
     };
     for part in &parts {
-        if let Some(words) = first.header.difference(&part.header) {
-            return Err(miette!(
-                help = "merge shares of one study only",
-                "{} and {} come from different studies: they differ in {words}",
-                plain::path(&first.path),
-                plain::path(&part.path)
-            ));
-        }
+        let words = match &part.header {
+            Some(other) => header.difference(other),
+            None => (part.names != first.names).then(|| "the columns".to_owned()),
+        };
         if part.form != first.form {
             return Err(miette!(
                 help = "use one --format for all shares",
@@ -106,12 +136,22 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
                 plain::path(&part.path)
             ));
         }
+        if let Some(words) = words {
+            return Err(miette!(
+                help = "merge shares of one study only",
+                "{} and {} come from different studies: they differ in {words}",
+                plain::path(&first.path),
+                plain::path(&part.path)
+            ));
+        }
     }
+    let form = first.form;
     let header = Header {
         shard: None,
-        ..first.header.clone()
+        ..header.clone()
     };
-    let front = store::lines(&header, first.form)?;
+    let study = store::study(&header)?;
+    let front = form.front(&study, &header.columns);
     output::check([("the first argument", &Some(out.to_owned()))])?;
     let failed = |error: Error| match error.kind() {
         ErrorKind::AlreadyExists => miette!(
@@ -123,7 +163,7 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
     };
     let mut file = BufWriter::new(Output::create_new(out).map_err(failed)?);
     file.write_all(front.as_bytes()).map_err(failed)?;
-    let rows = rows(&mut parts, header.rows, &mut file)?;
+    let rows = rows(&mut parts, &header, &study, &mut file)?;
     let file = file
         .into_inner()
         .map_err(|error| failed(error.into_error()))?;
@@ -132,13 +172,17 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
 }
 
 /// Writes the rows in order, each exactly once.
-fn rows(parts: &mut [Part], count: u64, out: &mut impl Write) -> Result<u64> {
+fn rows(parts: &mut [Part], header: &Header, study: &str, out: &mut impl Write) -> Result<u64> {
+    let count = header.rows;
     let mut heap = BinaryHeap::new();
     for (k, part) in parts.iter_mut().enumerate() {
         if let Some((index, line)) = part.next()? {
             heap.push(Reverse((index, k, line)));
         }
     }
+    let is_csv = parts
+        .first()
+        .is_some_and(|part| part.form == RowFormat::Csv);
     let mut expected = 0;
     while let Some(Reverse((index, k, line))) = heap.pop() {
         if index > expected {
@@ -152,7 +196,12 @@ fn rows(parts: &mut [Part], count: u64, out: &mut impl Write) -> Result<u64> {
                 path.unwrap_or_default()
             ));
         }
-        writeln!(out, "{line}").into_diagnostic()?;
+        // The first row of a share names the share's study, the first of all that of the whole.
+        let line = match RowFormat::study_of(&line) {
+            Some((_, cells)) if is_csv => with_study(cells, (index == 0).then_some(study)),
+            _ => line + "\n",
+        };
+        out.write_all(line.as_bytes()).into_diagnostic()?;
         expected += 1;
         if let Some(part) = parts.get_mut(k)
             && let Some((index, line)) = part.next()?

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::store;
 use crate::busy;
+use crate::output;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
@@ -80,6 +81,8 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         RowFormat::Table if plan.out.is_some() => RowFormat::Csv,
         form => form,
     };
+    let study = store::study(&header)?;
+    let front = form.front(&study, &header.columns);
     let mut done = 0;
     let mut sink: Option<Box<dyn Write>> = match &plan.out {
         Some(path) if plan.resume && path.is_file() => {
@@ -87,15 +90,15 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             done = rows;
             Some(Box::new(file))
         }
-        Some(path) => Some(Box::new(store::begin(path, &store::lines(&header, form)?)?)),
+        Some(path) => Some(Box::new(store::begin(path, &front)?)),
         None if form == RowFormat::Table => None,
         None => {
-            let mut out = std::io::stdout();
-            let _ = out.write_all(store::lines(&header, form)?.as_bytes());
+            let mut out = output::stdout()?;
+            let _ = out.write_all(front.as_bytes());
             Some(Box::new(out))
         }
     };
-    busy::end();
+    busy::rows(done, of);
     let bar = bar(of, done);
     let block = BLOCK * rayon::current_num_threads() as u64;
     while done < of && !STOP.load(Ordering::Relaxed) {
@@ -104,13 +107,15 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             .map(|k| {
                 let row = (!STOP.load(Ordering::Relaxed)).then(|| task.row(shard.row(k)));
                 bar.inc(1);
+                busy::row();
                 row
             })
             .collect();
         let mut text = String::new();
         for cells in rows.into_iter().map_while(|row| row) {
             let index = shard.row(done);
-            text += &form.line(&header.columns, index, &cells);
+            let study = (done == 0).then_some(study.as_str());
+            text += &form.line(&header.columns, (index, &cells), study);
             seen(index, &cells);
             done += 1;
         }
@@ -125,6 +130,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         }
     }
     bar.finish_and_clear();
+    busy::end();
     Ok(Ended { rows: done, of })
 }
 

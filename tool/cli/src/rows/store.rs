@@ -1,6 +1,7 @@
 //! The file of a study's rows: a header that identifies the study, then one line per row, in order.
 //!
-//! The header is a JSON object on the first line (in CSV behind `# `). It contains digests of machine and catalogue, so that
+//! The header is a JSON object: in JSON the first line, in CSV the cell `study` of the first row, so that spreadsheets and data
+//! frames read the file as it is. It contains digests of machine and catalogue, so that
 //! rows of different studies are never mixed. A file that was cut off while it was written is one of fewer rows. So it is
 //! written where it belongs, unlike other outputs; it begins only where no file is, and is continued only if it is of this
 //! study.
@@ -25,34 +26,35 @@ fn no_rows(path: &Path) -> Report {
     )
 }
 
-/// The lines in front of the rows.
+/// The header as text.
 ///
 /// # Errors
 /// None that can be provoked.
-pub fn lines(header: &Header, form: RowFormat) -> Result<String> {
-    let json = serde_json::to_string(header).into_diagnostic()?;
-    Ok(format!(
-        "{}{json}\n{}",
-        form.mark(),
-        form.names(&header.columns)
-    ))
+pub fn study(header: &Header) -> Result<String> {
+    serde_json::to_string(header).into_diagnostic()
 }
 
-/// Reads a header from the first line of a file.
+/// How the rows of a file are written, by its first line.
 ///
 /// # Errors
-/// A line that is none.
-pub fn parse(line: &str, path: &Path) -> Result<(Header, RowFormat)> {
-    let form = if line.starts_with("# ") {
-        RowFormat::Csv
-    } else {
-        RowFormat::Json
-    };
-    let json = line.strip_prefix(form.mark()).unwrap_or(line);
+/// A line that begins no file of rows.
+pub fn form(line: &str, path: &Path) -> Result<RowFormat> {
+    match line {
+        _ if line.starts_with('{') => Ok(RowFormat::Json),
+        _ if line.starts_with("row,") && line.ends_with(",study,check") => Ok(RowFormat::Csv),
+        _ => Err(no_rows(path)),
+    }
+}
+
+/// Reads a header.
+///
+/// # Errors
+/// A text that is none.
+pub fn parse(json: &str, path: &Path) -> Result<Header> {
     let header: Header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
     // Otherwise no row that is written below it could be read again.
     if header.columns.iter().all(|name| is_clean(name)) {
-        Ok((header, form))
+        Ok(header)
     } else {
         Err(no_rows(path))
     }
@@ -96,23 +98,24 @@ pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> R
 /// A file that exists or cannot be written.
 pub fn begin(path: &Path, lines: &str) -> Result<File> {
     let device = path.metadata().is_ok_and(|old| !old.is_file());
-    let mut file = OpenOptions::new()
-        .write(true)
-        .create_new(!device)
-        .open(path)
-        .map_err(|error| match error.kind() {
-            std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
-                help = "name the file itself, or remove the link",
-                "{} is a symbolic link that leads nowhere: no file begins behind it",
-                plain::path(path)
-            ),
-            std::io::ErrorKind::AlreadyExists => miette!(
-                help = "continue it with --resume, or choose another file",
-                "{} already exists: not overwritten",
-                plain::path(path)
-            ),
-            _ => output::failed(path, &error),
-        })?;
+    let file = if device {
+        output::patiently(path, output::PATIENCE)
+    } else {
+        OpenOptions::new().write(true).create_new(true).open(path)
+    };
+    let mut file = file.map_err(|error| match error.kind() {
+        std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
+            help = "name the file itself, or remove the link",
+            "{} is a symbolic link that leads nowhere: no file begins behind it",
+            plain::path(path)
+        ),
+        std::io::ErrorKind::AlreadyExists => miette!(
+            help = "continue it with --resume, or choose another file",
+            "{} already exists: not overwritten",
+            plain::path(path)
+        ),
+        _ => output::failed(path, &error),
+    })?;
     file.write_all(lines.as_bytes())
         .map_err(|error| output::failed(path, &error))?;
     Ok(file)
@@ -144,7 +147,7 @@ pub fn resume(
     seen: &mut dyn FnMut(u64, &[Cell]),
 ) -> Result<(File, u64)> {
     let shown = plain::path(path);
-    let lines = lines(header, form)?;
+    let front = form.front(&study(header)?, &header.columns);
     let mut file = OpenOptions::new()
         .read(true)
         .write(true)
@@ -152,65 +155,72 @@ pub fn resume(
         .into_diagnostic()
         .wrap_err_with(|| format!("cannot read {shown}"))?;
     let mut reader = BufReader::new(&file);
-    let (mut front, mut line) = (String::new(), String::new());
+    let mut line = String::new();
     let (mut end, mut rows) = (0u64, 0u64);
-    let mut number = 0usize;
-    let fronts = lines.lines().count();
+    let mut number = 0u64;
+    let same = |found: &Header| {
+        if let Some(words) = header.difference(found) {
+            return Err(miette!(
+                help = "repeat the command that started the file, or write to another file",
+                "{shown} cannot be continued: it differs in {words}"
+            ));
+        }
+        if found.share() != header.share() {
+            return Err(other_form(&shown));
+        }
+        Ok(())
+    };
     loop {
         if !read_line(&mut reader, &mut line, path)? || !line.ends_with('\n') {
             break;
         }
         let text = line.trim_end_matches('\n');
-        if number == 0 {
-            let (found, found_form) = parse(text, path)?;
-            if let Some(words) = header.difference(&found) {
-                return Err(miette!(
-                    help = "repeat the command that started the file, or write to another file",
-                    "{shown} cannot be continued: it differs in {words}"
-                ));
+        number += 1;
+        if number == 1 {
+            let found = self::form(text, path)?;
+            if found == RowFormat::Json {
+                same(&parse(text, path)?)?;
             }
-            if found_form != form || found.share() != header.share() {
-                return Err(miette!(
-                    help = "repeat --format and --shard of the command that started the file",
-                    "{shown} cannot be continued: it has another format or contains another share"
-                ));
+            if found != form {
+                return Err(other_form(&shown));
             }
-        } else if number >= fronts {
+        } else {
+            if let (2, RowFormat::Csv, Some((found, _))) = (number, form, RowFormat::study_of(text))
+            {
+                same(&parse(&found, path)?)?;
+            }
             let expected = header.share().row(rows);
             let Some((index, cells)) = row(form, &header.columns, text) else {
                 let what = format!("{shown} cannot be continued");
-                return Err(damaged(&what, number as u64 + 1, text));
+                return Err(damaged(&what, number, text));
             };
             if index != expected {
                 return Err(miette!(
                     help = "write to another file",
-                    "{shown} cannot be continued: line {} should be row {expected}",
-                    number + 1
+                    "{shown} cannot be continued: line {number} should be row {expected}"
                 ));
             }
             seen(expected, &cells);
             rows += 1;
         }
-        if number < fronts {
-            front += &line;
-        }
         end += line.len() as u64;
-        number += 1;
     }
     drop(reader);
-    // A header that was cut off is written again.
-    if number < fronts {
-        front += &line;
-        if !lines.starts_with(&front) {
-            return Err(no_rows(path));
-        }
-        end = 0;
-        rows = 0;
+    // A first line that was cut off is written again.
+    if number == 0 && !front.starts_with(&line) {
+        return Err(no_rows(path));
     }
     file.set_len(end).into_diagnostic()?;
     file.seek(SeekFrom::Start(end)).into_diagnostic()?;
-    if number < fronts {
-        file.write_all(lines.as_bytes()).into_diagnostic()?;
+    if number == 0 {
+        file.write_all(front.as_bytes()).into_diagnostic()?;
     }
     Ok((file, rows))
+}
+
+fn other_form(shown: &str) -> Report {
+    miette!(
+        help = "repeat --format and --shard of the command that started the file",
+        "{shown} cannot be continued: it has another format or contains another share"
+    )
 }

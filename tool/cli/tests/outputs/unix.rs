@@ -86,7 +86,11 @@ fn page_of_another_user(folder: &Folder, mode: u32) -> (i32, String) {
     permit(&machine, 0o644);
     permit(&root, mode);
     let mut command = Command::new(&jred);
-    command.env("NO_COLOR", "1").arg("reduce").arg(&machine);
+    command
+        .env("NO_COLOR", "1")
+        .env("JRED_PROGRESS", "never")
+        .arg("reduce")
+        .arg(&machine);
     command.arg("--report").arg(folder.path("r.html"));
     if root.metadata().unwrap().uid() == 0 {
         command.uid(65534).gid(65534);
@@ -240,6 +244,7 @@ fn what_does_not_end_is_given_up() {
         let run = Command::new(env!("CARGO_BIN_EXE_jred"))
             .args(arguments)
             .env("NO_COLOR", "1")
+            .env("JRED_PROGRESS", "never")
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
@@ -273,4 +278,92 @@ fn a_machine_may_come_from_a_pipe() {
         "{}",
         String::from_utf8_lossy(&run.stderr)
     );
+}
+
+/// A message that cannot be written is dropped: the exit code and the outputs stay.
+#[test]
+fn a_message_that_nobody_reads_is_dropped() {
+    let folder = Folder::new();
+    let full = || {
+        std::fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap()
+    };
+    let run = |arguments: &[&str], stderr: Stdio| {
+        Command::new(env!("CARGO_BIN_EXE_jred"))
+            .args(arguments)
+            .stdout(Stdio::null())
+            .stderr(stderr)
+            .status()
+            .unwrap()
+            .code()
+    };
+    let closed = || {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        Stdio::from(writer)
+    };
+    for stderr in [Stdio::from(full()), closed()] {
+        assert_eq!(run(&["check", "nosuch.toml"], stderr), Some(2));
+    }
+    // It warns, and its report is written.
+    let page = folder.path("page.html");
+    let press = press_file();
+    let arguments = [
+        "fastest",
+        press.to_str().unwrap(),
+        "--torque",
+        "60 N m",
+        "--report",
+        page.to_str().unwrap(),
+    ];
+    let quiet = run(&arguments, Stdio::null());
+    std::fs::remove_file(&page).unwrap();
+    assert_eq!(run(&arguments, Stdio::from(full())), quiet);
+    assert!(page.is_file());
+}
+
+/// `jred reduce F >> F` leaves F as it is.
+#[test]
+fn an_input_is_not_appended_to() {
+    let folder = Folder::new();
+    let file = folder.file("press.toml", press_text());
+    let before = std::fs::read(&file).unwrap();
+    for command in [
+        &["reduce"][..],
+        &["check"],
+        &["vary", "--vary", "crank.length=30mm", "--format", "csv"],
+    ] {
+        let appended = std::fs::OpenOptions::new()
+            .append(true)
+            .open(&file)
+            .unwrap();
+        let run = Command::new(env!("CARGO_BIN_EXE_jred"))
+            .args(command)
+            .arg(&file)
+            .stdout(appended)
+            .output()
+            .unwrap();
+        assert_eq!(run.status.code(), Some(2), "{command:?}");
+        let message = String::from_utf8_lossy(&run.stderr).replace([' ', '\n', '│'], "");
+        assert!(message.contains("whichthiscommandreads"), "{message}");
+        assert_eq!(std::fs::read(&file).unwrap(), before, "{command:?}");
+    }
+}
+
+/// A pipe that nobody reads is given up.
+#[test]
+fn a_pipe_without_a_reader_is_given_up() {
+    let folder = Folder::new();
+    let pipe = folder.path("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let error = jred_cli::output::patiently(&pipe, std::time::Duration::from_millis(20));
+    assert_eq!(error.unwrap_err().kind(), ErrorKind::TimedOut);
 }

@@ -30,6 +30,8 @@ pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"));
     command
         .env("NO_COLOR", "1")
+        // How long a command takes is nobody's message.
+        .env("JRED_PROGRESS", "never")
         .env_remove("CLICOLOR_FORCE")
         .env_remove("FORCE_COLOR");
     command.args(arguments);

@@ -5,7 +5,7 @@ use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Reduction};
 
-use crate::analysis::mechanics::Mechanics;
+use crate::analysis::mechanics::{Held, Mechanics, Rest, constant_loads};
 use crate::model::drive_train::DriveTrain;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
@@ -279,17 +279,21 @@ impl Duty {
         }
         insert_extremes(&mut moving, &mut instants, &mut smooth)?;
         let ratio = file.drive_train.ratio();
-        let (mut hold_torque, mut unheld) = (0.0f64, 0.0f64);
+        let (mut weights, mut unheld) = (Vec::new(), 0.0f64);
         for (_, reduction) in file.over_range()? {
-            let slope = reduction.potential_slope.abs();
-            hold_torque = hold_torque.max(slope / ratio.abs());
-            unheld = unheld.max(slope - reduction.coulomb);
+            weights.push(reduction.potential_slope);
+            unheld = unheld.max(reduction.potential_slope.abs() - reduction.coulomb);
         }
-        let at_rest = instants.iter().filter(|i| i.omega == 0.0);
-        let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
         let laden = instants.iter().filter(|i| file.schedule.is_laden(i.t));
-        let held = held.chain(laden.map(|i| (i.terms.potential / ratio).abs()));
-        let hold_torque = held.fold(hold_torque, f64::max);
+        weights.extend(laden.map(|i| i.terms.potential));
+        let held = Held {
+            instants: &instants,
+            constant: &constant_loads(file, &instants)?,
+            duration,
+            cyclic: file.motion.as_ref().is_some_and(|m| m.cyclic),
+        };
+        let rest = Rest::new(&held, weights.into_iter()).times(1.0 / ratio.abs());
+        let hold_torque = rest.largest();
         let mut looked_at = None;
         for at_rest in instants.iter().filter(|i| i.omega == 0.0) {
             // A dwell has many instants at one place.
@@ -302,7 +306,7 @@ impl Duty {
         let largest = (instants.iter()).fold(0.0, |most, i| f64::max(most, i.terms.total().abs()));
         let mechanics = Mechanics {
             falls: unheld > UNHELD * largest,
-            ..Mechanics::new(file, &instants, duration, hold_torque)
+            ..Mechanics::new(file, &instants, duration, rest)
         };
         Ok(Self {
             instants,

@@ -4,12 +4,17 @@ use jred::machine::Mechanism as _;
 use jred::{Domain, Reducible as _};
 
 use crate::analysis::duty::Instant;
+use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::site::ToolPlace;
 
 mod moves;
+mod rest;
+mod run_on;
 mod stop;
 
+pub use rest::{Held, Rest, constant_loads};
+pub use run_on::{Closing, RunOn, Stopped};
 pub use stop::{Braking, Stop};
 
 /// Figures of machine and motion at the input of the drive train, that is at the gearbox output.
@@ -22,9 +27,8 @@ pub struct Mechanics {
     /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed,
     /// or one over the time of the shortest move; the higher of the two.
     pub drive_frequency: f64,
-    /// Largest torque at rest (N·m), at which the machine would begin to move on: the friction of the drive train may point
-    /// either way.
-    pub holding: f64,
+    /// Torques at rest, at which the machine would begin to move on: the friction of the drive train may point either way.
+    pub rest: Rest,
     /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it:
     /// without acceleration and process loads.
     pub constant: [f64; 2],
@@ -33,6 +37,10 @@ pub struct Mechanics {
     pub falls: bool,
     /// States from which an emergency stop may begin.
     pub stop: Stop,
+    /// States from which the brake may have to stop the machine.
+    pub run_on: RunOn,
+    /// Whether the drive link slides.
+    pub slides: bool,
     /// Drive ratio: speed at the input over that of the drive link, without sign.
     pub train_ratio: f64,
     /// Largest |x′| of the tool over the motion, per rad (or m) of the drive link; `None` without a tool.
@@ -40,8 +48,8 @@ pub struct Mechanics {
 }
 
 impl Mechanics {
-    /// The figures of a motion.
-    pub fn new(file: &MachineFile, instants: &[Instant], duration: f64, hold_torque: f64) -> Self {
+    /// The figures of a motion; `rest`: the torques at rest without losses.
+    pub fn new(file: &MachineFile, instants: &[Instant], duration: f64, rest: Rest) -> Self {
         let moves = moves::Moves::of(
             instants,
             duration,
@@ -60,20 +68,21 @@ impl Mechanics {
             move_rate: f64::from(count) / duration,
             drive_frequency: turning.max(shortest),
             tool_slope: tool_slope(file, instants),
+            slides: file.machine.mechanism().coordinate() == Coordinate::Length,
             ..Self::default()
         };
-        motion.with_loads(file, instants, 1.0, hold_torque)
+        motion.with_loads(file, instants, 1.0, rest)
     }
 
     /// The figures of the same motion in `time` times its time, under other loads: those of `instants`, which may be some of its
-    /// instants only.
+    /// instants only. `rest`: the torques at rest without losses.
     #[must_use]
     pub fn with_loads(
         &self,
         file: &MachineFile,
         instants: &[Instant],
         time: f64,
-        hold_torque: f64,
+        rest: Rest,
     ) -> Self {
         let ratio = file.drive_train.ratio().abs();
         let efficiency = file.drive_train.efficiency();
@@ -91,7 +100,9 @@ impl Mechanics {
             moves: self.moves,
             move_rate: self.move_rate / time,
             drive_frequency: self.drive_frequency / time,
-            holding: hold_torque / efficiency,
+            run_on: RunOn::of(instants, ratio, rest.largest()),
+            slides: self.slides,
+            rest: rest.times(1.0 / efficiency),
             constant,
             falls: self.falls,
             stop: Stop::of(instants, ratio),

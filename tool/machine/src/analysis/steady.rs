@@ -1,8 +1,10 @@
-//! `jred steady`: the motion that repeats turn by turn under a motor's characteristic, and the flywheel that smooths it.
+//! `jred steady`: the motion that repeats cycle by cycle, of a turn or several, under a motor's characteristic, and the flywheel that smooths it.
 //!
-//! With one degree of freedom and J > 0 the kinetic energy at the end of a turn is a function of that at its start, one number of
-//! one number, and the steady cycle is where the two are equal. No transient is waited for.
+//! With one degree of freedom and J > 0 the kinetic energy at the end of a cycle is a function of that at its start, one number of
+//! one number, and the steady cycle is where the two are equal. No transient is waited for. Who drives does not matter: a motor, or a process
+//! against a motor that brakes.
 
+mod aim;
 mod cycle;
 mod error;
 mod figures;
@@ -10,6 +12,7 @@ mod flywheel;
 mod start;
 mod turn;
 
+pub use aim::{Held, Level, MeanSpeed};
 pub use cycle::{Cycle, Missing};
 pub use error::SteadyError;
 pub use figures::Figures;
@@ -19,24 +22,41 @@ pub use start::Start;
 use jred::{Domain, Reducible as _};
 
 use crate::analysis::simulate::Together;
+use crate::analysis::simulate::run::HAIR;
 use crate::model::by_motion::ByMotion;
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, least_common_multiple};
 use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
 use crate::number::rounding::{rounded, short};
 use crate::units::RPM;
+use aim::Search;
 use turn::Turning;
 
 /// Share by which the turns of a machine may miss a whole number: rounding.
 const WHOLE: f64 = 1e-12;
 
 /// What is asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Request {
     /// Coefficient of speed fluctuation that a flywheel is to reach.
     pub delta: Option<f64>,
-    /// Positions in the list.
+    /// A mean speed, and what is scaled for it.
+    pub mean_speed: Option<MeanSpeed>,
+    /// Turns of the drive link in a cycle; `None`: as many as the loads need.
+    pub turns: Option<u32>,
+    /// Positions in the list, for each turn.
     pub positions: usize,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self {
+            delta: None,
+            mean_speed: None,
+            turns: None,
+            positions: 36,
+        }
+    }
 }
 
 /// The steady motion of a machine.
@@ -90,63 +110,123 @@ pub fn steady_together(
             range: format!("{} to {}", coordinate.place(from), coordinate.place(to)),
         });
     }
+    let turns = turns(machines, request)?;
     for machine in machines.all() {
         if let Some(ByMotion { what, cure }) = machine.file.scheduled().next() {
             return Err(SteadyError::Scheduled { what, cure });
         }
-        let turns = machine.ratio().abs();
-        if (turns - turns.round()).abs() > WHOLE * turns || turns < 0.5 {
+        let own = machine.ratio().abs() * f64::from(turns);
+        if (own - own.round()).abs() > WHOLE * own || own < 0.5 {
             return Err(SteadyError::NotWhole {
                 title: machine.file.title.clone(),
-                turns: short(turns),
+                turns: short(own),
+                of_first: turns,
             });
         }
     }
     let motor = simulation.own_motor().ok_or(SteadyError::NoMotor)?;
-    let direction = direction(machines, simulation, motor)?;
-    let turning = Turning::new(machines, simulation, motor, direction)?;
-    let cycle = Cycle::of(&turning, request.positions);
+    let mean_speed = request.mean_speed.as_ref();
+    let search = Search {
+        simulation,
+        motor,
+        direction: match mean_speed {
+            Some(aim) => aim.speed.signum(),
+            None => direction(machines, simulation, motor, turns)?,
+        },
+        turns,
+        mean_speed,
+    };
+    let positions = request.positions;
+    let settled = simulation.winding.is_some();
     let Some(delta) = request.delta else {
+        let cycle = search.with(machines, None, |turning, ended| {
+            Cycle::of(turning, ended, positions)
+        })?;
         return Ok(Steady {
-            cycle: Ok(cycle?),
+            cycle: Ok(cycle),
             flywheel: None,
-            settled: simulation.winding.is_some(),
+            settled,
         });
     };
-    match cycle {
-        Err(why) if !why.is_standstill() => Err(why),
-        cycle => {
-            let own = cycle.as_ref().ok();
-            let flywheel = Flywheel::of(&turning, simulation, own, delta, request.positions)?;
-            Ok(Steady {
-                cycle,
-                flywheel: Some(flywheel),
-                settled: simulation.winding.is_some(),
-            })
+    let found = search.with(machines, None, |turning, ended| {
+        let guess = ended.guess;
+        let cycle = Cycle::of(turning, ended, positions);
+        if let Err(why) = &cycle
+            && !why.is_standstill()
+        {
+            return cycle.map(|_| None);
         }
+        let own = (cycle.as_ref().ok(), guess);
+        let flywheel = Flywheel::of(turning, &search, own, delta, positions)?;
+        Ok(Some((cycle, flywheel)))
+    });
+    let (cycle, flywheel) = match found {
+        Ok(Some(found)) => found,
+        // Not even a cycle's end can be sought without a flywheel.
+        Err(why) if why.is_standstill() => {
+            let turning = Turning::new(machines, simulation, motor, search.direction, turns)?;
+            let flywheel = Flywheel::of(&turning, &search, (None, None), delta, positions)?;
+            (Err(why), flywheel)
+        }
+        Ok(None) => return Err(SteadyError::Integrator),
+        Err(why) => return Err(why),
+    };
+    Ok(Steady {
+        cycle,
+        flywheel: Some(flywheel),
+        settled,
+    })
+}
+
+/// Turns of the first drive link in a cycle.
+fn turns(machines: &Together, request: &Request) -> Result<u32, SteadyError> {
+    let own = machines.all().map(|machine| machine.file.turns());
+    let own = own.fold(1, least_common_multiple);
+    match request.turns {
+        Some(asked) if asked % own != 0 => Err(SteadyError::Turns { own, asked }),
+        Some(asked) => Ok(asked),
+        None => Ok(own),
     }
 }
 
-/// The way the motor drives the drive link: +1 or −1.
+/// The way the machine turns: +1 or −1. That of the motor at rest; else, or where `start_speed` says the other, the way of that, if a motor at
+/// speed or the process drives there.
 fn direction(
     machines: &Together,
     simulation: &Simulation,
     own: OwnMotor,
+    turns: u32,
 ) -> Result<f64, SteadyError> {
-    let ratio = Turning::new(machines, simulation, own, 1.0)?.plant.ratio();
+    let turning = |direction| Turning::new(machines, simulation, own, direction, turns);
+    let process_drives = |direction| -> Result<bool, SteadyError> {
+        let turning = turning(direction)?;
+        Ok(turning.keeping(HAIR)? < -1e-9 * turning.effort(HAIR) / turning.plant.ratio().abs())
+    };
     let motor = own.characteristic;
-    let at_rest = motor.torque(0.0) * ratio;
+    let at_rest = motor.torque(0.0) * turning(1.0)?.plant.ratio();
     let asked = simulation.start_speed;
     if at_rest == 0.0 {
         // A motor that is started by hand.
         let drives = |speed: &f64| motor.torque(*speed) * speed > 0.0;
-        return if asked != 0.0 && motor.marks().iter().any(drives) {
-            Ok(asked.signum())
+        if asked != 0.0 && motor.marks().iter().any(drives) {
+            return Ok(asked.signum());
+        }
+        let ways = if asked == 0.0 {
+            [1.0, -1.0]
         } else {
-            Err(SteadyError::NoTorque)
+            [asked.signum(); 2]
         };
+        for way in ways {
+            if process_drives(way)? {
+                return Ok(way);
+            }
+        }
+        return Err(SteadyError::NoTorque);
     }
     if asked * at_rest < 0.0 {
+        if process_drives(asked.signum())? {
+            return Ok(asked.signum());
+        }
         return Err(SteadyError::WrongSign {
             torque: torque(motor.torque(0.0)),
             speed: speed(asked),

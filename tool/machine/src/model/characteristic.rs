@@ -30,6 +30,24 @@ impl Characteristic {
         Self::Points(vec![(0.0, torque)])
     }
 
+    /// So many times the torque at every speed.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Self::Points(points) => {
+                for (_, torque) in points {
+                    *torque *= factor;
+                }
+            }
+            Self::Dc { stall_torque, .. } => *stall_torque *= factor,
+            Self::Induction {
+                breakdown_torque, ..
+            } => *breakdown_torque *= factor,
+        }
+        scaled
+    }
+
     /// Torque (N·m) at a speed (rad/s).
     pub fn torque(&self, speed: f64) -> f64 {
         match self {
@@ -47,6 +65,25 @@ impl Characteristic {
                 let (own, squared) = (slip * breakdown_slip, slip * slip);
                 2.0 * breakdown_torque * own / (squared + breakdown_slip * breakdown_slip)
             }
+        }
+    }
+
+    /// Speeds (rad/s) at which the curve has a corner, or crosses zero.
+    pub fn bends(&self) -> Vec<f64> {
+        match self {
+            Self::Points(points) => {
+                let crossing = points.windows(2).filter_map(|pair| {
+                    let [(from, a), (to, b)] = [pair[0], pair[1]];
+                    (a * b < 0.0).then(|| from + (to - from) * a / (a - b))
+                });
+                let corners = points.iter().map(|(speed, _)| *speed);
+                let corners = corners.filter(|_| points.len() > 1);
+                corners.chain(crossing).collect()
+            }
+            Self::Dc { no_load_speed, .. } => vec![*no_load_speed],
+            Self::Induction {
+                synchronous_speed, ..
+            } => vec![*synchronous_speed],
         }
     }
 

@@ -45,8 +45,8 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// What the chain's shaft must give it.
-    fn input(&self, shaft: &TrainOutput) -> TrainInput {
+    /// What the chain's shaft must give it; `seen` is shown each of its stages with what that delivers.
+    fn input(&self, shaft: &TrainOutput, seen: impl FnMut(&Stage, f64)) -> TrainInput {
         let ratio = self.train.ratio();
         let [omega, alpha, direction] =
             [shaft.omega, shaft.alpha, shaft.direction].map(|of| of / ratio);
@@ -56,13 +56,14 @@ impl Branch {
             direction.signum()
         };
         let torque = self.opposing * sense + self.viscous * omega;
-        let mut input = self.train.input(&TrainOutput {
+        let at_end = TrainOutput {
             torque,
             torque_per_alpha: 0.0,
             omega,
             alpha,
             direction,
-        });
+        };
+        let mut input = self.train.input_by_stages(&at_end, seen);
         // By the acceleration of the chain's shaft.
         input.torque_per_alpha /= ratio;
         input.loss += torque * omega;
@@ -73,6 +74,12 @@ impl Branch {
     fn inertia(&self) -> f64 {
         self.train.inertia_at_input()
     }
+}
+
+/// A stage of the chain, or of a branch.
+enum Of<'a> {
+    Chain(&'a Stage),
+    Branch(&'a Stage),
 }
 
 /// The fixed stages between the motor and the drive link, with what is driven beside it.
@@ -159,26 +166,52 @@ impl DriveTrain {
         if self.branches.is_empty() {
             return self.chain.input(output);
         }
-        self.walk(output, |_| ())
+        self.walk(output, |_, _| ())
     }
 
     /// The torque that each stage delivers to the shaft behind it (N·m), in order from the motor.
     pub fn delivered(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::with_capacity(self.steps.len());
-        self.walk(output, |torque| delivered.push(torque));
+        self.walk(output, |of, torque| {
+            if let Of::Chain(_) = of {
+                delivered.push(torque);
+            }
+        });
         delivered.reverse();
         delivered
     }
 
-    /// From the output shaft to the input; `seen` is told what each stage delivers.
-    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(f64)) -> TrainInput {
+    /// Whether a stage has losses, whose sense changes with that of its power.
+    pub fn has_losses(&self) -> bool {
+        let branches = self
+            .branches
+            .iter()
+            .flat_map(|branch| branch.train.stages());
+        let mut all = self.stages().iter().chain(branches);
+        all.any(|stage| stage.efficiency() < 1.0)
+    }
+
+    /// The torque that each stage with losses delivers, in the chain and in the branches, always in the same order.
+    pub fn delivered_with_losses(&self, output: &TrainOutput) -> Vec<f64> {
+        let mut delivered = Vec::new();
+        self.walk(output, |of, torque| {
+            let (Of::Chain(stage) | Of::Branch(stage)) = of;
+            if stage.efficiency() < 1.0 {
+                delivered.push(torque);
+            }
+        });
+        delivered
+    }
+
+    /// From the output shaft to the input; `seen` is shown what each stage delivers.
+    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(Of, f64)) -> TrainInput {
         let mut input = TrainInput::default();
         let mut shaft = *output;
         // Per acceleration of the present shaft, which turns `ratio` times as fast as the output.
         let mut ratio = 1.0;
         for k in (0..=self.steps.len()).rev() {
             for branch in self.branches.iter().filter(|branch| branch.shaft == k) {
-                let own = branch.input(&shaft);
+                let own = branch.input(&shaft, |stage, torque| seen(Of::Branch(stage), torque));
                 shaft.torque += own.torque;
                 shaft.torque_per_alpha += own.torque_per_alpha;
                 input.loss += own.loss;
@@ -190,7 +223,7 @@ impl DriveTrain {
                 break;
             };
             let [_, driven] = stage.inertias();
-            seen(shaft.torque + driven * shaft.alpha);
+            seen(Of::Chain(stage), shaft.torque + driven * shaft.alpha);
             let before = step.input(&shaft);
             input.loss += before.loss;
             let i = stage.ratio();

@@ -39,6 +39,8 @@ pub struct MachineFile {
     pub flywheel: f64,
     /// The loads, in the order of the machine's.
     pub loads: Vec<NamedLoad>,
+    /// After how many turns the tables of loads repeat.
+    pub table_turns: u32,
     /// The springs and dampers, in the order of the machine's.
     pub elements: Vec<NamedElement>,
     /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; empty if there is none.
@@ -84,6 +86,13 @@ impl MachineFile {
         } else {
             "input of the drive train"
         }
+    }
+
+    /// After how many turns of the drive link the loads are the same again.
+    pub fn turns(&self) -> u32 {
+        let windows = self.loads.iter().filter_map(|named| named.load.window());
+        let windows = windows.map(|window| window.turns().max(1));
+        windows.fold(self.table_turns, least_common_multiple)
     }
 
     /// The motion of a file that must have one.
@@ -289,6 +298,15 @@ impl MachineFile {
         let ratio = self.drive_train.ratio();
         self.drive_train.inertia_at_input() * ratio * ratio
     }
+}
+
+/// The least number that both divide.
+pub fn least_common_multiple(a: u32, b: u32) -> u32 {
+    let (mut x, mut y) = (a, b);
+    while y > 0 {
+        (x, y) = (y, x % y);
+    }
+    a / x.max(1) * b
 }
 
 /// The machines of a file with its drive train: the one of all times, or those of its schedule.

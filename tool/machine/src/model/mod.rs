@@ -24,3 +24,4 @@ pub mod tabulated;
 pub mod tolerance;
 pub mod variator;
 pub(crate) mod winder;
+mod working;

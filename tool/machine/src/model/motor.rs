@@ -57,6 +57,9 @@ pub trait Motor {
 
     /// Least and largest torque that a controller can command at a speed, continuous in the speed.
     fn limits(&self, speed: f64) -> [f64; 2];
+
+    /// Speeds of its own at which its torque or its limits have a corner, other than 0.
+    fn bends(&self) -> Vec<f64>;
 }
 
 impl<M: Motor + ?Sized> Motor for &M {
@@ -71,6 +74,9 @@ impl<M: Motor + ?Sized> Motor for &M {
     }
     fn limits(&self, speed: f64) -> [f64; 2] {
         (**self).limits(speed)
+    }
+    fn bends(&self) -> Vec<f64> {
+        (**self).bends()
     }
 }
 
@@ -99,5 +105,13 @@ impl Motor for OwnMotor<'_> {
     fn limits(&self, speed: f64) -> [f64; 2] {
         let most = self.characteristic.torque(speed.abs()).max(0.0);
         [-most, most]
+    }
+
+    fn bends(&self) -> Vec<f64> {
+        // The limits are the same in both directions.
+        let own = self.characteristic.bends().into_iter();
+        own.filter(|speed| *speed != 0.0)
+            .flat_map(|speed| [speed, -speed])
+            .collect()
     }
 }

@@ -63,12 +63,20 @@ rules! {
     ConstantTorque, "constant torque" / "constant force", "constant_torque";
     /// Torque that holds the machine at rest against the motor's brake.
     BrakeTorque, "brake torque" / "brake force", "brake_torque";
+    /// Work of the motor's brake in a stop without supply against what it bears.
+    BrakeWork, "brake work", "brake_work";
     /// Inertia ratio λ.
     InertiaRatio, "inertia ratio" / "mass ratio", "inertia_ratio";
     /// Hottest point of the winding over the cycle, as a rise above the ambient temperature.
     WindingTemperature, "winding temperature", "winding_temperature";
     /// Hottest point of the housing, as a rise above the ambient temperature.
     HousingTemperature, "housing temperature", "housing_temperature";
+    /// Temperature of the motor's surroundings against where its derating ends.
+    AmbientTemperature, "ambient temperature", "ambient_temperature";
+    /// Temperature of the amplifier's surroundings against where its derating ends.
+    CabinetTemperature, "cabinet temperature", "cabinet_temperature";
+    /// Altitude against where the derating of motor and amplifier ends.
+    Altitude, "altitude", "altitude";
     /// Largest torque at the gearbox output against T2B.
     GearboxPeak, "gearbox peak torque", "gearbox_peak";
     /// Root-mean-cube torque at the gearbox output against T2N.

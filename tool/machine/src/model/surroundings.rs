@@ -11,6 +11,8 @@ pub const LOW: f64 = 1000.0;
 pub struct Surroundings {
     /// Temperature (°C).
     pub ambient: f64,
+    /// Temperature around the amplifier, as in its cabinet (°C); `None`: that of the motor.
+    pub cabinet: Option<f64>,
     /// Altitude above sea level (m).
     pub altitude: f64,
     /// Temperature at which the copper's resistance is taken (°C); `None`: that of the winding at every instant.
@@ -23,6 +25,7 @@ impl Default for Surroundings {
     fn default() -> Self {
         Self {
             ambient: REFERENCE,
+            cabinet: None,
             altitude: 0.0,
             resistance_at: None,
             housing: None,
@@ -31,6 +34,11 @@ impl Default for Surroundings {
 }
 
 impl Surroundings {
+    /// Temperature around the amplifier (°C).
+    pub fn around_amplifier(&self) -> f64 {
+        self.cabinet.unwrap_or(self.ambient)
+    }
+
     /// The share of a rise that thin air leaves: 1 % less for every 100 m above 1000 m.
     pub fn altitude_factor(&self) -> f64 {
         1.0 - (self.altitude - LOW).max(0.0) / 1e4

@@ -69,6 +69,14 @@ impl Adhesion {
         Ok(Self::Curve(spline))
     }
 
+    /// Slips at which its torque has a corner.
+    pub fn bends(&self) -> [f64; 2] {
+        match self {
+            Self::Line(contact) => [-1.0, 1.0].map(|side| side * contact.limit().slip),
+            Self::Curve(curve) => curve.range(),
+        }
+    }
+
     /// What the contact does at the speeds of its two surfaces, as angular speeds of the output shaft (rad/s).
     pub fn traction(&self, first: f64, second: f64) -> Traction {
         match self {

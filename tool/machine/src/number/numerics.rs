@@ -191,7 +191,8 @@ fn halved<E>(
     let middle = a.midpoint(b);
     let [left, right] = [gauss(f, [a, middle])?, gauss(f, [middle, b])?];
     let left_over = halvings.get();
-    if depth == 0 || left_over == 0 || (left + right - whole).abs() <= tolerance {
+    let rounding = 2.0 * f64::EPSILON * (left.abs() + right.abs());
+    if depth == 0 || left_over == 0 || (left + right - whole).abs() <= tolerance.max(rounding) {
         return Ok(left + right);
     }
     halvings.set(left_over - 1);

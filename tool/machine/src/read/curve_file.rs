@@ -30,6 +30,8 @@ pub(super) struct Rows {
     pub(super) of: String,
     /// Whether they may cover a part of it only.
     pub(super) partly: bool,
+    /// After how many turns they repeat, if they are over a turn.
+    pub(super) turns: u32,
 }
 
 impl Rows {
@@ -39,6 +41,29 @@ impl Rows {
             domain: drive.domain,
             of: "the drive link".to_owned(),
             partly: false,
+            turns: 1,
+        }
+    }
+
+    /// After how many turns they repeat; 0: never.
+    pub(super) fn repeats(&self) -> u32 {
+        match self.domain {
+            Domain::Turn => self.turns,
+            Domain::Stroke { .. } => 0,
+        }
+    }
+
+    /// The way after which they repeat (rad).
+    fn period(&self) -> f64 {
+        f64::from(self.turns) * TAU
+    }
+
+    /// The same in words.
+    fn whole(&self) -> String {
+        if self.turns == 1 {
+            "turn".to_owned()
+        } else {
+            format!("{} turns", self.turns)
         }
     }
 }
@@ -48,8 +73,10 @@ pub(super) struct Positions<'c> {
     columns: &'c Columns,
     /// Positions of the rows that count (rad or m).
     x: &'c [f64],
-    /// Whether the range is a turn.
+    /// Whether the range is a turn, or several.
     turn: bool,
+    /// The way after which they repeat then (rad).
+    period: f64,
     /// Whether the last row is the first, a turn later.
     closing: bool,
 }
@@ -103,28 +130,36 @@ impl<'c> Positions<'c> {
                 columns,
                 x,
                 turn,
+                period: 0.0,
                 closing: false,
             });
         }
-        let open = first + TAU - last;
-        let closing = open.abs() <= ROUNDING * TAU;
+        let (period, whole) = (rows.period(), rows.whole());
+        let open = first + period - last;
+        let closing = open.abs() <= ROUNDING * period;
         let widest = x
             .windows(2)
             .map(|pair| pair[1] - pair[0])
             .fold(0.0, f64::max);
         if !closing && (open < 0.0 || open > OPEN * widest) {
             return Err(Problem::new(format!(
-                "the rows cover {} of a turn, from {} to {}",
+                "the rows cover {} of {}, from {} to {}",
                 shown(last - first),
+                if rows.turns == 1 { "a turn" } else { &whole },
                 shown(first),
                 shown(last)
             ))
             .at(columns.place(0), "first row")
             .at(columns.place(columns.rows() - 1), "last row")
-            .help(
+            .help(if rows.turns == 1 {
                 "for a drive link that turns fully, give rows over exactly one turn: up to the first position plus one \
-                 turn, or one step before it; for a part of a turn write range = \"stroke\"",
-            ));
+                 turn, or one step before it; for a part of a turn write range = \"stroke\""
+                    .to_owned()
+            } else {
+                format!(
+                    "give rows over exactly {whole}: up to the first position plus {whole}, or one step before it"
+                )
+            }));
         }
         let count = x.len() - usize::from(closing);
         if count < MIN_POINTS {
@@ -138,6 +173,7 @@ impl<'c> Positions<'c> {
             columns,
             x: &x[..count],
             turn,
+            period,
             closing,
         })
     }
@@ -155,8 +191,13 @@ impl<'c> Positions<'c> {
         };
         let shown = |position: f64| columns.shown(0, position);
         match rows.domain {
-            Domain::Turn if last - first > TAU * (1.0 + ROUNDING) => Err(fault(format!(
-                "the rows cover more than a turn, from {} to {}",
+            Domain::Turn if last - first > rows.period() * (1.0 + ROUNDING) => Err(fault(format!(
+                "the rows cover more than {}, from {} to {}",
+                if rows.turns == 1 {
+                    "a turn".to_owned()
+                } else {
+                    rows.whole()
+                },
                 shown(first),
                 shown(last)
             ))
@@ -174,6 +215,7 @@ impl<'c> Positions<'c> {
                 columns,
                 x,
                 turn: false,
+                period: 0.0,
                 closing: false,
             }),
         }
@@ -235,7 +277,7 @@ impl<'c> Positions<'c> {
     /// A curve through values at these positions.
     pub(super) fn curve(&self, values: &[f64], way: Way) -> Result<Spline> {
         let spline = if self.turn {
-            Spline::periodic(self.x, values, TAU, way)
+            Spline::periodic(self.x, values, self.period, way)
         } else {
             Spline::bounded(self.x, values, way)
         };
@@ -251,7 +293,7 @@ impl<'c> Positions<'c> {
         let every_second = |v: &[f64]| -> Vec<f64> { v.iter().copied().step_by(2).collect() };
         let (x, y) = (every_second(self.x), every_second(values));
         let coarse = if self.turn {
-            Spline::periodic(&x, &y, TAU, Way::Interpolating)
+            Spline::periodic(&x, &y, self.period, Way::Interpolating)
         } else {
             Spline::bounded(&x, &y, Way::Interpolating)
         }

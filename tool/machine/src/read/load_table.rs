@@ -11,6 +11,7 @@ use super::effect::Effect;
 use super::loads::SCHEDULE;
 use super::{tool, window};
 use crate::model::coordinate::Coordinate;
+use crate::model::machine::least_common_multiple;
 use crate::model::mechanism::AnyMechanism;
 use crate::model::tabulated::{Direction, Over, Place, StandIn};
 use crate::number::spline::Way;
@@ -35,13 +36,16 @@ pub(super) fn read(
     drive: DriveLink,
     gravity: [f64; 2],
     files: &dyn Files,
-) -> Result<(AnyMechanism, Vec<Range<usize>>)> {
+) -> Result<(AnyMechanism, Vec<Range<usize>>, u32)> {
     let mut loads = Vec::new();
+    let mut turns = 1;
     let Some(item) = root.get("load") else {
-        return Ok((mechanism, loads));
+        return Ok((mechanism, loads, turns));
     };
     for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
-        let stand_ins = table(section, &mechanism, drive, gravity, files)?;
+        let own = window::turns(section, drive)?;
+        turns = least_common_multiple(turns, own);
+        let stand_ins = table(section, &mechanism, drive, (gravity, own), files)?;
         let first = mechanism.own_loads().len();
         mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
             section
@@ -61,7 +65,7 @@ pub(super) fn read(
                 .help("write a [[payload]] for what is carried over a part of the motion"));
         }
     }
-    Ok((mechanism, loads))
+    Ok((mechanism, loads, turns))
 }
 
 /// On what a table acts, and how.
@@ -86,7 +90,7 @@ fn table(
     section: &Section,
     mechanism: &AnyMechanism,
     drive: DriveLink,
-    gravity: [f64; 2],
+    (gravity, turns): ([f64; 2], u32),
     files: &dyn Files,
 ) -> Result<Vec<StandIn>> {
     let name = match section.get("name") {
@@ -102,6 +106,14 @@ fn table(
             .help("add on = \"slider\", the link on which the force acts"));
     }
     let (over, domain, of) = over(section, mechanism, drive)?;
+    if let (Some(item), Over::Point { .. }) = (section.peek("turns"), over) {
+        return Err(item
+            .problem(
+                "is given for rows over the position of a point",
+                "of rows over the drive link",
+            )
+            .help("give the rows over the drive link's angle, without `over`, or remove `turns`"));
+    }
     let outside = section.get("outside");
     let outside = outside.map(|item| item.choice(&["error", "zero"]));
     let way = section.get("curve").map(|item| {
@@ -120,9 +132,10 @@ fn table(
             domain,
             of,
             partly: outside.transpose()? == Some(1),
+            turns,
         },
         way: way.transpose()?,
-        window: window::read(section, drive)?,
+        window: window::read(section, drive, turns)?,
         layout: Layout::read(section)?,
     };
     section.expects(&SCHEDULE);

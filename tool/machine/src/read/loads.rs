@@ -122,7 +122,13 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     let action = action(key, &item)?;
     let at = section.get("at");
     let point = section.point("at", &LENGTH)?;
-    let window = window::read(section, drive)?;
+    let turns = window::turns(section, drive)?;
+    let window = window::read(section, drive, turns)?;
+    if let (Some(item), None) = (section.peek("turns"), &window) {
+        return Err(item
+            .problem("is given without `between`", "in which part of the turns?")
+            .help("a load that acts everywhere is the same in every turn: add between = [\"340 deg\", \"500 deg\"] and a ramp, or remove `turns`"));
+    }
     section.expects(&SCHEDULE);
     section.expects(&["at_rest"]);
     section.finish()?;

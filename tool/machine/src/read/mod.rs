@@ -98,12 +98,29 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<Rule
     })
 }
 
-/// Reads the machine file at `path`.
+/// Reads the machine file at `path`, whose loads are the same in every turn.
+///
+/// # Errors
+/// A file that cannot be read, or anything that [`parse`] reports; loads that repeat after several turns only.
+#[cfg(feature = "fs")]
+pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
+    let file = read_over_turns(path)?;
+    match file.turns() {
+        1 => Ok(file),
+        turns => Err(miette!(
+            help = "for this command give loads without `turns`, which act alike in every turn",
+            "the loads of {} repeat after {turns} turns: only `jred simulate` and `jred steady` follow the drive link from turn to turn",
+            file.name
+        )),
+    }
+}
+
+/// The same for a command that follows the drive link from turn to turn.
 ///
 /// # Errors
 /// A file that cannot be read, or anything that [`parse`] reports.
 #[cfg(feature = "fs")]
-pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
+pub fn read_over_turns(path: &Path) -> std::result::Result<MachineFile, Report> {
     parse(&plain::path(path), &text(path)?, folder(path))
 }
 
@@ -238,7 +255,8 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
             .help("add a mass that slides with the drive link to its body; rotating parts belong to a stage of [[drive_train]]"));
     }
     let mechanism = mass::read(&root, mechanism)?;
-    let (mechanism, tables) = load_table::read(&root, mechanism, drive_link, gravity, files)?;
+    let (mechanism, tables, table_turns) =
+        load_table::read(&root, mechanism, drive_link, gravity, files)?;
     let (mut loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
@@ -279,6 +297,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
         schedule,
         flywheel,
         loads,
+        table_turns,
         elements,
         drive_train,
         variator,

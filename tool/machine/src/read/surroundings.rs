@@ -1,4 +1,4 @@
-//! `[surroundings]`: ambient conditions of the motor.
+//! `[surroundings]`: ambient conditions of motor and amplifier.
 
 use crate::model::site::Site;
 use crate::model::surroundings::Surroundings;
@@ -25,6 +25,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     if let Some(ambient) = temperature("ambient")? {
         found.ambient = ambient;
     }
+    found.cabinet = temperature("cabinet")?;
     found.resistance_at = temperature("resistance_at")?;
     found.housing = temperature("max_housing")?;
     if let (Some(limit), Some(item)) = (found.housing, section.peek("max_housing"))

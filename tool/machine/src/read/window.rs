@@ -11,16 +11,39 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::ANGLE;
 
-/// The window of a load, if it has one.
-pub(super) fn read(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
+/// `turns`: after how many turns of the drive link a load is the same again.
+pub(super) fn turns(section: &Section, drive: DriveLink) -> Result<u32> {
+    let Some(item) = section.get("turns") else {
+        return Ok(1);
+    };
+    let turns = item.count(Window::MAX_TURNS, "2")?;
+    if drive.domain == Domain::Turn {
+        return Ok(turns);
+    }
+    Err(item
+        .problem(
+            "is given for a drive link with a stroke",
+            "of a turning drive link",
+        )
+        .help("remove `turns`: the load acts wherever the drive link is"))
+}
+
+/// The window of a load that is the same again after some turns, if it has one.
+pub(super) fn read(section: &Section, drive: DriveLink, turns: u32) -> Result<Option<Window>> {
     match drive.domain {
-        Domain::Turn => window(section),
+        Domain::Turn => window(section, turns),
         Domain::Stroke { .. } => stretch(section, drive),
     }
 }
 
 /// The part of the turn in which the load acts.
-fn window(section: &Section) -> Result<Option<Window>> {
+fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
+    let period = f64::from(turns) * TAU;
+    let whole = if turns == 1 {
+        "one turn".to_owned()
+    } else {
+        format!("{turns} turns")
+    };
     let (between, ramp) = (section.get("between"), section.optional("ramp", &ANGLE)?);
     let (between, ramp) = match (between, ramp) {
         (None, None) => return Ok(None),
@@ -41,20 +64,27 @@ fn window(section: &Section) -> Result<Option<Window>> {
     long_enough(&ramp, TAU)?;
     let [from, to] = between.pair([&ANGLE, &ANGLE])?;
     precise_enough(&between, [&from, &to], ramp.si)?;
-    let end = if to.si < from.si { to.si + TAU } else { to.si };
+    let end = if to.si < from.si {
+        to.si + period
+    } else {
+        to.si
+    };
     let width = end - from.si;
-    if width <= 0.0 || width > TAU * (1.0 + 1e-12) {
+    if width <= 0.0 || width > period * (1.0 + 1e-12) {
         return Err(between
-            .problem("must span more than zero and at most one turn", "check these angles")
+            .problem(
+                &format!("must span more than zero and at most {whole}"),
+                "check these angles",
+            )
             .help(format!(
-                "the load acts from the first angle to the second; a smaller second angle means one turn later: here \
+                "the load acts from the first angle to the second; a smaller second angle means {whole} later: here \
                  the span is {}",
                 to.show(width)
             )));
     }
-    // Kept a hair below one turn, so that rounding cannot make it wider.
-    let start = from.si.rem_euclid(TAU);
-    let end = start + width.min(TAU * (1.0 - 1e-14));
+    // Kept a hair below the whole, so that rounding cannot make it wider.
+    let start = from.si.rem_euclid(period);
+    let end = start + width.min(period * (1.0 - 1e-14));
     if width < 2.0 * ramp.si {
         let what = format!(
             "is {}, too long for the range of {}",
@@ -73,7 +103,7 @@ fn window(section: &Section) -> Result<Option<Window>> {
         }
     }
     let ramp = ramp.si.min((end - start) / 2.0);
-    Window::new(Domain::Turn, [start, end], ramp)
+    Window::over_turns(turns, [start, end], ramp)
         .map(Some)
         .map_err(|error| {
             between.problem(&format!("is not possible: {error}"), "check these angles")

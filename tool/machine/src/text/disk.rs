@@ -162,9 +162,17 @@ fn remember(path: &Path, metadata: &Metadata) {
 
 /// The path by which this process has read the file at `path`, if it has.
 pub fn read_as(path: &Path) -> Option<PathBuf> {
-    let identity = identity(path, &path.metadata().ok()?)?;
+    known(&identity(path, &path.metadata().ok()?)?)
+}
+
+/// The same of a file that is open: by what tells it from others, where the system says it.
+pub fn read_under(metadata: &Metadata) -> Option<PathBuf> {
+    known(&identity(Path::new(""), metadata)?)
+}
+
+fn known(identity: &Identity) -> Option<PathBuf> {
     let files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
-    files.get(&identity).cloned()
+    files.get(identity).cloned()
 }
 
 /// The text of a file.

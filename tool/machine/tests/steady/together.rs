@@ -19,7 +19,7 @@ fn together(
         .unwrap();
     let request = Request {
         delta,
-        positions: 36,
+        ..Request::default()
     };
     steady_together(&machines, simulation, &request)
 }

@@ -17,7 +17,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::operation::Operation;
 use jred_machine::model::surroundings::{REFERENCE, Surroundings};
 use jred_machine::units::Sentence;
-use jred_sizing::catalogue::{Drive, Motor};
+use jred_sizing::catalogue::{DeratingBasis, Drive, Motor};
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::thermal::course::{Course, Hottest};
 use jred_sizing::thermal::{Heating, Model};
@@ -124,7 +124,13 @@ impl Winding {
     /// Kelvin per rise of a model; thin air makes it more.
     fn unit(&self, model: &Model) -> Result<f64, Unknown> {
         let rated = if matches!(model, Model::Relative { .. }) {
-            let limit = self.motor.thermal.max_temperature.map(|t| t - REFERENCE);
+            let derated = self.motor.derated(&self.surroundings);
+            let from = match derated.temperature {
+                // A share of one is the rise that the maker's factor leaves.
+                DeratingBasis::Maker => self.surroundings.ambient,
+                _ => REFERENCE,
+            };
+            let limit = self.motor.thermal.max_temperature.map(|t| t - from);
             limit.filter(|rise| *rise > 0.0).ok_or(Unknown::RatedRise)?
         } else {
             1.0

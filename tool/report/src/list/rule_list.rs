@@ -7,6 +7,7 @@ use crate::table::output::{Format, text_table};
 use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Moves, RuleSet, shown};
 use jred_machine::number::csv;
+use jred_machine::number::rounding::figure;
 use jred_machine::read;
 use jred_machine::text::file::Files;
 
@@ -69,10 +70,49 @@ fn list(sets: &[RuleSet], format: Format) -> String {
     }
 }
 
+/// Limits are numbers with a unit; what is switched off has none, and what depends on the moves neither.
 fn csv(set: &RuleSet) -> String {
-    let rows = lines(set).into_iter().map(|line| line.cells());
-    csv::row(["rule", "key", "limit", "warning", "source"]) + &csv::rows(rows)
+    let header = [
+        "rule", "key", "limit", "warning", "unit", "sense", "state", "source",
+    ];
+    let rows = lines(set).into_iter().map(|line| {
+        let rule = line.rule;
+        let (unit, one) = if rule.is_ratio() {
+            ("", 1.0)
+        } else {
+            ("%", 100.0)
+        };
+        let by_moves = line.limit == BY_MOVES;
+        let number = |share: Option<f64>| {
+            let share = share.filter(|_| !by_moves);
+            share.map_or_else(String::new, |share| figure(share * one))
+        };
+        let limit = set.limit(rule);
+        let sense = match rule.sense() {
+            Sense::AtMost => "at most",
+            Sense::AtLeast => "at least",
+        };
+        let state = match (set.is_off(rule), by_moves) {
+            (true, _) => "off",
+            (false, true) => BY_MOVES,
+            (false, false) => "on",
+        };
+        [
+            rule.name().to_owned(),
+            rule.key().to_owned(),
+            number(limit.fail),
+            number(limit.warn),
+            unit.to_owned(),
+            sense.to_owned(),
+            state.to_owned(),
+            line.source,
+        ]
+    });
+    csv::row(header) + &csv::rows(rows)
 }
+
+/// Limits of the inertia ratio that are a table.
+const BY_MOVES: &str = "by moves per minute";
 
 /// One rule of a set, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -120,7 +160,7 @@ pub fn lines(set: &RuleSet) -> Vec<Line> {
             limit: if set.is_off(rule) {
                 "off".to_owned()
             } else if rule == Rule::InertiaRatio && !by_moves.is_empty() {
-                "by moves per minute".to_owned()
+                BY_MOVES.to_owned()
             } else {
                 words(limit.fail)
             },

@@ -18,13 +18,14 @@ pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach
     let mut columns: Vec<String> = [
         "quantity",
         "value",
-        "moves most",
-        "% of limit per +1 %",
-        "+-",
+        "unit",
+        "affects most",
+        "slope [% of limit per +1 %]",
+        "uncertainty [% of limit per +1 %]",
         "down to [%]",
-        "then",
+        "then down",
         "up to [%]",
-        "then (up)",
+        "then up",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -40,7 +41,8 @@ pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach
         let [down, up] = dependence.room.each_ref().map(|r| room(r, words));
         let mut cells: Vec<Cell> = vec![
             quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
-            quantity.map_or(Cell::Empty, |q| q.shown().into()),
+            quantity.map(|q| q.number()).into(),
+            quantity.map_or(Cell::Empty, |q| q.unit().into()),
             steepest.map_or("nothing".into(), |slope| slope.rule.named(words).into()),
             steepest.map(|slope| slope.slope).into(),
             steepest.map(|slope| slope.uncertainty).into(),

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::driven::{Turns, driven};
 use crate::table::output::{Format, json_parts, parts};
 use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{Cycle, Flywheel, Place, Start, Steady, Wheel};
+use jred_machine::analysis::steady::{Cycle, Flywheel, Held, Level, Place, Start, Steady, Wheel};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::RPM;
@@ -117,7 +117,16 @@ fn describe(text: &mut String, cycle: &Cycle) {
             short(figures.delta_of_extremes)
         ),
     );
-    line(text, "period", &format!("{} s", short(figures.period)));
+    let cycle_of = if figures.turns == 1 {
+        String::new()
+    } else {
+        format!(", {} turns", figures.turns)
+    };
+    let period = short(figures.period);
+    line(text, "period", &format!("{period} s{cycle_of}"));
+    if let Some(held) = &cycle.held {
+        line(text, "for this speed", &scaled(held));
+    }
     let [mean, rms, peak] = figures.torque;
     let mean = mean * figures.motor_speed.signum();
     let [mean, rms, peak] = [mean, rms, peak].map(short);
@@ -138,10 +147,22 @@ fn describe(text: &mut String, cycle: &Cycle) {
     let [motor, process, losses] = figures.works.map(short);
     line(
         text,
-        "energy a turn",
+        if figures.turns == 1 {
+            "energy a turn"
+        } else {
+            "energy a cycle"
+        },
         &format!(
             "motor {motor} J, process loads {process} J, losses {losses} J; balance within {:.0e} of the energy turned over",
             figures.imbalance.max(1e-16)
+        ),
+    );
+    line(
+        text,
+        "kinetic energy",
+        &format!(
+            "changes by {} J between its least and its largest value",
+            short(figures.fluctuation)
         ),
     );
     let turns = Turns {
@@ -149,7 +170,17 @@ fn describe(text: &mut String, cycle: &Cycle) {
         kinetic: 0.0,
         is_backwards: figures.mean_speed < 0.0,
     };
-    if let Some(driven) = driven(&turns) {
+    let [motor, ..] = figures.works;
+    if motor < 0.0 {
+        line(
+            text,
+            "process loads",
+            &format!(
+                "they drive the machine, and the motor brakes: {} W on average",
+                short(-figures.power[0])
+            ),
+        );
+    } else if let Some(driven) = driven(&turns) {
         line(text, "process loads", &format!("warning: they {driven}"));
     }
     let left = if cycle.left_over < 1e-3 {
@@ -157,11 +188,12 @@ fn describe(text: &mut String, cycle: &Cycle) {
     } else {
         percent(cycle.left_over)
     };
+    let after = if figures.turns == 1 { "turn" } else { "cycle" };
     let caught = cycle.caught_from.map_or_else(
         || "; it is reached from every speed".to_owned(),
         |least| {
             format!(
-                "; it is reached from speeds above {} at the start of the turn",
+                "; it is reached from speeds above {} at the start of the {after}",
                 rpm(least)
             )
         },
@@ -169,9 +201,34 @@ fn describe(text: &mut String, cycle: &Cycle) {
     line(
         text,
         "stability",
-        &format!("{left} of a small deviation is left after a turn{caught}"),
+        &format!("{left} of a small deviation is left after a {after}{caught}"),
     );
     line(text, "start from rest", &started(&cycle.start));
+}
+
+fn scaled(held: &Held) -> String {
+    match (&held.by, held.torque) {
+        (Level::Motor, Some(torque)) => format!("a constant motor torque of {} N m", short(torque)),
+        (Level::Motor, None) => format!(
+            "the motor torque of the file, {} times at every speed",
+            short(held.factor)
+        ),
+        (Level::Load(name), _) => format!(
+            "the load \"{name}\" of the file, {} times",
+            short(held.factor)
+        ),
+    }
+}
+
+fn held_json(held: &Held) -> Value {
+    json!({
+        "scaled": match &held.by {
+            Level::Motor => Value::Null,
+            Level::Load(name) => json!(name),
+        },
+        "factor": held.factor,
+        "constant_torque": held.torque,
+    })
 }
 
 fn started(start: &Start) -> String {
@@ -284,7 +341,7 @@ fn seat(wheel: &Wheel) -> String {
         .collect();
     let [rms, peak] = wheel.torque.map(short);
     format!(
-        "{} kg m^2 at {}, {} J; {}; motor {rms} N m RMS, {peak} N m peak; losses {} J a turn",
+        "{} kg m^2 at {}, {} J; {}; motor {rms} N m RMS, {peak} N m peak; losses {} J a cycle",
         short(wheel.inertia),
         rpm(wheel.speed),
         short(wheel.stored),
@@ -318,7 +375,10 @@ fn cycle_json(cycle: &Cycle) -> Value {
         "min_speed_at": figures.slowest[1],
         "delta": figures.delta,
         "delta_of_extremes": figures.delta_of_extremes,
+        "turns": figures.turns,
         "period": figures.period,
+        "kinetic_energy_fluctuation": figures.fluctuation,
+        "for_mean_speed": cycle.held.as_ref().map(held_json),
         "motor_torque": { "mean": mean, "rms": rms, "peak": peak },
         "motor_power": { "mean": figures.power[0], "peak": figures.power[1] },
         "motor_speed": figures.motor_speed,

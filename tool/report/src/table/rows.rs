@@ -21,28 +21,24 @@ jred_machine::words! {
 }
 
 impl RowFormat {
-    /// Prefix of the header object in a file.
-    pub const fn mark(self) -> &'static str {
-        match self {
-            Self::Csv => "# ",
-            _ => "",
+    /// The line in front of the rows: in CSV the names of the columns, in JSON what study they belong to.
+    pub fn front(self, study: &str, columns: &[String]) -> String {
+        if self == Self::Json {
+            return format!("{study}\n");
         }
+        let names = columns.iter().map(String::as_str);
+        let names = std::iter::once("row").chain(names).chain([STUDY, CHECK]);
+        csv_line(names.map(Cell::from))
     }
 
-    /// The line that names the columns, in forms that have one.
-    pub fn names(self, columns: &[String]) -> String {
-        match self {
-            Self::Csv => {
-                let names = columns.iter().map(String::as_str);
-                let names = std::iter::once("row").chain(names).chain([CHECK]);
-                csv_line(names.map(Cell::from))
-            }
-            _ => String::new(),
-        }
-    }
-
-    /// Row number `index` as a line, with a check sum of all before it.
-    pub fn line(self, columns: &[String], index: u64, cells: &[Cell]) -> String {
+    /// Row number `index` as a line, with a check sum of all before it. In CSV the first row of a file also says what `study` it
+    /// belongs to: every line has the same number of cells, and no reader meets a line that is no row.
+    pub fn line(
+        self,
+        columns: &[String],
+        (index, cells): (u64, &[Cell]),
+        study: Option<&str>,
+    ) -> String {
         if self == Self::Json {
             let mut map = Map::new();
             map.insert("row".to_owned(), index.into());
@@ -55,8 +51,16 @@ impl RowFormat {
         }
         let cells = cells.iter().cloned();
         let row = csv_line(std::iter::once(Cell::Text(index.to_string())).chain(cells));
-        let row = row.trim_end();
-        format!("{row},{}\n", check_sum(row))
+        with_study(row.trim_end(), study)
+    }
+
+    /// What study a row of CSV says that it belongs to, and its cells before that. `None`: it says nothing.
+    pub fn study_of(line: &str) -> Option<(String, &str)> {
+        let (row, _) = line.rsplit_once(',')?;
+        // In a cell in quotes every quote is doubled, so this is where the last one begins.
+        let (cells, _) = row.rsplit_once(",\"{")?;
+        let study = texts(row)?.pop().filter(|study| study.starts_with('{'))?;
+        Some((study, cells))
     }
 
     /// The number and the cells of a line; `None`: it is no row of these columns, or not as it was written.
@@ -75,21 +79,40 @@ impl RowFormat {
             let cells = columns.iter().map(cell).collect::<Option<_>>()?;
             return Some((index, cells));
         }
-        let mut reader = ::csv::ReaderBuilder::new()
-            .has_headers(false)
-            .from_reader(row.as_bytes());
-        let record = reader.records().next()?.ok()?;
-        let mut texts = record.iter();
-        let index = texts.next()?.parse().ok()?;
-        let cells = texts.map(|text| match text.parse::<f64>() {
+        let texts = texts(row)?;
+        let (_, texts) = texts.split_last()?;
+        let (index, texts) = texts.split_first()?;
+        let index = index.parse().ok()?;
+        let cells = texts.iter().map(|text| match text.parse::<f64>() {
             _ if text.is_empty() => Cell::Empty,
             Ok(number) => Cell::Number(number),
-            Err(_) => Cell::Text(text.to_owned()),
+            Err(_) => Cell::Text(text.clone()),
         });
         let cells: Vec<Cell> = cells.collect();
         (cells.len() == columns.len()).then_some((index, cells))
     }
 }
+
+/// The cells of a line of CSV.
+fn texts(row: &str) -> Option<Vec<String>> {
+    let mut reader = ::csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(row.as_bytes());
+    let record = reader.records().next()?.ok()?;
+    Some(record.iter().map(str::to_owned).collect())
+}
+
+/// A row of CSV with what it says of its study, and its check sum.
+pub fn with_study(cells: &str, study: Option<&str>) -> String {
+    let study = csv_line(std::iter::once(study.map_or(Cell::Empty, Cell::from)));
+    // An empty cell alone on its line is written in quotes.
+    let study = study.trim_end().trim_start_matches("\"\"");
+    let row = format!("{cells},{study}");
+    format!("{row},{}\n", check_sum(&row))
+}
+
+/// The column of the study.
+const STUDY: &str = "study";
 
 /// The column of the check sums.
 const CHECK: &str = "check";

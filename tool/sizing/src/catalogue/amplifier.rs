@@ -1,5 +1,7 @@
 //! Servo amplifiers and brake resistors of the catalogue.
 
+use super::derating::Derating;
+
 /// A servo amplifier (drive controller); SI units, currents RMS.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Amplifier {
@@ -13,6 +15,8 @@ pub struct Amplifier {
     pub rated_current: f64,
     /// Peak current (A).
     pub peak_current: f64,
+    /// The maker's factors on both currents at the site.
+    pub derating: Derating,
     /// How long the peak current may flow from cold (s).
     pub peak_time: Option<f64>,
     /// Nominal DC-bus voltage (V).

@@ -104,10 +104,8 @@ pub(super) fn points(
         }
         if points.last().is_some_and(|last| x_value <= last[0]) {
             return Err(Fault::new(
-                format!(
-                    "has the point \"{shown}\", whose speed is not above that of the previous point"
-                ),
-                "write the points in order of increasing speed, each once",
+                format!("has the point \"{shown}\", which is not above the previous point"),
+                "write the points in increasing order, each once",
             ));
         }
         points.push([x_value, y_value]);

@@ -87,6 +87,10 @@ pub(super) enum Holds {
 pub(super) const SPEED: Holds = Holds::Of(&[&units::ANGULAR_SPEED, &units::VELOCITY]);
 /// Torques or forces of a curve.
 pub(super) const EFFORT: Holds = Holds::Of(&[&units::TORQUE, &units::FORCE]);
+/// Temperatures of the surroundings.
+pub(super) const TEMPERATURE: Holds = Holds::Of(&[&units::TEMPERATURE]);
+/// Altitudes.
+pub(super) const ALTITUDE: Holds = Holds::Of(&[&units::ALTITUDE]);
 /// Factors.
 pub(super) const FACTOR: Holds = Holds::Of(&[&units::SHARE]);
 
@@ -195,6 +199,13 @@ columns! {
     BrakeForce "brake_force" [Motors] [FORCE];
     BrakeInertia "brake_inertia" [Motors] [INERTIA];
     BrakeMass "brake_mass" [Motors] [MASS];
+    BrakeDynamicTorque "brake_dynamic_torque" [Motors] [TORQUE];
+    BrakeDynamicForce "brake_dynamic_force" [Motors] [FORCE];
+    BrakeClosingTime "brake_closing_time" [Motors] [TIME];
+    BrakeWork "brake_work" [Motors] [ENERGY];
+    BrakeStops "brake_stops" [Motors] [];
+    TemperatureDerating "temperature_derating" [Motors Amplifiers] [];
+    AltitudeDerating "altitude_derating" [Motors Amplifiers] [];
     BuiltInGearbox "built_in_gearbox" [Motors] [];
     BusVoltage "bus_voltage" [Motors Amplifiers] [VOLTAGE];
     MainsVoltage "mains_voltage" [Motors Amplifiers] [VOLTAGE];

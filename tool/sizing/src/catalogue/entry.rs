@@ -3,7 +3,8 @@
 mod motor;
 
 use super::amplifier::{Amplifier, Resistor};
-use super::column::{Column, FACTOR, Holds, Kind};
+use super::column::{ALTITUDE, Column, FACTOR, Holds, Kind, TEMPERATURE};
+use super::derating::Derating;
 use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
@@ -154,6 +155,7 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
         model: row.text(Column::Model),
         rated_current: row.positive(Column::RatedCurrent),
         peak_current: row.positive(Column::PeakCurrent),
+        derating: derating(row),
         peak_time: row.optional(Column::PeakTime),
         bus_voltage: row.optional(Column::BusVoltage),
         mains_voltage: mains_voltage(row),
@@ -185,6 +187,28 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
     row.at_least(highest, mains);
     row.checked()?;
     Ok(amplifier)
+}
+
+/// The maker's factors on ratings at the site.
+fn derating(row: &Row) -> Derating {
+    let points = |column, place| {
+        let points = row.points(column, [place, FACTOR]);
+        let rises = points.windows(2).any(|two| two[1][1] > two[0][1]);
+        if rises || points.len() == 1 {
+            row.add(row.fault(
+                column,
+                "is not a decreasing curve",
+                "here",
+                "give at least two points up to the highest value that the maker allows, such as \"40 degC: 100 %; 55 degC: 80 %\" or \
+                 \"1000 m: 100 %; 3000 m: 80 %\"",
+            ));
+        }
+        points
+    };
+    Derating {
+        temperature: points(Column::TemperatureDerating, TEMPERATURE),
+        altitude: points(Column::AltitudeDerating, ALTITUDE),
+    }
 }
 
 /// A brake resistor.

@@ -51,6 +51,38 @@ pub struct Gearbox {
     pub source: String,
 }
 
+/// Cycles per hour up to which T2B holds where the maker gives no shock factors (WITTENSTEIN, engineering glossary).
+const CYCLES: f64 = 1000.0;
+
+impl Gearbox {
+    /// The maker's shock factor f_s at a number of cycles per hour: linear between the maker's points, constant beyond them; one if
+    /// the maker gives none.
+    pub fn shock_factor(&self, cycles: f64) -> f64 {
+        let points = &self.shock_factors;
+        let above = points.partition_point(|[at, _]| *at <= cycles);
+        match (
+            above.checked_sub(1).and_then(|k| points.get(k)),
+            points.get(above),
+        ) {
+            (Some([from, low]), Some([to, high])) => {
+                low + (high - low) * (cycles - from) / (to - from)
+            }
+            (Some([_, factor]), None) | (None, Some([_, factor])) => *factor,
+            (None, None) => 1.0,
+        }
+    }
+
+    /// Largest output torque (N·m) at a number of cycles per hour: T2B/f_s. `None`: T2B is not given.
+    pub fn acceleration_torque(&self, cycles: f64) -> Option<f64> {
+        Some(self.peak_torque? / self.shock_factor(cycles))
+    }
+
+    /// Cycles per hour up to which [`Self::acceleration_torque`] is the maker's.
+    pub fn most_cycles(&self) -> f64 {
+        self.shock_factors.last().map_or(CYCLES, |[most, _]| *most)
+    }
+}
+
 impl Default for Gearbox {
     /// A plain shaft: ratio 1, no inertia, no losses, no limits.
     fn default() -> Self {

@@ -1,5 +1,6 @@
 //! A motor of the catalogue.
 
+use super::derating::Derating;
 use jred_machine::units::Vocabulary;
 use serde::Serialize;
 
@@ -56,6 +57,8 @@ pub struct Motor {
     pub winding: Winding,
     /// Its thermal data.
     pub thermal: Thermal,
+    /// The maker's factors on its S1 torque at the site.
+    pub derating: Derating,
     /// Its holding brake.
     pub brake: Option<Brake>,
     /// DC-bus voltage that the data are valid for (V).
@@ -142,6 +145,14 @@ pub struct Brake {
     pub torque: f64,
     /// Its inertia (kg·m²).
     pub inertia: f64,
+    /// Mean torque while it slips (N·m); `None`: not given.
+    pub dynamic_torque: Option<f64>,
+    /// Time from switching off its current to its torque (s).
+    pub closing_time: Option<f64>,
+    /// Largest work of one stop from speed (J).
+    pub work: Option<f64>,
+    /// How many such stops it bears in an hour.
+    pub stops_per_hour: Option<f64>,
 }
 
 impl Motor {

@@ -15,6 +15,7 @@ use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
 use jred_machine::analysis::duty::{Duty, Instant, Smooth};
+use jred_machine::analysis::mechanics::{Held, Rest, constant_loads};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
 use jred_machine::model::schedule::Now;
@@ -47,6 +48,8 @@ pub struct Altered<'a> {
     duty: &'a Duty,
     /// U′ of the weight at every instant (N·m).
     weights: Vec<f64>,
+    /// Torque against the loads that always act, at every instant at rest (N·m).
+    constant: Vec<f64>,
     /// The instants of an [outline](Self::outline), if others can be left out.
     outline: Option<Vec<usize>>,
     /// [U′ of the weight, U′ of the rest] at positions over the range, and at instants at which something is carried (N·m).
@@ -91,6 +94,7 @@ impl<'a> Altered<'a> {
         Ok(Self {
             range,
             weights,
+            constant: constant_loads(file, &duty.instants)?,
             outline: outline(&duty.instants),
             file,
             duty,
@@ -121,17 +125,25 @@ impl<'a> Altered<'a> {
     /// The altered duty at some of its instants.
     fn of(&self, instants: impl Iterator<Item = usize>, by: Alteration) -> Duty {
         let ratio = self.file.drive_train.ratio();
-        let instants: Vec<Instant> = instants
-            .map(|k| self.instant(&self.duty.instants[k], self.weights[k], by))
-            .collect();
-        let hold = self.range.iter();
-        let hold = hold.map(|[weight, rest]| ((by.mass * weight + rest) / ratio).abs());
-        let at_rest = instants.iter().filter(|i| i.omega == 0.0);
-        let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
-        let hold_torque = hold.chain(held).fold(0.0, f64::max);
+        let (instants, constant): (Vec<Instant>, Vec<f64>) = instants
+            .map(|k| {
+                let instant = self.instant(&self.duty.instants[k], self.weights[k], by);
+                (instant, by.process * self.constant[k])
+            })
+            .unzip();
         let duration = self.duty.duration * by.time;
+        let held = Held {
+            instants: &instants,
+            constant: &constant,
+            duration,
+            cyclic: self.file.motion.as_ref().is_some_and(|m| m.cyclic),
+        };
+        let weights = self.range.iter();
+        let weights = weights.map(|[weight, rest]| by.mass * weight + rest);
+        let rest = Rest::new(&held, weights).times(1.0 / ratio.abs());
+        let hold_torque = rest.largest();
         Duty {
-            mechanics: (self.duty.mechanics).with_loads(self.file, &instants, by.time, hold_torque),
+            mechanics: (self.duty.mechanics).with_loads(self.file, &instants, by.time, rest),
             hold_torque,
             duration,
             instants,

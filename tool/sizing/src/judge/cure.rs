@@ -12,6 +12,10 @@ pub const fn cure(rule: Rule) -> &'static str {
             "the standstill rating of the motor in the catalogue"
         }
         Rule::BrakeTorque => "the columns of the holding brake of the motor in the catalogue",
+        Rule::BrakeWork => "brake_closing_time and brake_work of the motor in the catalogue",
+        Rule::AmbientTemperature => "temperature_derating of the motor in the catalogue",
+        Rule::CabinetTemperature => "temperature_derating of the amplifier in the catalogue",
+        Rule::Altitude => "altitude_derating in the catalogue",
         Rule::InertiaRatio => "inertia_ratio in [rules]",
         Rule::WindingTemperature | Rule::HousingTemperature => {
             "thermal resistances, time constants and winding data of the motor in the catalogue"
@@ -31,10 +35,12 @@ pub const fn cure(rule: Rule) -> &'static str {
         Rule::AmplifierVoltage => {
             "mains_voltage or bus_voltage of the amplifier in the catalogue, and mains_voltage in [supply]"
         }
-        Rule::BusVoltage => "mains_voltage, capacitance and max_voltage in [supply]",
+        Rule::BusVoltage => {
+            "mains_voltage, capacitance, chopper_voltage and max_voltage in [supply], or of the amplifier in the catalogue"
+        }
         Rule::BrakeResistance => "min_resistance in [supply], or of the amplifier",
         Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse => {
-            "power, peak_power and pulse_energy of brake_resistor in [supply]"
+            "power, peak_power and pulse_energy of brake_resistor in [supply], and the figures of the DC bus there or of the amplifier"
         }
         Rule::NaturalFrequency => {
             "stiffness of the gearbox in the catalogue; for a direct drive shaft in [stiffness]"

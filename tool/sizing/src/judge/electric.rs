@@ -29,10 +29,9 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f
     } = context;
     let rms = rms_current(cycle, coefficients, *ratio, motor).unwrap_or(f64::NAN);
     let peak = peak_current(context);
-    findings.set(Rule::RmsCurrent, Finding::new(rms, amplifier.rated_current));
-    let limit = motor_peak.map_or(amplifier.peak_current, |motor| {
-        motor.min(amplifier.peak_current)
-    });
+    let [rated, most] = amplifier.currents(&context.site.surroundings);
+    findings.set(Rule::RmsCurrent, Finding::new(rms, rated));
+    let limit = motor_peak.map_or(most, |motor| motor.min(most));
     findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
     Some(peak)
 }
@@ -80,12 +79,18 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         }
         return;
     }
-    if missing(&data).is_some() {
+    let known = figures(context, &data).filter(|_| missing(&data).is_none());
+    let Some(figures) = known else {
         findings.set(Rule::BusVoltage, Finding::UNKNOWN);
-        return;
-    }
-    let Some(figures) = figures(context, &data) else {
-        findings.set(Rule::BusVoltage, Finding::UNKNOWN);
+        // What a resistor has to bear follows from the bus: without its figures none of its rules is checked.
+        if data.resistor.is_some() {
+            for rule in [Rule::ResistorPower, Rule::ResistorPeak, Rule::ResistorPulse] {
+                findings.set(rule, Finding::UNKNOWN);
+            }
+            if data.min_resistance.is_none() {
+                findings.set(Rule::BrakeResistance, Finding::UNKNOWN);
+            }
+        }
         return;
     };
     let voltage = Finding::against(figures.highest, data.max_voltage);
@@ -116,14 +121,14 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     let Some(amplifier) = context.drive.amplifier else {
         return;
     };
-    let rated = amplifier.rated_current;
+    let [rated, most] = amplifier.currents(&context.site.surroundings);
     if peak <= rated {
         findings.set(Rule::Overload, Finding::new(0.0, f64::INFINITY));
         return;
     }
     let allowed = amplifier
         .peak_time
-        .map(|time| overload::allowed(rated, amplifier.peak_current, time));
+        .map(|time| overload::allowed(rated, most, time));
     if peak.is_nan() || allowed.is_none() {
         findings.set(Rule::Overload, Finding::UNKNOWN);
         return;
@@ -138,6 +143,17 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     let points: Vec<overload::Point> = points.collect();
     let largest = overload::largest(&points, cycle.duration(), rated);
     findings.set(Rule::Overload, Finding::against(largest, allowed));
+}
+
+/// That the site reduces the currents of the amplifier.
+fn reduced(context: &Context) -> String {
+    let derated = (context.drive.amplifier).map(|a| a.derated(&context.site.surroundings));
+    match derated.map(|derated| derated.factor) {
+        Some(factor) if factor < 1.0 => {
+            format!(", reduced to {} % at the site", short(100.0 * factor))
+        }
+        _ => String::new(),
+    }
 }
 
 fn data(context: &Context) -> BusData {
@@ -181,11 +197,19 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     let (unit, rating) = match rule {
         Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier (none chosen)")),
         Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => ("A", constant()),
-        Rule::RmsCurrent => ("A", known("rated current of the amplifier")),
+        Rule::RmsCurrent => (
+            "A",
+            format!("rated current of the amplifier{}", reduced(context)),
+        ),
         Rule::PeakCurrent => {
             let motor = context.drive.motor.winding.peak_current;
-            let own = motor.is_some_and(|motor| amplifier.is_none_or(|a| motor <= a.peak_current));
-            let whose = if own { "motor" } else { "amplifier" };
+            let most = amplifier.map(|a| a.currents(&context.site.surroundings)[1]);
+            let own = motor.is_some_and(|motor| most.is_none_or(|most| motor <= most));
+            let whose = if own {
+                "motor".to_owned()
+            } else {
+                format!("amplifier{}", reduced(context))
+            };
             ("A", format!("peak current of the {whose}"))
         }
         Rule::Overload => {
@@ -207,6 +231,17 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
                 "V",
                 known(missing.unwrap_or("maximum voltage of the DC bus")),
             )
+        }
+        Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse
+            if finding.value.is_nan() =>
+        {
+            let unit = if rule == Rule::ResistorPulse {
+                "J"
+            } else {
+                "W"
+            };
+            let missing = missing(&data(context)).unwrap_or("figures of the DC bus");
+            (unit, known(missing))
         }
         Rule::BrakeResistance => ("Ohm", known("minimum resistance of the chopper")),
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),

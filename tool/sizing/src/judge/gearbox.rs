@@ -9,9 +9,6 @@ use jred_machine::model::rules::{MeanTorque, RuleSet};
 use jred_machine::number::rounding::short;
 use jred_machine::units::RPM;
 
-/// Acceleration torques T2B are valid up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).
-const CYCLES: f64 = 1000.0;
-
 /// Seconds of an hour.
 const HOUR: f64 = 3600.0;
 
@@ -22,12 +19,12 @@ pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut i
     };
     let cycle = context.cycle;
     let cycles = cycles_per_hour(context);
-    let peak = gearbox
-        .peak_torque
-        .map(|torque| torque / shock_factor(gearbox, cycles));
     findings.set(
         Rule::GearboxPeak,
-        Finding::against(cycle.peak_output_torque(), peak),
+        Finding::against(
+            cycle.peak_output_torque(),
+            gearbox.acceleration_torque(cycles),
+        ),
     );
     let exponent = rules.choices.gearbox_mean_exponent.exponent();
     findings.set(
@@ -43,10 +40,7 @@ pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut i
         Finding::against(cycle.peak_speed() * context.ratio, gearbox.max_speed),
     );
     if cycles > 0.0 {
-        let most = gearbox
-            .shock_factors
-            .last()
-            .map_or(CYCLES, |[most, _]| *most);
+        let most = gearbox.most_cycles();
         findings.set(Rule::GearboxCycles, Finding::new(cycles, most));
     }
 }
@@ -68,28 +62,13 @@ fn cycles_per_hour(context: &Context) -> f64 {
     context.cycle.mechanics().move_rate * HOUR
 }
 
-/// The maker's shock factor, which divides T2B at a number of cycles per hour: linear between the maker's points, constant
-/// beyond them; one if the maker gives none.
-fn shock_factor(gearbox: &Gearbox, cycles: f64) -> f64 {
-    let points = &gearbox.shock_factors;
-    let above = points.partition_point(|[at, _]| *at <= cycles);
-    match (
-        above.checked_sub(1).and_then(|k| points.get(k)),
-        points.get(above),
-    ) {
-        (Some([from, low]), Some([to, high])) => low + (high - low) * (cycles - from) / (to - from),
-        (Some([_, factor]), None) | (None, Some([_, factor])) => *factor,
-        (None, None) => 1.0,
-    }
-}
-
 /// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor
 /// brakes with the larger of its peak torque at standstill and its brake torque. `None` if that torque is unknown, or
 /// if the gearbox is self-locking: then its stiffness stops the machine.
 fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
     let motor = context.drive.motor;
     let mechanics = context.cycle.mechanics();
-    let peak = context.motor.envelope.peak_torque(-1.0, 0.0);
+    let peak = context.motor.stop;
     let [_, _, _, viscous, coulomb] = context.coefficients.0;
     let friction = coulomb + viscous * context.cycle.peak_speed();
     let braking = Braking {
@@ -129,7 +108,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
     match rule {
         Rule::GearboxPeak => {
             let cycles = cycles_per_hour(context);
-            let factor = shock_factor(gearbox, cycles);
+            let factor = gearbox.shock_factor(cycles);
             if factor > 1.0 {
                 words.rating = format!(
                     "{rating} reduced by the maker's shock factor of {} for {} cycles per hour",

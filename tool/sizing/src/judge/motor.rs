@@ -1,5 +1,7 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
+use std::fmt::Write as _;
+
 use super::{Context, Record, Words};
 use crate::cycle::Cycle;
 use crate::motor::envelope::Prepared;
@@ -56,11 +58,6 @@ pub(super) fn measure_torques(context: &Context, findings: &mut impl Record) {
     findings.set(Rule::HoldingTorque, Finding::new(held, standstill));
     let constant = Finding::new(constant(context), standstill);
     findings.set(Rule::ConstantTorque, constant);
-    let brake = context.drive.motor.brake;
-    if brake.is_some() || falls(context) {
-        let torque = brake.map(|brake| brake.torque);
-        findings.set(Rule::BrakeTorque, Finding::against(braked(context), torque));
-    }
 }
 
 /// The torque where the cycle comes closest to the envelope.
@@ -86,27 +83,35 @@ fn moves_per_minute(context: &Context) -> f64 {
 }
 
 /// Whether the gearbox is self-locking.
-fn locks(context: &Context) -> bool {
+pub(super) fn locks(context: &Context) -> bool {
     context
         .drive
         .gearbox
         .is_some_and(|g| g.back_efficiency <= 0.0)
 }
 
-/// Torque at rest that the motor may have to hold (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine
+/// Thermal time constant of a winding (s) that the catalogue does not give: that of a small servo motor.
+const WINDING_TIME: f64 = 10.0;
+
+/// Time (s) beyond which a torque at rest counts as one without end: the winding then comes near its steady temperature.
+fn lasts(context: &Context) -> f64 {
+    (context.drive.motor.thermal.winding_time).unwrap_or(WINDING_TIME)
+}
+
+/// Torque at rest that the motor may have to hold without end (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine
 /// would begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does.
 /// A self-locking gearbox needs no torque.
 pub(super) fn holding(context: &Context) -> f64 {
     if locks(context) {
         return 0.0;
     }
-    let most = context.cycle.mechanics().holding;
+    let most = context.cycle.mechanics().rest.lasting(lasts(context));
     let efficiency = context.drive.gearbox.map_or(1.0, |g| g.efficiency);
     most / (context.ratio * efficiency)
 }
 
 /// Torque that the brake must hold (N·m): τ/i, without the help of friction, which is not to be relied on.
-fn braked(context: &Context) -> f64 {
+pub(super) fn braked(context: &Context) -> f64 {
     if locks(context) {
         0.0
     } else {
@@ -115,7 +120,7 @@ fn braked(context: &Context) -> f64 {
 }
 
 /// Whether weight, springs or loads move the machine when the motor is without current.
-fn falls(context: &Context) -> bool {
+pub(super) fn falls(context: &Context) -> bool {
     context.cycle.mechanics().falls && !locks(context)
 }
 
@@ -143,6 +148,32 @@ fn constant(context: &Context) -> f64 {
     (resisting * forth + own).max(driving * back - coulomb)
 }
 
+/// How the holding torque was determined.
+fn held(context: &Context, finding: Finding) -> String {
+    let torque = context.vocabulary().torque;
+    let mut place = String::new();
+    if finding.value > 0.0 {
+        place = format!("{torque} at standstill with friction against the motor");
+    }
+    let rest = &context.cycle.mechanics().rest;
+    let time = lasts(context);
+    if let Some(longest) = rest.longest_above(rest.lasting(time)) {
+        let whose = match context.drive.motor.thermal.winding_time {
+            Some(_) => "",
+            None => ", which is not given",
+        };
+        let before = if place.is_empty() { "" } else { "; " };
+        let _ = write!(
+            place,
+            "{before}process loads in a dwell, held for at most {} s, are judged by RMS {torque} and temperature, \
+             because the time constant of the winding is {} s{whose}",
+            short(longest),
+            short(time)
+        );
+    }
+    place
+}
+
 pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
     let words = context.vocabulary();
     let Vocabulary {
@@ -161,11 +192,6 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         Rule::PeakTorque => format!("peak {torque} at that speed"),
         Rule::Speed => "maximum speed".to_owned(),
         Rule::HoldingTorque | Rule::ConstantTorque => format!("standstill {torque}"),
-        Rule::BrakeTorque if finding.rating.is_nan() => {
-            "holding brake of the motor, without which the machine moves when it is switched off"
-                .to_owned()
-        }
-        Rule::BrakeTorque => format!("brake {torque}"),
         _ => format!("times the {rotor}'s {inertia}"),
     };
     let place = match rule {
@@ -179,14 +205,11 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
                 words.speed(peak.speed)
             )
         }
-        Rule::HoldingTorque | Rule::BrakeTorque if locks(context) => {
+        Rule::HoldingTorque if locks(context) => {
             "the gearbox is self-locking and holds by itself".to_owned()
         }
-        Rule::HoldingTorque if finding.value > 0.0 => {
-            format!("{torque} at standstill with friction against the motor")
-        }
+        Rule::HoldingTorque => held(context, finding),
         Rule::ConstantTorque => format!("{torque} of weight and friction only"),
-        Rule::BrakeTorque => format!("{torque} at standstill without the help of friction"),
         Rule::InertiaRatio => {
             let choices = &rules.choices;
             let judged = choices.inertia_ratio_of.words();

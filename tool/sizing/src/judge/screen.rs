@@ -8,7 +8,7 @@
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
 
 use super::outcome::Tally;
-use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal, voltage};
+use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;
@@ -72,8 +72,10 @@ impl<'c> Screen<'c> {
             return tally.outcome;
         }
         let context = Context::new(self.cycle, self.site, drive, limits);
+        site::measure(&context, &mut tally);
         motor::measure_inertia(&context, self.rules, &mut tally);
         motor::measure_torques(&context, &mut tally);
+        brake::measure(&context, &mut tally);
         gearbox::measure_stop(&context, &mut tally);
         if tally.outcome.fails() {
             return tally.outcome;

@@ -73,7 +73,7 @@ impl Task for GridStudy<'_> {
             self.rank.map_or("default", Objective::name)
         ));
         Header {
-            jred: "vary/2".to_owned(),
+            jred: "vary/3".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             machine: self.study.name.clone(),
             machine_digest: self.study.machine_digest(),

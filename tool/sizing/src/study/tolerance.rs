@@ -243,7 +243,7 @@ impl Task for Samples<'_> {
         options.push(format!("steps = {}", self.study.sampling.steps));
         options.push(format!("drive = {}", self.one.name()));
         Header {
-            jred: "tolerance/2".to_owned(),
+            jred: "tolerance/3".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             machine: self.study.name.clone(),
             machine_digest: self.study.machine_digest(),

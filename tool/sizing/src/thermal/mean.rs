@@ -36,11 +36,11 @@ impl Model {
                     other: coulomb * cycle.mean_speed() * ratio + viscous * speed * speed,
                 }
             }
-            Self::Relative { standstill, .. } => {
+            Self::Relative { standstill, s1, .. } => {
                 let root = cycle.rms_torque(coefficients) / standstill;
                 Losses {
                     copper: root * root,
-                    other: lost_to_speed(cycle, ratio, &prepared.envelope, standstill),
+                    other: lost_to_speed(cycle, ratio, &prepared.envelope, s1),
                 }
             }
         }

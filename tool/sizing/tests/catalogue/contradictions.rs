@@ -47,7 +47,7 @@ fn rows_that_contradict_themselves() {
         (
             curve,
             "peak_curve = \"0 rpm: 36 N m; 0 rpm: 3 N m\"",
-            "order of increasing speed",
+            "in increasing order",
         ),
         (
             curve,

@@ -218,7 +218,8 @@ fn a_motor_in_toml_is_the_same() {
         csv.brake,
         Some(Brake {
             torque: 12.0,
-            inertia: 0.6 * 1e-4
+            inertia: 0.6 * 1e-4,
+            ..Default::default()
         })
     );
 }

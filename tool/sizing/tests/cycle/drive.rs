@@ -24,6 +24,7 @@ fn motor() -> Motor {
         brake: Some(Brake {
             torque: 9.0,
             inertia: 2e-4,
+            ..Default::default()
         }),
         friction: [0.3, 4e-3],
         ..Motor::default()

@@ -132,3 +132,28 @@ fn the_exponent_of_roller_bearings_is_said() {
         assert_eq!(check.note.contains(words), said, "{}", check.note);
     }
 }
+
+/// T2B/f_s by itself, for those who plan motions: f_s on the straight line between the maker's points.
+#[test]
+fn the_acceleration_torque_of_a_cycle_rate() {
+    let stand = Stand::press();
+    let mut gearbox = stand.gearbox.clone();
+    assert_eq!(gearbox.acceleration_torque(5000.0), Some(80.0));
+    assert_eq!(gearbox.most_cycles(), 1000.0);
+    gearbox.shock_factors = vec![[1000.0, 1.0], [2000.0, 1.15], [3000.0, 1.4]];
+    near(
+        "between",
+        gearbox.acceleration_torque(1500.0).unwrap(),
+        80.0 / 1.075,
+        1e-12,
+    );
+    near(
+        "beyond",
+        gearbox.acceleration_torque(9000.0).unwrap(),
+        80.0 / 1.4,
+        1e-12,
+    );
+    assert_eq!(gearbox.most_cycles(), 3000.0);
+    gearbox.peak_torque = None;
+    assert_eq!(gearbox.acceleration_torque(100.0), None);
+}

@@ -127,7 +127,7 @@ fn the_time_course_rests_where_the_rule_says() {
         stand.found(true, Rule::HoldingTorque).value,
         1e-12,
     );
-    let most = stand.cycle.mechanics().holding;
+    let most = stand.cycle.mechanics().rest.largest();
     near("most", most, 40.0 / 0.96, 1e-12);
 }
 
@@ -217,7 +217,7 @@ fn hoist_once() -> (
 #[test]
 fn the_press_is_held() {
     let stand = Stand::new(&press_text());
-    let most = stand.cycle.mechanics().holding;
+    let most = stand.cycle.mechanics().rest.largest();
     let hold = stand.duty.hold_torque;
     within("most", most, hold / 0.97, budget::SAME_SUMS);
 }

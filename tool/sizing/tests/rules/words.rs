@@ -29,7 +29,12 @@ fn full() -> (Stand, Amplifier) {
         peak_power: Some(9e3),
         pulse_energy: Some(9e3),
     });
-    stand.brake(12.0);
+    stand.motor.brake = Some(jred_sizing::catalogue::Brake {
+        torque: 12.0,
+        closing_time: Some(0.03),
+        work: Some(500.0),
+        ..Default::default()
+    });
     let motor = &mut stand.motor;
     motor.max_bus_voltage = Some(900.0);
     motor.winding.torque_constant = Some(1.2);
@@ -80,6 +85,12 @@ fn every_rule_has_its_unit_and_names_its_limit() {
         (Rule::Speed, "rpm", RPM, "maximum speed"),
         (Rule::HoldingTorque, "N m", 1.0, "standstill torque"),
         (Rule::BrakeTorque, "N m", 1.0, "brake torque"),
+        (
+            Rule::BrakeWork,
+            "J",
+            1.0,
+            "work of the brake in one emergency stop",
+        ),
         (Rule::InertiaRatio, "", 1.0, "times the rotor's inertia"),
         (
             Rule::WindingTemperature,
@@ -169,15 +180,15 @@ fn every_rule_has_its_unit_and_names_its_limit() {
         assert!(check.note.contains(rating), "{rule:?}: {}", check.note);
         assert_ne!(check.verdict, Verdict::NotChecked, "{rule:?}");
     }
-    // All but the torque without acceleration, which is off unless a limit is given.
-    assert_eq!(found.len(), Rule::COUNT - 1);
+    // All but the torque without acceleration, which is off unless a limit is given, and those of a hot or a high site.
+    assert_eq!(found.len(), Rule::COUNT - 1 - 3);
 }
 
 /// What a figure is missing for is not checked, and named; all else stays as it was.
 #[test]
 fn a_missing_figure_is_named() {
     type Change = fn(&mut Stand, &mut Amplifier);
-    let changes: [(Rule, Change, &str); 13] = [
+    let changes: [(Rule, Change, &str); 14] = [
         (
             Rule::Speed,
             |s, _| {
@@ -234,6 +245,11 @@ fn a_missing_figure_is_named() {
             Rule::WindingTemperature,
             |s, _| s.motor.thermal.max_temperature = None,
             "maximum temperature of the winding",
+        ),
+        (
+            Rule::ResistorPower,
+            |s, a| (s.file.site.supply.chopper_voltage, a.chopper_voltage) = (None, None),
+            "voltage at which the brake resistor switches on",
         ),
         (
             Rule::ResistorPeak,

@@ -138,7 +138,9 @@ fn the_rise_that_is_allowed() {
             0.8,
             1e-12,
         );
-        assert_eq!(allowed_rise(&unknown, &at(40.5, 0.0), true), None);
+        // Above the reference it is the S1 torque that is reduced: the rise stays the rated one.
+        assert_eq!(allowed_rise(&unknown, &at(40.5, 0.0), true), Some(1.0));
+        near("S1", unknown.derated(&at(40.5, 0.0)).factor, 0.995, 1e-12);
     }
     assert_eq!(allowed_rise(&motor(None), &at(20.0, 0.0), false), None);
 }

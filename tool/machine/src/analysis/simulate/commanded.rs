@@ -45,6 +45,11 @@ pub(super) trait Commander<M> {
         None
     }
 
+    /// What passes zero where the torque bends, as in [`run::Plant::bends`].
+    fn bends(&self, _plant: &Plant<M>, _t: f64, _state: [f64; 3]) -> Result<Vec<f64>, Error> {
+        Ok(Vec::new())
+    }
+
     /// With the times at which the torque has a corner.
     fn corners(&self, _plant: &Plant<M>, others: Corners) -> Corners {
         others
@@ -128,6 +133,18 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
 
     fn check(&self, _: &Moment, _: &[f64; N]) -> Result<(), SimulationError> {
         Ok(())
+    }
+
+    fn bends(&self, moment: &Moment, y: &[f64; N]) -> Result<Vec<f64>, Error> {
+        let mut bends = Vec::new();
+        if !self.is_off(moment.t) {
+            bends = self.commander.bends(&self.plant, moment.t, commanded(y))?;
+        }
+        if moment.direction != 0.0 {
+            let [torque, ..] = self.torque(moment, commanded(y))?;
+            bends.extend(self.plant.bends_under(moment, [y[0], y[1]], torque)?);
+        }
+        Ok(bends)
     }
 
     fn corners(&self) -> Corners {

@@ -80,8 +80,7 @@ impl<'a> Cascade<'a> {
             FeedForward::None => Ok(0.0),
             FeedForward::MeanInertia => Ok(plant.accelerating(alpha, &self.mean_inertia)),
             FeedForward::Model => {
-                let direction = if omega == 0.0 { 0.0 } else { omega.signum() };
-                let moment = Moment::new(t, direction);
+                let moment = Moment::new(t, direction(omega));
                 plant.required(&moment, [phi, omega, alpha])
             }
         }
@@ -125,6 +124,21 @@ impl<M: Motor> Commander<M> for Cascade<'_> {
         Some(self.reference(plant.machines.first, t).phi - phi)
     }
 
+    fn bends(&self, plant: &Plant<M>, t: f64, state: [f64; 3]) -> Result<Vec<f64>, Error> {
+        let [_, omega, _] = state;
+        let Command { asked, .. } = Commander::<M>::command(self, plant, t, state)?;
+        let [least, most] = plant.motor.limits(omega * plant.ratio());
+        let size = f64::MIN_POSITIVE + asked.abs() + least.abs() + most.abs();
+        let mut bends = vec![(asked - least) / size, (most - asked) / size];
+        if self.control.feed_forward == FeedForward::Model {
+            let reference = self.reference(plant.machines.first, t);
+            let moment = Moment::new(t, direction(reference.omega));
+            let state = [reference.phi, reference.omega, reference.alpha];
+            bends.extend(plant.bends_required(&moment, state)?);
+        }
+        Ok(bends)
+    }
+
     fn corners(&self, plant: &Plant<M>, others: Corners) -> Corners {
         let clock = Clock::of(plant.machines.first);
         let ends = self.motion.stretches().into_iter().map(|(_, end)| end);
@@ -134,6 +148,11 @@ impl<M: Motor> Commander<M> for Cascade<'_> {
     fn settles(&self) -> bool {
         false
     }
+}
+
+/// The sign of a speed; 0 at rest.
+fn direction(omega: f64) -> f64 {
+    if omega == 0.0 { 0.0 } else { omega.signum() }
 }
 
 /// The mean of a machine's inertia over its range.

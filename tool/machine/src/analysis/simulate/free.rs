@@ -113,6 +113,13 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         Ok(())
     }
 
+    fn bends(&self, moment: &Moment, y: &[f64; N]) -> Result<Vec<f64>, Error> {
+        if moment.direction == 0.0 {
+            return Ok(Vec::new());
+        }
+        self.bends_under(moment, [y[0], y[1]], self.torque(moment, y[1]))
+    }
+
     fn corners(&self) -> Corners {
         self.changes()
     }

@@ -54,14 +54,14 @@ impl<'a> Geared<'a> {
         self.ratio
     }
 
-    /// Positions of the first drive link within a turn where this machine is not smooth.
-    pub(in crate::analysis) fn edges(&self) -> impl Iterator<Item = f64> + use<'a> {
+    /// Positions of the first drive link where this machine is not smooth: all of those within so many turns, each of them some turns off.
+    pub(in crate::analysis) fn edges(&self, turns: u32) -> impl Iterator<Item = f64> + use<'a> {
         let Self {
             file,
             offset,
             ratio,
         } = *self;
-        let turns = ratio.abs().round().max(1.0) as u32;
+        let turns = (f64::from(turns) * ratio.abs()).round().max(1.0) as u32;
         let edges = (0..).map_while(|k| file.machine.edge(k));
         edges.flat_map(move |edge| {
             (0..turns).map(move |k| (edge + TAU * f64::from(k) - offset) / ratio)

@@ -1,5 +1,6 @@
 //! A machine, or several, that a motor drives through fixed ratios.
 
+mod bends;
 mod shown;
 
 use jred::Error;
@@ -12,6 +13,7 @@ use crate::model::axis::Axis;
 use crate::model::motor::{Motor, loads_of};
 use crate::model::simulation::{Shaft, Simulation};
 use crate::number::numerics::newton;
+use bends::Bends;
 
 /// The machine with its drive and motor torque.
 pub(in crate::analysis) struct Plant<'a, M> {
@@ -21,6 +23,7 @@ pub(in crate::analysis) struct Plant<'a, M> {
     axis: Axis,
     /// Where the drive link's way ends.
     ends: Option<[f64; 2]>,
+    bends: Bends,
 }
 
 /// Derivatives and forces at one state.
@@ -70,6 +73,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         Self {
             axis: machines.first.axis(),
             ends: simulation.ends(machines.first),
+            bends: Bends::of(&machines, &motor),
             machines,
             simulation,
             motor,
@@ -283,14 +287,27 @@ impl<'a, M: Motor> Plant<'a, M> {
         [phi, omega]: [f64; 2],
         torque: f64,
     ) -> Result<Instant, Error> {
-        let direction = moment.direction;
         let points = self.points(moment, [phi, omega])?;
+        Ok(self.solved(&points, moment.direction, [phi, omega], torque))
+    }
+
+    /// What of the motor's torque acts at its own shaft, and what at the first drive link: then what sits in front of that only drags along.
+    fn acting(&self, torque: f64) -> [f64; 2] {
+        match self.simulation.at {
+            Shaft::Motor => [torque, 0.0],
+            Shaft::DriveLink => [0.0, torque],
+        }
+    }
+
+    fn solved(
+        &self,
+        points: &Points<'a>,
+        direction: f64,
+        [phi, omega]: [f64; 2],
+        torque: f64,
+    ) -> Instant {
         let speed = omega * self.ratio();
-        // With the torque at the drive link, what sits in front of it only drags along.
-        let (at_motor, at_link) = match self.simulation.at {
-            Shaft::Motor => (torque, 0.0),
-            Shaft::DriveLink => (0.0, torque),
-        };
+        let [at_motor, at_link] = self.acting(torque);
         // The motor acts at the first drive link alone.
         let at = |k: usize| if k == 0 { at_link } else { 0.0 };
         let mut input_torque = 0.0;
@@ -312,11 +329,13 @@ impl<'a, M: Motor> Plant<'a, M> {
             let [_, omega, alpha] = machine.state([phi, omega, alpha]);
             let direction = sign(direction * machine.ratio());
             let reduction = &point.reduction;
-            process_power += reduction.process * omega;
+            let [viscous, coulomb] = point.working;
+            let working = (viscous * omega + coulomb * direction) * omega;
+            process_power += reduction.process * omega - working;
             carriage_power += point.carriage_power(alpha);
-            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega;
+            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega - working;
         }
-        Ok(Instant {
+        Instant {
             alpha,
             motor_torque: torque,
             input_torque,
@@ -324,7 +343,7 @@ impl<'a, M: Motor> Plant<'a, M> {
             process_power,
             carriage_power,
             loss,
-        })
+        }
     }
 
     /// What the second axes give where friction holds the machine (W).

@@ -11,6 +11,8 @@ use crate::model::carriage::Carriage;
 pub(super) struct Point<'a> {
     /// Without the motion of carriages along their guides.
     pub(super) reduction: Reduction,
+    /// b and c of the loads against the motion that do the work of the process, contained in those of the reduction.
+    pub(super) working: [f64; 2],
     /// Torque with which carriages resist by that motion (N·m).
     resists: f64,
     carried: Option<Carried<'a>>,
@@ -58,6 +60,7 @@ impl<'a> Point<'a> {
             None => None,
         };
         Ok(Self {
+            working: file.working(&own, phi)?,
             reduction,
             resists,
             carried,

@@ -2,7 +2,7 @@
 //! speed, never taken from the motor's.
 
 use jred::Error;
-use jred::friction::{Contact, OperatingPoint, Ratios, Stage};
+use jred::friction::{Contact, CreepContact, OperatingPoint, Ratios, Stage};
 use jred::mechanism::TrainOutput;
 use jred::number::RangeError;
 
@@ -50,8 +50,9 @@ struct Instant {
     motor_power: f64,
     process_power: f64,
     loss: f64,
-    /// Inertia of the mechanism at its drive link.
+    /// Inertia of the mechanism at its drive link, and the torque there that keeps its speed.
     inertia: f64,
+    resisting: f64,
     potential: f64,
 }
 
@@ -147,6 +148,8 @@ impl<'a> Plant<'a> {
             Shaft::DriveLink => (0.0, torque),
         };
         let friction = point.viscous * omega + point.coulomb * direction;
+        let [viscous, coulomb] = self.file.working(&self.file.machine, y[2])?;
+        let working = (viscous * omega + coulomb * direction) * omega;
         let behind = Behind {
             plant: self,
             inertia: point.inertia,
@@ -161,8 +164,9 @@ impl<'a> Plant<'a> {
             ratio: i,
             motor_torque: torque,
             motor_power: torque * speed,
-            process_power: point.process * omega,
+            process_power: point.process * omega - working,
             inertia: point.inertia,
+            resisting: behind.resisting,
             potential: point.potential_energy,
             ..Instant::default()
         };
@@ -197,7 +201,7 @@ impl<'a> Plant<'a> {
             now.contact_loss = torque * (force - j) * y[1];
         }
         let [.., train] = behind.torque(now.alpha[2]);
-        now.loss = now.contact_loss + train + friction * omega;
+        now.loss = now.contact_loss + train + friction * omega - working;
         Ok(now)
     }
 }
@@ -259,6 +263,37 @@ impl run::Plant<7> for Plant<'_> {
             return Err(SimulationError::PowerFlowsBack { t: moment.t, power });
         }
         Ok(())
+    }
+
+    fn bends(&self, moment: &Moment, y: &State) -> Result<Vec<f64>, Error> {
+        let now = self.instant(moment.direction, moment.t, y)?;
+        let speed = match self.simulation.at {
+            Shaft::Motor => y[1],
+            Shaft::DriveLink => now.omega[1],
+        };
+        let own = self.motor.bends().into_iter();
+        let mut bends: Vec<f64> = own
+            .map(|bend| (speed - bend) / (speed.abs() + bend.abs()))
+            .collect();
+        if let Slip::Creep(contact) = &self.variator.slip {
+            let fastest = (now.ratio * y[1]).abs().max(now.omega[0].abs());
+            bends.extend([now.slip, fastest - CreepContact::SLOW]);
+            bends.extend(contact.bends().into_iter().map(|slip| now.slip - slip));
+        }
+        if moment.direction != 0.0 && self.file.drive_train.has_losses() {
+            let accelerating = now.inertia * now.alpha[2];
+            let delivered = self.file.drive_train.delivered_with_losses(&TrainOutput {
+                torque: accelerating + now.resisting,
+                torque_per_alpha: 0.0,
+                omega: now.omega[1],
+                alpha: now.alpha[2],
+                direction: moment.direction,
+            });
+            let size = accelerating.abs() + now.resisting.abs() + now.motor_torque.abs();
+            let size = f64::MIN_POSITIVE + size;
+            bends.extend(delivered.into_iter().map(|torque| torque / size));
+        }
+        Ok(bends)
     }
 
     fn corners(&self) -> Corners {

@@ -1,7 +1,6 @@
 //! The steady cycle: the fixed point of a turn.
 
-use std::f64::consts::TAU;
-
+use super::aim::{Ended, Held};
 use super::figures::Figures;
 use super::start::Start;
 use super::turn::{Reached, Turning};
@@ -13,6 +12,9 @@ use crate::number::rounding::short;
 /// Speeds of the drive link that are looked at (rad/s).
 const FASTEST: f64 = 1e5;
 const SLOWEST: f64 = 1e-3;
+
+/// Share of the energy below which a rise has few digits.
+const LOST: f64 = 1e-6;
 
 /// From one speed to the next one.
 const STEP: f64 = 1.25;
@@ -30,31 +32,39 @@ pub struct Cycle {
     pub figures: Figures,
     /// What is left of a small deviation of the energy after a turn, as a share: below 1 the cycle is stable.
     pub left_over: f64,
-    /// |E(2π) − E(0)|/E(0).
+    /// |E(end) − E(0)|/E(0).
     pub residual: f64,
     /// The lowest speed at the start of a turn from which the machine comes to this cycle (rad/s); `None`: from every one.
     pub caught_from: Option<f64>,
     /// How it starts from rest.
     pub start: Start,
+    /// What was found for a mean speed that is prescribed.
+    pub held: Option<Held>,
 }
 
 impl Cycle {
-    /// The cycle with the highest speed, if there are several: it is the stable one.
-    pub(super) fn of(turning: &Turning, positions: usize) -> Result<Self, SteadyError> {
-        match search(turning) {
-            Ok(Found::Cycle(begin)) => Self::at(turning, begin, positions),
-            Ok(Found::Loses(from)) => Err(standstill(turning, from)?),
-            // Loads that are far too large end each motion within a tiny way.
-            Err(SteadyError::Integrator) => Err(held(turning)?.unwrap_or(SteadyError::Integrator)),
-            Err(error) => Err(error),
+    /// The cycle that was found, or why there is none.
+    pub(super) fn of(
+        turning: &Turning,
+        ended: Ended,
+        positions: usize,
+    ) -> Result<Self, SteadyError> {
+        match ended.found {
+            Found::Cycle(begin) => Self::at(turning, begin, ended.held, positions),
+            Found::Loses(from) => Err(standstill(turning, from)?),
         }
     }
 
     /// The cycle that begins with this speed.
-    pub(super) fn at(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
+    pub(super) fn at(
+        turning: &Turning,
+        begin: f64,
+        held: Option<Held>,
+        positions: usize,
+    ) -> Result<Self, SteadyError> {
         let figures = Figures::of(turning, begin, positions)?;
         figures.check_contacts(turning)?;
-        // E(2π) from a share of E(0), both as shares of the cycle's.
+        // E at the end from a share of E(0), both as shares of the cycle's.
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
@@ -63,6 +73,7 @@ impl Cycle {
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
+            held,
             figures,
         })
     }
@@ -95,18 +106,18 @@ fn speeds(turning: &Turning) -> Vec<f64> {
 pub(super) enum Found {
     /// The speed at the start of the turn (rad/s) with which it also ends.
     Cycle(f64),
-    /// At every speed a turn loses energy; this is the lowest one at which the machine still comes round.
+    /// At every speed a cycle loses energy; this is the lowest one at which the machine still comes round.
     Loses(f64),
 }
 
-/// The fixed point with the highest speed.
+/// The fixed point with the highest speed, if there are several: it is the stable one.
 fn search(turning: &Turning) -> Result<Found, SteadyError> {
     let speeds = speeds(turning);
     let mut above = None;
     let mut best: Option<(usize, f64)> = None;
     let mut comes_round = FASTEST;
     for (k, &at) in speeds.iter().enumerate() {
-        let gain = turning.gain(at)?;
+        let gain = turning.about_gain(at)?;
         match above {
             None if gain > 0.0 => {
                 let [inertia, _] = turning.plant.inertia(turning.at(0.0))?;
@@ -154,24 +165,54 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
         });
     }
     let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
-    if rises[0] > 0.0 && rises[1] < 0.0 {
+    if rises[0] > LOST && rises[1] < -LOST {
         numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
     } else {
-        // The work of a turn is lost in the digits of the energy.
+        // The work of a cycle is lost in the digits of the energy.
         numerics::zero(|at| turning.gain(at), ends, gains, 1e-15)
     }
 }
 
-/// The fixed point near `guess`, else wherever it is.
-pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
-    if let Some(guess) = guess {
-        let ends = [guess / 1.1, guess * 1.1];
-        let gains = [turning.gain(ends[0])?, turning.gain(ends[1])?];
-        if gains[0] > 0.0 && gains[1] < 0.0 {
-            return between(turning, ends, gains).map(Found::Cycle);
+/// The stable fixed point beside a guess by the secant's method, if that ends there.
+fn secant(turning: &Turning, guess: f64) -> Result<Option<f64>, SteadyError> {
+    let mut last = (guess, turning.gain(guess)?);
+    let mut now = (guess * (1.0 + FIRST * last.1.signum()), 0.0);
+    for _ in 0..MOST_SECANTS {
+        now.1 = turning.gain(now.0)?;
+        let slope = (now.1 - last.1) / (now.0 - last.0);
+        if now.1 == 0.0 && slope < 0.0 {
+            return Ok(Some(now.0));
+        }
+        let step = -now.1 / slope;
+        if !(slope < 0.0 && step.abs() < MOST_AWAY * guess) {
+            return Ok(None);
+        }
+        last = now;
+        now.0 += step;
+        if step.abs() <= 1e-15 * guess {
+            return Ok(Some(now.0));
         }
     }
-    search(turning)
+    Ok(None)
+}
+
+/// First step away from a guess, the most steps, and the furthest one, as shares of it.
+const FIRST: f64 = 1e-5;
+const MOST_SECANTS: u32 = 10;
+const MOST_AWAY: f64 = 0.1;
+
+/// The fixed point near `guess`, else wherever it is.
+pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
+    if let Some(guess) = guess
+        && let Some(begin) = secant(turning, guess)?
+    {
+        return Ok(Found::Cycle(begin));
+    }
+    match search(turning) {
+        // Loads that are far too large end each motion within a tiny way.
+        Err(SteadyError::Integrator) => Err(held_up(turning)?.unwrap_or(SteadyError::Integrator)),
+        found => found,
+    }
 }
 
 /// The lowest speed at the start of a turn from which the machine gains up to this cycle.
@@ -179,17 +220,16 @@ fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError
     let mut gains = begin;
     while gains > 1e-3 * begin {
         let next = gains / STEP;
-        if turning.gain(next)? <= 0.0 {
-            let (mut low, mut high) = (next, gains);
-            while high - low > 1e-7 * high {
-                let middle = low.midpoint(high);
-                if turning.gain(middle)? > 0.0 {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
+        let lost = turning.about_gain(next)?;
+        if lost <= 0.0 {
+            let ends = [next, gains];
+            let values = [lost, turning.about_gain(gains)?];
+            // The cycle itself neither gains nor loses.
+            if values[1] <= 0.0 {
+                return Ok(Some(gains));
             }
-            return Ok(Some(high));
+            let found = numerics::zero(|at| turning.about_gain(at), ends, values, 1e-7)?;
+            return Ok(Some(found));
         }
         gains = next;
     }
@@ -214,7 +254,7 @@ pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, St
 }
 
 /// What is missing at the place where the motor is the weakest at rest; `None`: it can start the machine everywhere.
-fn held(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
+fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
     let side = turning.plant.ratio().signum() * turning.direction;
     let mut worst: Option<Missing> = None;
     for (x, _) in turning.places(360) {
@@ -228,7 +268,7 @@ fn held(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
 }
 
 /// What is missing at the place where the machine stopped.
-fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
+pub(super) fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
     Ok(lacks(Missing::at(turning, x)?))
 }
 
@@ -246,7 +286,7 @@ fn lacks(missing: Missing) -> SteadyError {
 pub struct Missing {
     /// The place in words.
     pub place: String,
-    /// Position there (rad, from 0 to 2π).
+    /// Position there (rad), within the cycle.
     pub phi: f64,
     /// Motor torque at rest (N·m).
     pub given: f64,
@@ -256,7 +296,7 @@ pub struct Missing {
 
 impl Missing {
     pub(super) fn at(turning: &Turning, x: f64) -> Result<Self, SteadyError> {
-        let phi = turning.at(x).rem_euclid(TAU);
+        let phi = turning.at(x).rem_euclid(turning.span());
         let state = [phi, turning.direction * HAIR];
         let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {

@@ -30,16 +30,18 @@ pub enum SteadyError {
     },
     /// Machines on one shaft that do not repeat together.
     #[error(
-        "the machine \"{title}\" makes {turns} turns while the drive link of the first one makes one, and a cycle is one turn of the first"
+        "the machine \"{title}\" makes {turns} turns while the drive link of the first one makes {of_first}, and that is a cycle"
     )]
     #[diagnostic(help(
-        "name the slowest machine first; the others must make whole turns in one of its turns. `jred simulate` takes any ratio"
+        "name the slowest machine first, or give --turns: the others must make whole turns in a cycle. `jred simulate` takes any ratio"
     ))]
     NotWhole {
         /// The machine.
         title: String,
         /// Its turns.
         turns: String,
+        /// Those of the first in a cycle.
+        of_first: u32,
     },
     /// No motor is given.
     #[error("[simulation] gives no motor")]
@@ -48,23 +50,55 @@ pub enum SteadyError {
     ))]
     NoMotor,
     /// The motor has no torque.
-    #[error("the motor gives no torque at rest, nor at any other speed of its characteristic")]
+    #[error(
+        "the motor gives no torque at rest, nor at any other speed of its characteristic, and no load drives the machine"
+    )]
     #[diagnostic(help(
         "give a torque other than zero: --torque \"20 N m\", or torque, torque_speed, dc_motor or induction_motor in [simulation]"
     ))]
     NoTorque,
     /// The motor drives the other way.
     #[error(
-        "the motor torque at rest, {torque}, drives the drive link against its start_speed, {speed}"
+        "the motor torque at rest, {torque}, drives the drive link against its start_speed, {speed}, and the loads do not drive it that way"
     )]
     #[diagnostic(help(
-        "change the sign of the torque or of start_speed, or remove start_speed: the machine then turns the way the motor drives it"
+        "change the sign of the torque or of start_speed, or remove start_speed: the machine then turns the way the motor drives it. Where the \
+         process should drive it against the motor, check the signs of its loads"
     ))]
     WrongSign {
         /// Torque of the motor at rest.
         torque: String,
         /// The speed of the file.
         speed: String,
+    },
+    /// Nothing of a motor or a load gives a mean speed.
+    #[error("no {what} keeps the machine turning at {speed}")]
+    #[diagnostic(help(
+        "choose another mean speed, or give a motor or a load that does work at this one: `jred reduce --over time` shows what acts"
+    ))]
+    NoLevel {
+        /// What is scaled.
+        what: std::borrow::Cow<'static, str>,
+        /// The speed.
+        speed: String,
+    },
+    /// No load has the name.
+    #[error("no load is called \"{name}\"")]
+    #[diagnostic(help("the loads of the machine are {names}"))]
+    NoLoad {
+        /// The name.
+        name: String,
+        /// Those there are.
+        names: String,
+    },
+    /// A cycle of so many turns does not repeat.
+    #[error("the loads repeat after {own} turns, and a cycle of {asked} does not")]
+    #[diagnostic(help("give a multiple of {own} as --turns, or leave it out"))]
+    Turns {
+        /// Turns after which the loads repeat.
+        own: u32,
+        /// Turns of the cycle.
+        asked: u32,
     },
     /// The machine wins energy in each turn at every speed.
     #[error(

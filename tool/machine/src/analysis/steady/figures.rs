@@ -1,8 +1,7 @@
 //! The course of a steady cycle and its figures.
 
-use std::f64::consts::TAU;
-
 use super::SteadyError;
+use super::cycle;
 use super::turn::{Reached, State, Turning, starting};
 use crate::analysis::simulate::Moment;
 use crate::analysis::simulate::run::{Plant as _, Terms, Works, cells, heads};
@@ -21,9 +20,11 @@ const SPEEDS: u32 = 256;
 pub struct Figures {
     /// Speed at the start of the turn (rad/s), by magnitude.
     pub begin: f64,
-    /// Duration of a turn (s).
+    /// Turns of the drive link in a cycle.
+    pub turns: u32,
+    /// Duration of a cycle (s).
     pub period: f64,
-    /// Mean over the time, 2π/period (rad/s); negative: the drive link turns clockwise.
+    /// Mean over the time, 2π·turns/period (rad/s); negative: the drive link turns clockwise.
     pub mean_speed: f64,
     /// Largest and smallest speed (rad/s), by magnitude, each with its position (rad).
     pub fastest: [f64; 2],
@@ -39,8 +40,10 @@ pub struct Figures {
     pub power: [f64; 2],
     /// Mean speed of the motor (rad/s).
     pub motor_speed: f64,
-    /// Work of the motor, of the process loads, and losses in a turn (J).
+    /// Work of the motor, of the process loads, and losses in a cycle (J).
     pub works: [f64; 3],
+    /// By how much the kinetic energy of all that moves changes over a cycle, from its least to its largest value (J).
+    pub fluctuation: f64,
     /// The largest energy balance as a share of the energy turned over.
     pub imbalance: f64,
     /// The course over the time.
@@ -63,7 +66,7 @@ impl Figures {
                 Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
                     Reached::End(y) => y,
                     // A fixed point that stops by a hair is none.
-                    Reached::Stopped(_) => return Err(SteadyError::Integrator),
+                    Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
                 },
             };
             if part {
@@ -82,7 +85,7 @@ impl Figures {
             return Err(SteadyError::Integrator);
         };
         let plant = &turning.plant;
-        let mean = TAU / period;
+        let mean = turning.span() / period;
         let motor_speed = mean * turning.direction * plant.ratio();
         let span = [slowest[0], fastest[0]];
         let torque = |omega: f64| plant.motor(turning.direction * omega)[0];
@@ -93,7 +96,15 @@ impl Figures {
         let mut course = Columns::new(heads(plant.columns(), Terms::default()));
         let mut start = None;
         let (mut imbalance, mut turned_over) = (0.0f64, 0.0f64);
-        for (_, (x, y)) in nodes.iter().enumerate().filter(|(k, _)| listed.contains(k)) {
+        let mut kinetic = [f64::INFINITY, 0.0f64];
+        let mut listed = listed.into_iter().peekable();
+        for (k, (x, y)) in nodes.iter().enumerate() {
+            let [inertia, _] = plant.inertia(turning.at(*x))?;
+            let now = inertia * y[0];
+            kinetic = [kinetic[0].min(now), kinetic[1].max(now)];
+            if listed.next_if_eq(&k).is_none() {
+                continue;
+            }
             let omega = turning.direction * (2.0 * y[0]).sqrt();
             let state = [turning.at(*x), omega, y[2], y[3], y[4]];
             let row = plant.row(
@@ -123,6 +134,7 @@ impl Figures {
         let torque_time = |f: &dyn Fn(f64) -> f64| largest(f, span);
         Ok(Self {
             begin,
+            turns: turning.turns,
             period,
             mean_speed: turning.direction * mean,
             fastest: [fastest[0], turning.at(fastest[1])],
@@ -137,6 +149,7 @@ impl Figures {
             power: [motor / period, torque_time(&power)],
             motor_speed,
             works: [motor, process, losses],
+            fluctuation: kinetic[1] - kinetic[0],
             imbalance: imbalance / turned_over,
             course,
             nodes,
@@ -167,7 +180,19 @@ impl Figures {
     }
 }
 
-/// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the turn it is.
+/// δ of the cycle that begins with a speed, over the ends of the integrator's steps and the extremes between them.
+pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
+    let (reached, nodes) = turning.course(begin)?;
+    let period = match reached {
+        Reached::End([_, period, ..]) => period,
+        Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
+    };
+    let fastest = extreme(turning, &nodes, begin, 1.0)?;
+    let slowest = extreme(turning, &nodes, begin, -1.0)?;
+    Ok((fastest[0] - slowest[0]) * period / turning.span())
+}
+
+/// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the cycle it is.
 fn extreme(
     turning: &Turning,
     nodes: &[(f64, State)],
@@ -182,14 +207,8 @@ fn extreme(
     }
     let (k, _) = best;
     let mut found = (nodes[k].0, nodes[k].1[0]);
-    // The end of the turn is its start.
-    let last = nodes.len() - 1;
-    let before = if k == 0 { last - 1 } else { k - 1 };
-    let after = if k == last { 0 } else { k };
-    for left in [before, after] {
-        let (Some(from), Some(to)) = (nodes.get(left), nodes.get(left + 1)) else {
-            continue;
-        };
+    for pair in nodes.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
         let z = |x: f64| -> Result<f64, SteadyError> {
             if x <= from.0 {
                 return Ok(from.1[0]);
@@ -199,12 +218,15 @@ fn extreme(
                 Reached::Stopped(_) => Ok(0.0),
             }
         };
-        let rising = |x: f64, z: f64| -> Result<bool, SteadyError> {
+        let slope = |x: f64, z: f64| -> Result<f64, SteadyError> {
             let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
-            Ok(alpha * turning.direction * side > 0.0)
+            Ok(alpha * turning.direction * side)
         };
-        if rising(from.0, from.1[0])? && !rising(to.0, to.1[0])? {
-            let x = numerics::edge(|x| rising(x, z(x)?), from.0, to.0)?;
+        let slopes = [slope(from.0, from.1[0])?, slope(to.0, to.1[0])?];
+        let most =
+            (side * from.1[0]).max(side * to.1[0]) + slopes[0].max(-slopes[1]) * (to.0 - from.0);
+        if slopes[0] > 0.0 && slopes[1] <= 0.0 && most > side * found.1 {
+            let x = numerics::zero(|x| slope(x, z(x)?), [from.0, to.0], slopes, 1e-15)?;
             let there = z(x)?;
             if side * there > side * found.1 {
                 found = (x, there);

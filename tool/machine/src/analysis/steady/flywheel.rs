@@ -1,17 +1,17 @@
 //! The flywheel that gives a coefficient of speed fluctuation, exactly and by the classical method.
 
 use std::cell::Cell;
-use std::f64::consts::TAU;
 
 use jred::mechanism::Stage;
 
 use super::SteadyError;
+use super::aim::{Ended, Guess, Held, Search};
 use super::cycle::{self, Cycle, Found};
-use super::figures::Figures;
+use super::figures::{self, Figures};
 use super::turn::Turning;
 use crate::analysis::simulate::run::HAIR;
 use crate::model::machine::{MachineFile, OverRange};
-use crate::model::simulation::{Shaft, Simulation};
+use crate::model::simulation::Shaft;
 use crate::number::numerics;
 use crate::number::rounding::short;
 
@@ -80,8 +80,8 @@ pub struct Classical {
 impl Flywheel {
     pub(super) fn of(
         turning: &Turning,
-        simulation: &Simulation,
-        own: Option<&Cycle>,
+        search: &Search,
+        (own, guess): (Option<&Cycle>, Option<Guess>),
         delta: f64,
         positions: usize,
     ) -> Result<Self, SteadyError> {
@@ -89,10 +89,10 @@ impl Flywheel {
         let stages = first.drive_train.stages();
         let task = Task {
             turning,
-            simulation,
+            search,
             own,
             delta,
-            guess: Cell::new(own.map(|cycle| cycle.figures.begin)),
+            guess: Cell::new(guess),
         };
         let even = own.is_some_and(|cycle| cycle.figures.delta <= delta);
         let inertia = match own {
@@ -103,19 +103,19 @@ impl Flywheel {
             }
             None => task.inertia(stages.len(), 0.0)?,
         };
-        let (cycle, last) = task.with(stages.len(), inertia, |with, begin| {
-            let cycle = Cycle::at(with, begin, positions)?;
+        let (cycle, last) = task.with(stages.len(), inertia, |with, begin, held| {
+            let cycle = Cycle::at(with, begin, held, positions)?;
             let last = Wheel::of(with, stages.len(), inertia, &cycle.figures)?;
             Ok((cycle, last))
         })?;
         let mut places = Vec::new();
-        if simulation.at == Shaft::Motor && inertia > 0.0 {
+        if search.simulation.at == Shaft::Motor && inertia > 0.0 {
             for shaft in 0..stages.len() {
                 let behind = stages.iter().skip(shaft);
                 let ratio: f64 = behind.map(Stage::ratio).product();
                 let there = task.inertia(shaft, inertia / (ratio * ratio));
                 let wheel = there.and_then(|there| {
-                    task.with(shaft, there, |with, begin| {
+                    task.with(shaft, there, |with, begin, _| {
                         Wheel::of(with, shaft, there, &Figures::of(with, begin, 1)?)
                     })
                 });
@@ -178,12 +178,12 @@ impl Wheel {
 /// A flywheel that is sought on one shaft or another.
 struct Task<'a> {
     turning: &'a Turning<'a>,
-    simulation: &'a Simulation,
+    search: &'a Search<'a>,
     /// The cycle without it.
     own: Option<&'a Cycle>,
     delta: f64,
-    /// The speed with which the cycle before began.
-    guess: Cell<Option<f64>>,
+    /// That of the cycle before.
+    guess: Cell<Option<Guess>>,
 }
 
 impl Task<'_> {
@@ -192,10 +192,10 @@ impl Task<'_> {
         &self,
         shaft: usize,
         inertia: f64,
-        ask: impl FnOnce(&Turning, f64) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&Turning, f64, Option<Held>) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
-        self.among(shaft, inertia, |with, found| match found {
-            Found::Cycle(begin) => ask(with, begin),
+        self.among(shaft, inertia, |with, ended| match ended.found {
+            Found::Cycle(begin) => ask(with, begin, ended.held),
             Found::Loses(from) => Err(cycle::standstill(with, from)?),
         })
     }
@@ -204,33 +204,30 @@ impl Task<'_> {
         &self,
         shaft: usize,
         inertia: f64,
-        ask: impl FnOnce(&Turning, Found) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&Turning, Ended) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
-        let Turning {
-            machines,
-            plant,
-            direction,
-            ..
-        } = self.turning;
+        let machines = &self.turning.machines;
         let file = with_flywheel(machines.first, shaft, inertia)?;
         let machines = machines.with_first(&file);
-        let with = Turning::new(&machines, self.simulation, plant.motor, *direction)?;
-        let found = cycle::near(&with, self.guess.get())?;
-        if let Found::Cycle(begin) = found {
-            self.guess.set(Some(begin));
-        }
-        ask(&with, found)
+        self.search
+            .with(&machines, self.guess.get(), |with, ended| {
+                self.guess.set(ended.guess.or(self.guess.get()));
+                ask(with, ended)
+            })
     }
 
     /// By how much 1/δ of the machine with this flywheel exceeds that asked for.
     fn evenness(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
-        self.among(shaft, inertia, |with, found| {
-            Ok(match found {
-                Found::Cycle(begin) => 1.0 / Figures::of(with, begin, 1)?.delta - 1.0 / self.delta,
-                // It stops: no evenness at all.
-                Found::Loses(_) => -1.0 / self.delta,
-            })
-        })
+        // Where it stops there is no evenness at all.
+        let none = -1.0 / self.delta;
+        let found = self.among(shaft, inertia, |with, ended| match ended.found {
+            Found::Cycle(begin) => Ok(1.0 / figures::delta(with, begin)? + none),
+            Found::Loses(_) => Ok(none),
+        });
+        match found {
+            Err(why) if why.is_standstill() => Ok(none),
+            found => found,
+        }
     }
 
     /// The inertia with which the evenness, lacking without a flywheel, is that asked for, near a guess. 1/δ grows nearly with the inertia.
@@ -244,7 +241,8 @@ impl Task<'_> {
             let at_high = self.evenness(shaft, high)?;
             if at_high >= 0.0 {
                 let evenness = |inertia: f64| self.evenness(shaft, inertia);
-                return numerics::zero(evenness, [low, high], [at_low, at_high], 1e-13);
+                let found = numerics::zero(evenness, [low, high], [at_low, at_high], 1e-13)?;
+                return self.running(shaft, found);
             }
             if high >= LARGEST {
                 let why = if at_high <= -1.0 / self.delta {
@@ -266,20 +264,20 @@ impl Task<'_> {
 }
 
 impl Task<'_> {
+    /// A flywheel with which the machine comes round, where it may just stop with this one.
+    fn running(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
+        let mut more = 1e-12;
+        let mut with = inertia;
+        while more < 1.0 && self.evenness(shaft, with)? <= -1.0 / self.delta {
+            with = inertia * (1.0 + more);
+            more *= 8.0;
+        }
+        Ok(with)
+    }
+
     /// The motor torque at which a slow turn gains and loses nothing.
     fn mean_torque(&self) -> Result<f64, SteadyError> {
-        let turning = self.turning;
-        let needed = |x: f64| {
-            let state = [turning.at(x), turning.direction * HAIR];
-            turning.plant.keeping(&turning.moment(), state)
-        };
-        let places = turning.places(90);
-        let size = turning.effort(HAIR);
-        let mut work = 0.0;
-        for pair in places.windows(2) {
-            work += numerics::integral(needed, [pair[0].0, pair[1].0], 1, 1e-9 * size)?;
-        }
-        Ok((work / TAU).abs())
+        Ok(self.turning.keeping(HAIR)?.abs())
     }
 }
 
@@ -310,14 +308,14 @@ impl Classical {
             Ok(plant.resisting(&turning.moment(), state)? * turning.direction)
         };
         let places = turning.places(720);
-        let size = turning.effort(speed);
+        let size = turning.largest(&places, speed, asked)?;
         let work = |from: f64, to: f64| numerics::integral(asked, [from, to], 1, 1e-12 * size);
         let mut works = vec![0.0];
         for pair in places.windows(2) {
             let before = works.last().copied().unwrap_or(0.0);
             works.push(before + work(pair[0].0, pair[1].0)?);
         }
-        let mean = works.last().copied().unwrap_or(0.0) / TAU;
+        let mean = works.last().copied().unwrap_or(0.0) / turning.span();
         let excess = |x: f64, work: f64| mean * x - work;
         let mut ends = [0.0f64; 2];
         for (k, pair) in places.windows(2).enumerate() {
@@ -335,7 +333,9 @@ impl Classical {
         }
         let inertia = |x: f64| -> Result<f64, SteadyError> { Ok(plant.inertia(turning.at(x))?[0]) };
         let [at_start, _] = plant.inertia(turning.at(0.0))?;
-        let own = numerics::integral(inertia, [0.0, TAU], 96, 1e-11 * at_start)? / TAU;
+        let span = turning.span();
+        let own =
+            numerics::integral(inertia, [0.0, span], 96 * turning.turns, 1e-11 * at_start)? / span;
         let total = (ends[1] - ends[0]) / (delta * speed * speed);
         Ok(Self {
             work: ends[1] - ends[0],

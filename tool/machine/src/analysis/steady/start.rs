@@ -45,7 +45,8 @@ pub enum Start {
 
 impl Start {
     pub(super) fn of(turning: &Turning, cycle: &Figures) -> Result<Self, SteadyError> {
-        let every = (cycle.nodes.len() / PARTS).max(1);
+        let parts = PARTS * cycle.turns as usize;
+        let every = (cycle.nodes.len() / parts).max(1);
         let last = cycle.nodes.len() - 1;
         let nodes = cycle.nodes.iter().enumerate().skip(1);
         let places = nodes.filter(|(k, _)| *k == last || k % every == 0);
@@ -67,13 +68,16 @@ impl Start {
         let mut near: Option<[f64; 2]> = None;
         let mut near_for = 0;
         let mut share = 0.0;
-        for turn in 0..MOST_TURNS {
+        let turns = f64::from(cycle.turns);
+        let cycles = MOST_TURNS / cycle.turns;
+        for turn in 0..cycles {
             for (to, z) in &places {
-                match turning.advance(y, [x, *to], cycle.fastest[0])? {
+                let speed = cycle.fastest[0];
+                match turning.advance_by(turn::ROUGH, y, [x, *to], speed, &mut |_, _| ())? {
                     Reached::End(end) => y = end,
                     Reached::Stopped(at) => {
                         return Ok(Self::Stuck {
-                            turns: f64::from(turn) + at / std::f64::consts::TAU,
+                            turns: turns * f64::from(turn) + at / std::f64::consts::TAU,
                             missing: Missing::at(turning, at)?,
                         });
                     }
@@ -84,7 +88,7 @@ impl Start {
                     near = None;
                     continue;
                 }
-                let turns = f64::from(turn) + x / std::f64::consts::TAU;
+                let turns = turns * f64::from(turn) + x / std::f64::consts::TAU;
                 let [time, since] = *near.get_or_insert_with(|| {
                     near_for = 0;
                     [y[1], turns]
@@ -97,7 +101,7 @@ impl Start {
             x = 0.0;
         }
         Ok(Self::Slow {
-            turns: f64::from(MOST_TURNS),
+            turns: f64::from(cycles) * turns,
             time: y[1],
             share,
         })

@@ -1,4 +1,4 @@
-//! One turn of the drive link: the kinetic energy at its end from that at its start, with the angle as the variable.
+//! One cycle, a turn of the drive link or several: the kinetic energy at its end from that at its start, with the angle as the variable.
 //!
 //! With z = ½ω², the equation of motion is dz/dφ = α(φ, ω): one equation of the first order, whose time, works and losses are
 //! quadratures.
@@ -12,16 +12,26 @@ use crate::analysis::simulate::machine::{Instant, Plant};
 use crate::analysis::simulate::{Moment, Together};
 use crate::model::motor::OwnMotor;
 use crate::model::simulation::Simulation;
+use crate::number::numerics;
 use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
 
 /// z = ½ω², time, work of the motor, work of the process loads, losses, ∫T dt and ∫T² dt of the motor.
 pub(super) type State = [f64; 7];
 
 /// The accuracy of each step. Steps beyond these many are those of a machine that follows its motor at once.
-const ACCURACY: Accuracy = Accuracy {
+pub(super) const FINE: Accuracy = Accuracy {
     tolerance: 1e-14,
     most_steps: 200_000,
 };
+
+/// That of a question of yes or no, or of a figure to some digits.
+pub(super) const ROUGH: Accuracy = Accuracy {
+    tolerance: 1e-9,
+    ..FINE
+};
+
+/// Share of the works of a cycle below which what is won is asked again with more accuracy.
+const CLOSE: f64 = 1e-6;
 
 /// Below this share of z at full speed, a three-thousandth of the speed, the drive link has stopped.
 pub(super) const STOPPED: f64 = 1e-7;
@@ -41,7 +51,9 @@ pub(super) struct Turning<'a> {
     /// +1 or −1.
     pub(super) direction: f64,
     start: f64,
-    /// Angles from the start at which a load or the mechanism is not smooth; 0 and a turn.
+    /// Turns of a cycle.
+    pub(super) turns: u32,
+    /// Angles from the start at which a load or the mechanism is not smooth; 0 and the end of the cycle.
     edges: Vec<f64>,
     /// Largest load and Coulomb torque at some positions, and viscous coefficient.
     load: [f64; 2],
@@ -55,21 +67,23 @@ impl<'a> Turning<'a> {
         simulation: &'a Simulation,
         motor: OwnMotor<'a>,
         direction: f64,
+        turns: u32,
     ) -> Result<Self, Error> {
         let start = simulation.start_angle;
-        let edges = machines.all().flat_map(|machine| machine.edges());
-        let from_start = edges.map(|phi| ((phi - start) * direction).rem_euclid(TAU));
-        let mut edges: Vec<f64> = from_start.chain([0.0, TAU]).collect();
+        let span = TAU * f64::from(turns);
+        let edges = machines.all().flat_map(|machine| machine.edges(turns));
+        let from_start = edges.map(|phi| ((phi - start) * direction).rem_euclid(span));
+        let mut edges: Vec<f64> = from_start.chain([0.0, span]).collect();
         edges.sort_by(f64::total_cmp);
         edges.dedup_by(|b, a| *b - *a < 1e-9);
-        // An edge a hair before the end of the turn gives way to the end.
+        // An edge a hair before the end of the cycle gives way to the end.
         if let Some(last) = edges.last_mut() {
-            *last = TAU;
+            *last = span;
         }
         let mut load = [0.0f64; 2];
         for machine in machines.all() {
             let mut own = [0.0f64; 2];
-            for k in 0..24 {
+            for k in 0..24 * turns {
                 let [phi, ..] = machine.state([start, 0.0, 0.0]);
                 let phi = phi + TAU * f64::from(k) / 24.0;
                 let point = machine.file.bare_reduction(phi)?;
@@ -87,6 +101,7 @@ impl<'a> Turning<'a> {
             plant,
             direction,
             start,
+            turns,
             edges,
             load,
             inertia,
@@ -98,9 +113,15 @@ impl<'a> Turning<'a> {
         self.start + self.direction * x
     }
 
-    /// The edges, and `count` equal parts of the turn: each with whether it is one of these.
+    /// The angle of a cycle (rad).
+    pub(super) fn span(&self) -> f64 {
+        TAU * f64::from(self.turns)
+    }
+
+    /// The edges, and `count` equal parts of each turn: each with whether it is one of these.
     pub(super) fn places(&self, count: usize) -> Vec<(f64, bool)> {
-        let parts = (0..=count).map(|k| (TAU * k as f64 / count as f64, true));
+        let all = count * self.turns as usize;
+        let parts = (0..=all).map(|k| (TAU * k as f64 / count as f64, true));
         let edges = self.edges.iter().map(|x| (*x, false));
         let mut all: Vec<(f64, bool)> = parts.chain(edges).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
@@ -110,7 +131,7 @@ impl<'a> Turning<'a> {
             same
         });
         if let Some(last) = all.last_mut() {
-            *last = (TAU, true);
+            *last = (self.span(), true);
         }
         all
     }
@@ -141,11 +162,22 @@ impl<'a> Turning<'a> {
         [from, to]: [f64; 2],
         speed: f64,
     ) -> Result<Reached, SteadyError> {
+        self.advance_by(FINE, y, [from, to], speed, &mut |_, _| ())
+    }
+
+    pub(super) fn advance_by(
+        &self,
+        accuracy: Accuracy,
+        y: State,
+        [from, to]: [f64; 2],
+        speed: f64,
+        seen: &mut dyn FnMut(f64, &State),
+    ) -> Result<Reached, SteadyError> {
         let mut y = y;
         let mut x = from;
         let edges = self.edges.iter().copied();
         for next in edges.filter(|e| *e > from && *e < to).chain([to]) {
-            match self.smooth(y, [x, next], speed)? {
+            match self.smooth(accuracy, y, [x, next], speed, seen)? {
                 Reached::End(end) => y = end,
                 stopped @ Reached::Stopped(_) => return Ok(stopped),
             }
@@ -154,7 +186,15 @@ impl<'a> Turning<'a> {
         Ok(Reached::End(y))
     }
 
-    fn smooth(&self, y: State, [from, to]: [f64; 2], speed: f64) -> Result<Reached, SteadyError> {
+    /// From one place to the next one, between which nothing jumps; `seen` is shown each step's end.
+    fn smooth(
+        &self,
+        accuracy: Accuracy,
+        y: State,
+        [from, to]: [f64; 2],
+        speed: f64,
+        seen: &mut dyn FnMut(f64, &State),
+    ) -> Result<Reached, SteadyError> {
         let full = 0.5 * speed * speed;
         let energy = self.effort(speed);
         let torque = energy / self.plant.ratio().abs();
@@ -183,8 +223,14 @@ impl<'a> Turning<'a> {
             ];
             Ok(std::array::from_fn(|i| rates[i] / speed / sizes[i]))
         };
+        let bends = |x: f64, y: &State| -> Result<Vec<f64>, Error> {
+            let speed = self.direction * (2.0 * (y[0] * full).max(least)).sqrt();
+            let [torque, _] = self.plant.motor(speed);
+            let link = [self.at(from + x), speed];
+            self.plant.bends_under(&self.moment(), link, torque)
+        };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = ACCURACY.steps(slope, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
         let steps = steps.map_err(|why| match why {
             Stopped::Function(error) => SteadyError::Machine(error),
             Stopped::TooManySteps { .. } | Stopped::StepTooSmall { .. } => SteadyError::Integrator,
@@ -197,15 +243,63 @@ impl<'a> Turning<'a> {
             let share = (before.1[0] / (before.1[0] - end[0])).clamp(0.0, 1.0);
             return Ok(Reached::Stopped(from + before.0 + share * (x - before.0)));
         }
+        for (x, y) in steps.iter().skip(1) {
+            seen(from + x, &std::array::from_fn(|i| y[i] * sizes[i]));
+        }
         Ok(Reached::End(std::array::from_fn(|i| end[i] * sizes[i])))
     }
 
-    /// A whole turn from the start with this speed.
+    /// A whole cycle from the start with this speed.
     pub(super) fn turn(&self, speed: f64) -> Result<Reached, SteadyError> {
-        self.advance(starting(speed), [0.0, TAU], speed)
+        self.advance(starting(speed), [0.0, self.span()], speed)
     }
 
-    /// By how much E(2π) exceeds E(0) after a turn from the start with this speed, as a share; −1 if the drive link stops.
+    /// The same with the ends of the integrator's steps, the start first.
+    pub(super) fn course(&self, speed: f64) -> Result<(Reached, Vec<(f64, State)>), SteadyError> {
+        let mut course = vec![(0.0, starting(speed))];
+        let ends = [0.0, self.span()];
+        let reached = self.advance_by(FINE, starting(speed), ends, speed, &mut |x, y| {
+            course.push((x, *y));
+        })?;
+        Ok((reached, course))
+    }
+
+    /// The mean motor torque, over a cycle, that keeps a speed without stopping, in the sense in which it drives: less than zero where the motor
+    /// has to brake (N·m).
+    pub(super) fn keeping(&self, speed: f64) -> Result<f64, SteadyError> {
+        let needed = |x: f64| {
+            let state = [self.at(x), self.direction * speed];
+            self.plant.keeping(&self.moment(), state)
+        };
+        let places = self.places(90);
+        let size = self.largest(&places, speed, |x| Ok(needed(x)?))?;
+        let mut work = 0.0;
+        for pair in places.windows(2) {
+            work += numerics::integral(needed, [pair[0].0, pair[1].0], 1, 1e-9 * size)?;
+        }
+        Ok(work / self.span() * self.sense())
+    }
+
+    /// What an integral of a torque over these places is measured by: what is turned over, or what the links exchange at this speed.
+    pub(super) fn largest(
+        &self,
+        places: &[(f64, bool)],
+        speed: f64,
+        torque: impl Fn(f64) -> Result<f64, SteadyError>,
+    ) -> Result<f64, SteadyError> {
+        let mut most = self.effort(speed);
+        for (x, _) in places {
+            most = most.max(torque(*x)?.abs());
+        }
+        Ok(most)
+    }
+
+    /// The sign of a motor torque that drives.
+    pub(super) fn sense(&self) -> f64 {
+        (self.plant.ratio() * self.direction).signum()
+    }
+
+    /// By how much the energy at the end of a cycle exceeds that at its start, from the start with this speed, as a share; −1 if the drive link stops.
     pub(super) fn rise(&self, speed: f64) -> Result<f64, SteadyError> {
         Ok(match self.turn(speed)? {
             Reached::End([z, ..]) => z / (0.5 * speed * speed) - 1.0,
@@ -213,19 +307,37 @@ impl<'a> Turning<'a> {
         })
     }
 
-    /// Energy won in a turn from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive
+    /// Energy won in a cycle from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive
     /// link stops. What is rounding is 0.
     pub(super) fn gain(&self, speed: f64) -> Result<f64, SteadyError> {
-        let Reached::End([_, _, motor, process, losses, ..]) = self.turn(speed)? else {
-            return Ok(-1.0);
+        Ok(self.gain_by(FINE, speed)?[0])
+    }
+
+    /// The same with its sign for certain, and some digits.
+    pub(super) fn about_gain(&self, speed: f64) -> Result<f64, SteadyError> {
+        let [gain, works] = self.gain_by(ROUGH, speed)?;
+        if gain.abs() > CLOSE * works {
+            Ok(gain)
+        } else {
+            self.gain(speed)
+        }
+    }
+
+    /// With the sum of the works by magnitude, as the same share.
+    fn gain_by(&self, accuracy: Accuracy, speed: f64) -> Result<[f64; 2], SteadyError> {
+        let ends = [0.0, self.span()];
+        let reached = self.advance_by(accuracy, starting(speed), ends, speed, &mut |_, _| ())?;
+        let Reached::End([_, _, motor, process, losses, ..]) = reached else {
+            return Ok([-1.0, 0.0]);
         };
         let [inertia, before] = self.plant.inertia(self.at(0.0))?;
-        let [_, after] = self.plant.inertia(self.at(TAU))?;
+        let [_, after] = self.plant.inertia(self.at(self.span()))?;
         let won = motor + process - losses - (after - before);
         // Rounding of the sums.
-        let noise = 1e-14 * (motor.abs() + process.abs() + losses.abs() + self.effort(speed));
-        let won = if won.abs() <= noise { 0.0 } else { won };
-        Ok(won / (0.5 * inertia * speed * speed))
+        let works = motor.abs() + process.abs() + losses.abs() + self.effort(speed);
+        let won = if won.abs() <= 1e-14 * works { 0.0 } else { won };
+        let energy = 0.5 * inertia * speed * speed;
+        Ok([won, works].map(|work| work / energy))
     }
 }
 

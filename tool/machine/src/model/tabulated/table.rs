@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use jred::Domain;
 use jred::machine::{Frame, Mechanism as _, PoseError};
 use jred::number::Transfer;
 
@@ -112,15 +111,16 @@ impl Over {
 pub struct Table {
     curve: Spline,
     over: Over,
-    /// The rows, a part of a turn, come again with every turn of the drive link.
-    turns: bool,
+    /// The rows, a part of so many turns of the drive link, come again after these; 0: never.
+    turns: u32,
 }
 
 impl Table {
-    /// A curve over a part of what its rows run over, whose range this is; it begins and ends with zero.
-    pub fn new(curve: Spline, over: Over, domain: Domain) -> Self {
+    /// A curve over a part of what its rows run over, which comes again after so many turns of the drive link (0: never); it begins and ends
+    /// with zero.
+    pub fn new(curve: Spline, over: Over, turns: u32) -> Self {
         Self {
-            turns: over == Over::Drive && domain == Domain::Turn,
+            turns: if over == Over::Drive { turns } else { 0 },
             curve,
             over,
         }
@@ -131,21 +131,22 @@ impl Table {
         Self {
             curve,
             over,
-            turns: false,
+            turns: 0,
         }
     }
 
     /// Its curve, what its rows run over, and whether they come again with every turn of the drive link.
     pub(crate) const fn parts(&self) -> (&Spline, Over, bool) {
-        (&self.curve, self.over, self.turns)
+        (&self.curve, self.over, self.turns > 0)
     }
 
     /// The force with three derivatives by φ where the links are at `frames`.
     pub(super) fn at(&self, phi: f64, frames: &[Frame]) -> Transfer {
         let mut place = self.over.value(phi, frames);
         let [from, to] = self.curve.range();
-        if self.turns {
-            place.value -= ((place.value - from) / TAU).floor() * TAU;
+        if self.turns > 0 {
+            let period = f64::from(self.turns) * TAU;
+            place.value -= ((place.value - from) / period).floor() * period;
             if place.value > to {
                 return Transfer::constant(0.0);
             }

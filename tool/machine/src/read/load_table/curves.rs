@@ -268,7 +268,7 @@ impl Sheet<'_> {
     fn table(&self, curve: Spline) -> Table {
         let (over, rows) = (self.target.over, &self.target.rows);
         if rows.partly {
-            Table::new(curve, over, rows.domain)
+            Table::new(curve, over, rows.repeats())
         } else {
             Table::whole(curve, over)
         }

@@ -72,15 +72,15 @@ pub(super) fn check_contradictions(acting: &[Acting], course: &Course) -> Result
 pub(super) struct Acting<'s> {
     section: Section<'s>,
     part: Part<'s>,
-    /// From which position to which (rad, or m), and whether that comes again with every turn; `None`: everywhere.
-    window: Option<([f64; 2], bool)>,
+    /// From which position to which (rad, or m), and after how many turns that comes again, 0: never; `None`: everywhere.
+    window: Option<([f64; 2], u32)>,
 }
 
 impl<'s> Acting<'s> {
     pub(super) fn new(section: Section<'s>, part: Part<'s>, load: Option<&Load>) -> Self {
         let window = load.and_then(Load::window).map(|window| {
             let [from, .., to] = window.edges();
-            ([from, to], window.repeats())
+            ([from, to], window.turns())
         });
         Self {
             section,
@@ -91,12 +91,18 @@ impl<'s> Acting<'s> {
 
     /// Whether there are positions at which both act; those at which one ends and the other begins are none.
     fn meets(&self, other: &Self) -> bool {
-        let (Some(([a, b], repeats)), Some(([c, d], _))) = (self.window, other.window) else {
+        let (Some(([a, b], turns)), Some(([c, d], others))) = (self.window, other.window) else {
             return true;
         };
         let rounding = 1e-9 * (b - a).min(d - c);
-        if repeats {
-            let ahead = |from: f64, to: f64| (to - from).rem_euclid(TAU);
+        if turns > 0 && others > 0 {
+            // Windows that come again after other numbers of turns are apart by any multiple of what divides both.
+            let (mut common, mut rest) = (turns, others);
+            while rest > 0 {
+                (common, rest) = (rest, common % rest);
+            }
+            let period = f64::from(common) * TAU;
+            let ahead = |from: f64, to: f64| (to - from).rem_euclid(period);
             ahead(a, c) < b - a - rounding || ahead(c, a) < d - c - rounding
         } else {
             a.max(c) < b.min(d) - rounding

@@ -3,7 +3,7 @@
 use super::super::column::{Column, EFFORT, For, SPEED};
 use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
 use super::super::row::{Read, Row};
-use super::{from_maker, mains_voltage};
+use super::{derating, from_maker, mains_voltage};
 use crate::catalogue::Commutation;
 use jred_machine::model::supply::rectified;
 
@@ -17,6 +17,7 @@ struct Efforts {
     friction: Column,
     brake: Column,
     brake_inertia: Column,
+    brake_dynamic: Column,
 }
 
 const TORQUES: Efforts = Efforts {
@@ -28,6 +29,7 @@ const TORQUES: Efforts = Efforts {
     friction: Column::CoulombFriction,
     brake: Column::BrakeTorque,
     brake_inertia: Column::BrakeInertia,
+    brake_dynamic: Column::BrakeDynamicTorque,
 };
 
 const FORCES: Efforts = Efforts {
@@ -39,10 +41,11 @@ const FORCES: Efforts = Efforts {
     friction: Column::FrictionForce,
     brake: Column::BrakeForce,
     brake_inertia: Column::BrakeMass,
+    brake_dynamic: Column::BrakeDynamicForce,
 };
 
 impl Efforts {
-    fn columns(&self) -> [Column; 8] {
+    fn columns(&self) -> [Column; 9] {
         [
             self.rated,
             self.standstill,
@@ -52,6 +55,7 @@ impl Efforts {
             self.friction,
             self.brake,
             self.brake_inertia,
+            self.brake_dynamic,
         ]
     }
 }
@@ -112,6 +116,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
             housing_time: row.optional(Column::HousingTime),
             max_temperature: row.optional(Column::MaxTemperature),
         },
+        derating: derating(row),
         brake: brake(row, &own),
         bus_voltage: row.optional(Column::BusVoltage),
         mains_voltage: mains_voltage(row),
@@ -214,11 +219,23 @@ fn winding(row: &Row) -> Winding {
 
 fn brake(row: &Row, own: &Efforts) -> Option<Brake> {
     let inertia = row.not_negative(own.brake_inertia);
-    if inertia.is_some() && row.words(own.brake).is_none() {
+    let dynamic_torque = row.optional(own.brake_dynamic);
+    let [closing_time, work, stops_per_hour] = [
+        Column::BrakeClosingTime,
+        Column::BrakeWork,
+        Column::BrakeStops,
+    ]
+    .map(|column| row.optional(column));
+    let data = [inertia, dynamic_torque, closing_time, work, stops_per_hour];
+    if data.iter().any(Option::is_some) && row.words(own.brake).is_none() {
         row.missing(own.brake, &[]);
     }
     Some(Brake {
         torque: row.optional(own.brake)?,
         inertia: inertia.unwrap_or(0.0),
+        dynamic_torque,
+        closing_time,
+        work,
+        stops_per_hour,
     })
 }

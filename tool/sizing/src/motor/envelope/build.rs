@@ -15,6 +15,8 @@ pub(super) struct Builder<'a> {
     motor: &'a Motor,
     /// Actual bus voltage over that of the data sheet.
     share: f64,
+    /// Factor on the S1 torque at the site.
+    factor: f64,
     /// Current of a torque.
     pub(super) torques: Option<CurrentCurve>,
     /// The winding at the actual voltage; reactance left out where it is not stated.
@@ -74,7 +76,10 @@ impl<'a> Builder<'a> {
             });
         }
         let cap = match (amplifier, torques) {
-            (Some(amplifier), Some(torques)) => torques.torque(known(Some(amplifier.peak_current))),
+            (Some(amplifier), Some(torques)) => {
+                let [_, peak] = amplifier.currents(&site.surroundings);
+                torques.torque(known(Some(peak)))
+            }
             (Some(_), None) => {
                 assumptions.push(
                     |Vocabulary { torque, .. }| format!("{torque} constant not given; peak {torque} not limited by the amplifier's current"),
@@ -98,6 +103,7 @@ impl<'a> Builder<'a> {
         Self {
             motor,
             share,
+            factor: motor.derated(&site.surroundings).factor,
             torques,
             line,
             peak,
@@ -167,7 +173,7 @@ impl<'a> Builder<'a> {
             max_speed: driving.end(),
             driving,
             braking,
-            continuous: Continuous::of(motor, known, points),
+            continuous: Continuous::of(motor, known, points).times(self.factor),
             assumptions: self.assumptions,
             words: motor.kind.vocabulary(),
         }

@@ -35,6 +35,19 @@ impl Continuous {
         }
     }
 
+    /// The same torques at every speed, each times a factor.
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        // Of an unknown torque nothing is left but that it is unknown.
+        let scaled = |x: f64| if x.is_finite() { factor * x } else { x };
+        self.standstill = scaled(self.standstill);
+        self.rated_torque = scaled(self.rated_torque);
+        self.max_power = scaled(self.max_power);
+        for [_, torque] in &mut self.points {
+            *torque *= factor;
+        }
+        self
+    }
+
     /// S1 torque (N·m) at a speed's magnitude (rad/s).
     pub(super) fn torque(&self, speed: f64) -> f64 {
         let heat = match &*self.points {

@@ -7,7 +7,7 @@
 //! - no corner speed: the winding's voltage line, else the peak torque is available up to the rated speed;
 //! - no peak torque at maximum speed: the voltage line through the corner, else a straight line to the rated torque there;
 //! - no standstill torque: the rated torque;
-//! - the S1 torque falls in a straight line from standstill to rated speed, and above that with constant power.
+//! - the S1 torque, reduced for the site ([`Motor::derated`]), falls in a straight line from standstill to rated speed, and above that with constant power.
 //!
 //! Equations, units and sources: `docs/motor-limits.md`.
 
@@ -17,6 +17,7 @@ use crate::motor::winding::CurrentCurve;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{RuleSet, Verdict};
 use jred_machine::model::site::Site;
+use jred_machine::model::surroundings::Surroundings;
 use jred_machine::number::rounding::short;
 use jred_machine::units::{Sentence, Vocabulary};
 
@@ -139,6 +140,8 @@ impl Envelope {
 pub struct Prepared {
     /// Peak and continuous torque over speed.
     pub envelope: Envelope,
+    /// Torque with which the motor brakes in an emergency stop (N·m): an amplifier gives its peak current, however hot it is.
+    pub stop: f64,
     /// Current of a torque; `None`: no torque constant stated.
     pub torques: Option<CurrentCurve>,
     /// The circuit that the envelope is made of; `None`: it comes from the data sheet's speeds and torques.
@@ -153,11 +156,24 @@ impl Prepared {
     /// The limits of a motor, with the amplifier that feeds it where one is chosen.
     pub fn new(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let builder = Builder::new(motor, amplifier, site);
+        let (torques, circuit) = (builder.torques, builder.circuit());
+        let envelope = builder.build();
+        let reduced = amplifier.is_some_and(|a| a.derated(&site.surroundings).factor < 1.0);
+        let stop = if reduced {
+            let cool = Site {
+                surroundings: Surroundings::default(),
+                ..site.clone()
+            };
+            Envelope::at(motor, amplifier, &cool).peak_torque(-1.0, 0.0)
+        } else {
+            envelope.peak_torque(-1.0, 0.0)
+        };
         Self {
-            torques: builder.torques,
-            circuit: builder.circuit(),
+            torques,
+            circuit,
             voltages: Voltages::new(motor, amplifier, site),
-            envelope: builder.build(),
+            stop,
+            envelope,
             amplified: Box::default(),
         }
     }

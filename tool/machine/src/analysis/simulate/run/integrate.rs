@@ -42,6 +42,7 @@ impl<P> Run<'_, P> {
         // Counted from here, short intervals keep all their digits.
         let steps = self.accuracy.steps(
             |x, y| self.plant.slope(&self.moment(t + x), y),
+            |x, y| self.plant.bends(&self.moment(t + x), y),
             *y,
             end - t,
             |x, y| enough(t + x, y),

@@ -46,6 +46,10 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// Times at which y′ has a corner or a jump (s): no step passes over one.
     fn corners(&self) -> Corners;
 
+    /// What passes zero where y′ bends: no step passes over such a place. As many values at every state of one direction, each as a share of what
+    /// it is made of.
+    fn bends(&self, moment: &Moment, y: &[f64; N]) -> Result<Vec<f64>, Error>;
+
     /// The machines that move.
     fn machines(&self) -> Together<'_>;
 

@@ -149,6 +149,7 @@ impl Lift {
                 domain: Domain::Turn,
                 of: "the cam".to_owned(),
                 partly: false,
+                turns: 1,
             },
         )?;
         let column = |index: usize| Ok::<_, Problem>(positions.values(index)?.unwrap_or_default());

@@ -1,0 +1,216 @@
+//! Places at which f bends: where a value passes zero. A step ends there, so that its error is that of a smooth f.
+
+use super::{Point, Step};
+use crate::number::numerics;
+
+/// Share of a value that is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Share of a step to which the place of a bend is found: what lies between is of second order.
+const PLACE: f64 = 1e-11;
+
+/// A bend this near to an end of a step, as a share of it, is on it.
+const ON_END: f64 = 1e-9;
+
+/// Parts of a step at whose ends the values are looked at.
+const PARTS: usize = 4;
+
+/// On which side of zero each value is.
+pub(super) struct Sides {
+    /// 0 of one that has been nothing but rounding.
+    sides: Vec<f64>,
+    /// The values at the beginning of the next step.
+    values: Vec<f64>,
+}
+
+/// Where a value passes zero, after the beginning of a step.
+enum Place {
+    /// Nowhere, by steps of these lengths.
+    Nowhere,
+    /// It is there already.
+    Here,
+    After(f64),
+}
+
+/// What a step passes.
+pub(super) enum Found<const N: usize> {
+    /// No bend.
+    Nothing,
+    /// A bend, at the end of a shorter step.
+    Bend { step: Step<N>, which: usize },
+}
+
+/// Where a step begins.
+pub(super) struct Begin<'a, const N: usize> {
+    pub(super) x: f64,
+    pub(super) y: &'a [f64; N],
+    pub(super) slope: [f64; N],
+}
+
+impl Sides {
+    pub(super) fn at(values: Vec<f64>) -> Self {
+        Self {
+            sides: values.iter().map(|value| side(*value)).collect(),
+            values,
+        }
+    }
+
+    pub(super) const fn is_empty(&self) -> bool {
+        self.sides.is_empty()
+    }
+
+    /// A value passes zero where the next step begins; all values there.
+    pub(super) fn turn(&mut self, which: usize, values: Vec<f64>) {
+        if let Some(side) = self.sides.get_mut(which) {
+            *side = -*side;
+        }
+        self.values = values;
+    }
+
+    /// The first bend within a step, at whose end f is `to`. Without one the sides are those at its end.
+    pub(super) fn pass<const N: usize, E>(
+        &mut self,
+        f: &impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
+        bends: &impl Fn(f64, &[f64; N]) -> Result<Vec<f64>, E>,
+        begin: Begin<N>,
+        whole: &Step<N>,
+        to: [f64; N],
+    ) -> Result<Found<N>, E> {
+        let Begin { x, y, slope } = begin;
+        let h = whole.h;
+        let between = |share: f64| hermite([y, &whole.y], [&slope, &to], h, share);
+        let at = |share: f64| bends(x + share * h, &between(share));
+        let mut seen = Vec::with_capacity(PARTS + 1);
+        seen.push((0.0, self.values.clone()));
+        for k in 1..=PARTS {
+            let share = k as f64 / PARTS as f64;
+            seen.push((share, at(share)?));
+        }
+        for k in self.excursions(&seen, &at)? {
+            seen.push(k);
+        }
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for pair in seen.windows(2) {
+            let [(from, _), (until, values)] = pair else {
+                continue;
+            };
+            let mut first: Option<(f64, usize)> = None;
+            for (which, value) in values.iter().enumerate() {
+                let now = side(*value);
+                let before = self.sides[which];
+                if before == 0.0 {
+                    self.sides[which] = now;
+                }
+                if now * before >= 0.0 {
+                    continue;
+                }
+                match place(
+                    f,
+                    bends,
+                    (x, y, slope),
+                    [from * h, until * h],
+                    (which, before),
+                )? {
+                    Place::After(tau) if tau > ON_END * h && tau < h * (1.0 - ON_END) => {
+                        if first.is_none_or(|(earlier, _)| tau < earlier) {
+                            first = Some((tau, which));
+                        }
+                    }
+                    Place::After(_) | Place::Here => self.sides[which] = now,
+                    Place::Nowhere => {}
+                }
+            }
+            if let Some((tau, which)) = first
+                && let Some(step) = Step::new(f, x, tau, y, slope)?
+            {
+                return Ok(Found::Bend { step, which });
+            }
+        }
+        if let Some((_, values)) = seen.pop() {
+            self.values = values;
+        }
+        Ok(Found::Nothing)
+    }
+
+    /// Places between those seen at which a value that comes near zero and goes away again is beyond it.
+    fn excursions<E>(
+        &self,
+        seen: &[(f64, Vec<f64>)],
+        at: impl Fn(f64) -> Result<Vec<f64>, E>,
+    ) -> Result<Vec<(f64, Vec<f64>)>, E> {
+        let mut found = Vec::new();
+        for (which, own) in self.sides.iter().enumerate() {
+            for three in seen.windows(3) {
+                let [a, b, c] = [0, 1, 2].map(|k| three[k].1[which] * own);
+                let nears = a > b && c > b && b > 0.0;
+                let bow = a - 2.0 * b + c;
+                // The vertex of the parabola, and its value.
+                let shift = 0.5 * (a - c) / bow;
+                if nears && b - 0.125 * (a - c).powi(2) / bow < 0.1 * b {
+                    let share = three[1].0 + shift * (three[2].0 - three[1].0);
+                    found.push((share, at(share)?));
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+fn side(value: f64) -> f64 {
+    if value.abs() <= ROUNDING {
+        0.0
+    } else {
+        value.signum()
+    }
+}
+
+/// Where a step passes the zero of a value, which is on the side `before` at the first of two lengths and on the other at the second.
+fn place<const N: usize, E>(
+    f: &impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
+    bends: &impl Fn(f64, &[f64; N]) -> Result<Vec<f64>, E>,
+    (x, y, slope): (f64, &[f64; N], [f64; N]),
+    mut ends: [f64; 2],
+    (which, before): (usize, f64),
+) -> Result<Place, E> {
+    let value = |tau: f64| -> Result<f64, E> {
+        let (x, y): Point<N> = match Step::new(f, x, tau, y, slope)? {
+            Some(step) if tau > 0.0 => (x + tau, step.y),
+            _ => (x, *y),
+        };
+        Ok(bends(x, &y)?
+            .get(which)
+            .map_or(before, |value| value * before))
+    };
+    let mut values = [value(ends[0])?, value(ends[1])?];
+    if values[0] <= 0.0 && ends[0] > 0.0 {
+        (ends, values) = ([0.0, ends[0]], [value(0.0)?, values[0]]);
+    }
+    if values[1] >= 0.0 {
+        Ok(Place::Nowhere)
+    } else if values[0] <= 0.0 {
+        Ok(Place::Here)
+    } else {
+        numerics::zero(value, ends, values, PLACE).map(Place::After)
+    }
+}
+
+/// The cubic with these values and slopes at its ends.
+fn hermite<const N: usize>(
+    [y, z]: [&[f64; N]; 2],
+    [v, w]: [&[f64; N]; 2],
+    h: f64,
+    share: f64,
+) -> [f64; N] {
+    if share <= 0.0 {
+        return *y;
+    }
+    if share >= 1.0 {
+        return *z;
+    }
+    let rest = 1.0 - share;
+    std::array::from_fn(|i| {
+        let line = y[i] + share * (z[i] - y[i]);
+        let bow = rest * (h * v[i] - (z[i] - y[i])) - share * (h * w[i] - (z[i] - y[i]));
+        line + share * rest * bow
+    })
+}

@@ -1,0 +1,164 @@
+//! How heat and thin air at the site reduce the ratings of motors and amplifiers.
+//!
+//! The maker's points hold where the catalogue has them; otherwise the general rules of docs/sizing-rules.md. Neither reaches
+//! further than its source: [`Derated::hottest`] and [`Derated::highest`] are where it ends.
+
+use super::{Amplifier, Motor};
+use jred_machine::model::surroundings::{LOW, REFERENCE, Surroundings};
+
+/// The highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
+const HOTTEST_MOTOR: f64 = 60.0;
+
+/// The highest temperature (°C) around amplifiers up to which makers state a reduction of the current.
+const HOTTEST_AMPLIFIER: f64 = 55.0;
+
+/// The highest altitude (m) for which IEC 60034-1 has a rule, and makers of amplifiers do.
+const HIGHEST: f64 = 4000.0;
+
+/// Loss of S1 torque per kelvin above 40 °C, where the winding's highest temperature is not known.
+const TORQUE_PER_KELVIN: f64 = 0.01;
+
+/// Loss of an amplifier's current per kelvin above 40 °C.
+const CURRENT_PER_KELVIN: f64 = 0.025;
+
+/// The maker's factors on a rating: (temperature in °C or altitude in m, factor), rising; empty: not given.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Derating {
+    /// Over the temperature of the surroundings.
+    pub temperature: Vec<[f64; 2]>,
+    /// Over the altitude.
+    pub altitude: Vec<[f64; 2]>,
+}
+
+/// Where a factor comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// Nothing is reduced.
+    None,
+    /// The maker's points.
+    Maker,
+    /// The rise that the winding's highest temperature leaves.
+    Rise,
+    /// Makers' practice, which the catalogue does not confirm.
+    Practice,
+}
+
+/// The ratings of a motor or an amplifier at a site.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Derated {
+    /// Factor on the S1 torque at every speed, or on the current.
+    pub factor: f64,
+    /// Part of it by which the torque counts more in a thermal model of shares of the rated rise, since the maker states it for
+    /// the torque; the rest is a smaller rise.
+    pub torque: f64,
+    /// Share of the rated rise of a winding that the site leaves; above one where it is cool.
+    pub rise: f64,
+    /// Highest temperature of the surroundings (°C).
+    pub hottest: f64,
+    /// Highest altitude (m).
+    pub highest: f64,
+    /// Where the factor for the temperature comes from.
+    pub temperature: Basis,
+    /// Where that for the altitude comes from.
+    pub altitude: Basis,
+}
+
+/// On the straight lines between points, level beyond them.
+fn between(points: &[[f64; 2]], at: f64) -> f64 {
+    let after = points.partition_point(|p| p[0] <= at);
+    match (
+        after.checked_sub(1).and_then(|k| points.get(k)),
+        points.get(after),
+    ) {
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (at - x0) / (x1 - x0),
+        (Some([_, y]), None) | (None, Some([_, y])) => *y,
+        (None, None) => 1.0,
+    }
+}
+
+impl Motor {
+    /// Its S1 torque at a site: T/T_N = √(rise left/rated rise) where the winding's highest temperature is known.
+    pub fn derated(&self, site: &Surroundings) -> Derated {
+        let limit = (self.thermal.max_temperature).filter(|limit| *limit > REFERENCE);
+        let hot = (site.ambient - REFERENCE).max(0.0);
+        let (by_maker, air) = (&self.derating, site.altitude_factor());
+        let (mut torque, mut rise) = (1.0, 1.0);
+        let temperature = match (by_maker.temperature.last(), limit) {
+            (Some(_), _) => {
+                torque *= between(&by_maker.temperature, site.ambient);
+                Basis::Maker
+            }
+            (None, Some(limit)) => {
+                rise *= ((limit - site.ambient) / (limit - REFERENCE)).max(0.0);
+                if hot > 0.0 { Basis::Rise } else { Basis::None }
+            }
+            (None, None) if hot > 0.0 => {
+                torque *= (1.0 - TORQUE_PER_KELVIN * hot).max(0.0);
+                Basis::Practice
+            }
+            (None, None) => Basis::None,
+        };
+        let altitude = if by_maker.altitude.is_empty() {
+            rise *= air;
+            if air < 1.0 { Basis::Rise } else { Basis::None }
+        } else {
+            torque *= between(&by_maker.altitude, site.altitude);
+            Basis::Maker
+        };
+        let general = limit.map_or(HOTTEST_MOTOR, |limit| limit.min(HOTTEST_MOTOR));
+        Derated {
+            // Cool air allows a larger rise, but no data sheet a larger S1 torque.
+            factor: torque * rise.min(1.0).sqrt(),
+            torque,
+            rise,
+            hottest: end(&by_maker.temperature, general),
+            highest: end(&by_maker.altitude, HIGHEST),
+            temperature,
+            altitude,
+        }
+    }
+}
+
+impl Amplifier {
+    /// Its currents at a site.
+    pub fn derated(&self, site: &Surroundings) -> Derated {
+        let hot = (site.around_amplifier() - REFERENCE).max(0.0);
+        let thin = (site.altitude - LOW).max(0.0);
+        let basis = |points: &[[f64; 2]], more: f64| match points {
+            [_, ..] => Basis::Maker,
+            [] if more > 0.0 => Basis::Practice,
+            [] => Basis::None,
+        };
+        let by_maker = &self.derating;
+        let temperature = basis(&by_maker.temperature, hot);
+        let altitude = basis(&by_maker.altitude, thin);
+        let in_heat = match temperature {
+            Basis::Maker => between(&by_maker.temperature, site.around_amplifier()),
+            _ => (1.0 - CURRENT_PER_KELVIN * hot).max(0.0),
+        };
+        let in_air = match altitude {
+            Basis::Maker => between(&by_maker.altitude, site.altitude),
+            _ => site.altitude_factor(),
+        };
+        Derated {
+            factor: in_heat * in_air,
+            torque: 1.0,
+            rise: 1.0,
+            hottest: end(&by_maker.temperature, HOTTEST_AMPLIFIER),
+            highest: end(&by_maker.altitude, HIGHEST),
+            temperature,
+            altitude,
+        }
+    }
+
+    /// Rated and peak current at a site (A).
+    pub fn currents(&self, site: &Surroundings) -> [f64; 2] {
+        let factor = self.derated(site).factor;
+        [self.rated_current, self.peak_current].map(|current| factor * current)
+    }
+}
+
+/// Where the maker's points end, or the general rule.
+fn end(points: &[[f64; 2]], general: f64) -> f64 {
+    points.last().map_or(general, |[end, _]| *end)
+}
