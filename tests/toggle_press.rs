@@ -166,7 +166,7 @@ proptest! {
         let mut lengths = spec.lengths;
         lengths[3] = short * farthest;
         let error = TogglePress::new(TogglePressDimensions { crank: lengths[0], rod: lengths[1], upper: lengths[2], lower: lengths[3], pivot: spec.pivot, guide: spec.guide }, spec.sides.0, spec.sides.1, rotors).unwrap_err();
-        let BuildError::Blocked(Blocked::TooShort { phi, shortest, link }) = error else {
+        let BuildError::Blocked(Blocked::TooShort { phi, shortest, link, .. }) = error else {
             panic!("{error:?}")
         };
         prop_assert!(link == "lower link");

@@ -40,6 +40,8 @@ pub enum Blocked {
         phi: f64,
         /// It must be longer than this (m).
         shortest: f64,
+        /// Crank angles (rad) between which it reaches the guide, those around φ = 0 or the first behind; `None`: nowhere.
+        reach: Option<[f64; 2]>,
     },
 }
 
@@ -89,10 +91,23 @@ impl Curable for Blocked {
             Self::PinMeetsPivot { .. } => f.write_str(
                 "make it shorter for a rocker that swings, or longer for one that turns",
             ),
-            Self::TooShort { link, shortest, .. } => write!(
-                f,
-                "make the {link} longer than {shortest:.6} m, or shorten the crank"
-            ),
+            Self::TooShort {
+                link,
+                shortest,
+                reach,
+                ..
+            } => {
+                write!(f, "make the {link} longer than {shortest:.6} m, ")?;
+                match reach {
+                    None => f.write_str("or shorten the crank"),
+                    Some([from, to]) => write!(
+                        f,
+                        "shorten the crank, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
+                        from.to_degrees(),
+                        to.to_degrees()
+                    ),
+                }
+            }
         }
     }
 }

@@ -20,7 +20,8 @@ use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
-use super::Misfit;
+use super::four_bar::beyond;
+use super::{Misfit, reach};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};
@@ -31,9 +32,9 @@ use crate::{Domain, math};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum LeverMotion {
-    /// It rocks: |OC| > r + |e|.
+    /// It rocks: |OC| > r + |e|; over a stroke |OC| ≥ r.
     Rocking,
-    /// It turns fully, once with every turn of the crank: |OC| < r − |e|.
+    /// It turns fully, once with every turn of the crank: |OC| < r − |e|; over a stroke it turns with it, |OC| < r.
     Turning,
 }
 
@@ -50,7 +51,7 @@ pub struct InvertedSliderCrankDimensions {
     pub offset: f64,
 }
 
-/// An inverted slider-crank, driven at the crank, which turns fully.
+/// An inverted slider-crank, driven at the crank, which turns fully or swings over a stroke.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`BLOCK`](Self::BLOCK) (frame at A, u along the slot),
 /// [`LEVER`](Self::LEVER) (frame at C, u along the slot, from C towards the block; the slot lies at v = e). The other
@@ -66,6 +67,7 @@ pub struct InvertedSliderCrank {
     /// Direction from C to O (rad).
     towards_crank: f64,
     motion: LeverMotion,
+    domain: Domain,
     links: [Link; 3],
 }
 
@@ -86,6 +88,62 @@ impl InvertedSliderCrank {
         dimensions: InvertedSliderCrankDimensions,
         links: [Link; 3],
     ) -> Result<Self, BuildError> {
+        let bare = Self::bare(dimensions, links)?;
+        let (crank, centres, width) =
+            (dimensions.crank, bare.centres, math::abs(dimensions.offset));
+        // A hair of distance, so that rounding of |d|² − e² makes no angle fail later.
+        let hair = reach::HAIR * (crank + width);
+        let (rocking, turning) = (crank + width, crank - width);
+        if centres > rocking + hair || centres < turning - hair {
+            return Ok(bare);
+        }
+        Err(Misfit::ChangePoint {
+            centres,
+            rocking,
+            turning,
+        }
+        .into())
+    }
+
+    /// An inverted slider-crank whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose slot follows the crank pin
+    /// all the way. The rest as for [`new`](Self::new).
+    ///
+    /// # Errors
+    /// A crank that is not positive; a length not finite; a stroke that is empty; a start where the slot does not meet the pin; a dead
+    /// point in the stroke, where the pin is at the distance |e| from C, with its angle.
+    pub fn over_stroke(
+        dimensions: InvertedSliderCrankDimensions,
+        stroke: [f64; 2],
+        links: [Link; 3],
+    ) -> Result<Self, BuildError> {
+        let bare = Self::bare(dimensions, links)?;
+        let (crank, centres) = (dimensions.crank, bare.centres);
+        let [x, y] = dimensions.pivot;
+        let (sin, cos) = math::sin_cos(stroke[0]);
+        let [u, v] = [crank * cos - x, crank * sin - y];
+        let size = crank + centres;
+        let gap = math::abs(dimensions.offset) - math::sqrt(u * u + v * v);
+        // The pin nearer to C than |e|, kept off by a hair: cos(φ − γ) of the triangle O, A, C.
+        let nearest = math::abs(dimensions.offset) + reach::HAIR * size;
+        let cos = (crank * crank + centres * centres - nearest * nearest) / (2.0 * crank * centres);
+        let mut dead_points = reach::DeadPoints::new();
+        if math::abs(cos) <= 1.0 {
+            let towards = bare.towards_crank + PI;
+            for phi in [towards - math::acos(cos), towards + math::acos(cos)] {
+                // Cannot fail: four places.
+                let _ = dead_points.push(beyond(phi));
+            }
+        }
+        let domain = reach::over(stroke, 2, [gap, size], &dead_points)?;
+        Ok(Self { domain, ..bare })
+    }
+
+    /// A lever farther away than the crank is long stays within a quarter turn of the direction from C to O, a nearer one of φ, where both
+    /// can be put together.
+    fn bare(
+        dimensions: InvertedSliderCrankDimensions,
+        links: [Link; 3],
+    ) -> Result<Self, BuildError> {
         let InvertedSliderCrankDimensions {
             crank,
             pivot,
@@ -96,27 +154,16 @@ impl InvertedSliderCrank {
         finite("lever pivot y", pivot[1])?;
         finite("slot offset", offset)?;
         let centres = math::sqrt(pivot[0] * pivot[0] + pivot[1] * pivot[1]);
-        let width = math::abs(offset);
-        // A hair of distance, so that rounding of |d|² − e² makes no angle fail later.
-        let hair = 1e-12 * (crank + width);
-        let (rocking, turning) = (crank + width, crank - width);
-        let motion = if centres > rocking + hair {
-            LeverMotion::Rocking
-        } else if centres < turning - hair {
-            LeverMotion::Turning
-        } else {
-            return Err(Misfit::ChangePoint {
-                centres,
-                rocking,
-                turning,
-            }
-            .into());
-        };
         Ok(Self {
             dimensions,
             centres,
             towards_crank: math::atan2(-pivot[1], -pivot[0]),
-            motion,
+            motion: if centres < crank {
+                LeverMotion::Turning
+            } else {
+                LeverMotion::Rocking
+            },
+            domain: Domain::Turn,
             links,
         })
     }
@@ -192,7 +239,7 @@ impl Mechanism for InvertedSliderCrank {
     }
 
     fn domain(&self) -> Domain {
-        Domain::Turn
+        self.domain
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {

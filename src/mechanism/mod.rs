@@ -20,6 +20,7 @@ mod misfit;
 mod parallel_shafts;
 mod planetary;
 mod rack;
+mod reach;
 mod scotch_yoke;
 mod six_link;
 mod slider_crank;

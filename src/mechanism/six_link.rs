@@ -24,6 +24,7 @@ use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::four_bar::beyond;
+use super::reach::{self, DeadPoints};
 use super::{Blocked, Branch, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
@@ -39,7 +40,7 @@ pub struct SixLinkDimensions {
     pub crank: f64,
     /// Rocker length l₂ > 0.
     pub rocker: f64,
-    /// Rod length l₃ > 0, long enough to reach the guide all the turn.
+    /// Rod length l₃ > 0, long enough to reach the guide all the turn, or all the stroke.
     pub rod: f64,
     /// Distance b > 0 of the pivots: b > l₁ for a rocker that swings, b < l₁ for one that turns (Whitworth).
     pub centres: f64,
@@ -47,7 +48,7 @@ pub struct SixLinkDimensions {
     pub below: f64,
 }
 
-/// The six-link mechanism, driven at the crank, which turns fully.
+/// The six-link mechanism, driven at the crank, which turns fully or swings over a stroke.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O₁ along O₁A), [`BLOCK`](Self::BLOCK) (frame at A, parallel to the rocker),
 /// [`ROCKER`](Self::ROCKER) (frame at O₂ along O₂B, its angle is φ₂), [`ROD`](Self::ROD) (frame at B along BC, its angle is
@@ -58,6 +59,7 @@ pub struct SixLinkDimensions {
 pub struct SixLink {
     dimensions: SixLinkDimensions,
     branch: Branch,
+    domain: Domain,
     links: [Link; 5],
 }
 
@@ -82,31 +84,82 @@ impl SixLink {
         branch: Branch,
         links: [Link; 5],
     ) -> Result<Self, BuildError> {
-        let l1 = positive("crank length", dimensions.crank)?;
-        let l2 = positive("rocker length", dimensions.rocker)?;
-        let l3 = positive("rod length", dimensions.rod)?;
-        let b = positive("distance of the pivots", dimensions.centres)?;
-        let guide = finite("distance of the guide", dimensions.below)?;
-        let six_link = Self {
-            dimensions,
-            branch,
-            links,
-        };
-        // Nearer than this, s comes within roundings of zero at φ = 180°.
-        if math::abs(l1 - b) <= 1e-9 * b {
-            return Err(Blocked::PinMeetsPivot { length: l1 }.into());
+        let six_link = Self::bare(dimensions, branch, links)?;
+        if six_link.pin_meets_pivot() {
+            let length = dimensions.crank;
+            return Err(Blocked::PinMeetsPivot { length }.into());
         }
-        let shortest = l2 * six_link.largest_sine() + math::abs(guide);
-        if l3 <= shortest * (1.0 + 1e-12) {
-            let phi = six_link.first_unreachable();
+        let (l3, guide) = (dimensions.rod, dimensions.below);
+        let shortest = dimensions.rocker * six_link.largest_sine() + math::abs(guide);
+        if l3 <= shortest * (1.0 + reach::HAIR) {
+            let dead_points = six_link.dead_points(l3, 1e-9);
+            // At φ = 0 the rocker lies along x.
+            let assembled = math::abs(guide) < l3;
+            let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
             return Err(Blocked::TooShort {
                 link: "rod",
-                phi,
+                phi: if assembled { first } else { 0.0 },
                 shortest,
+                reach: reach::between(&dead_points, assembled),
             }
             .into());
         }
         Ok(six_link)
+    }
+
+    /// A six-link mechanism whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose rod reaches the guide all the
+    /// way. The rest as for [`new`](Self::new).
+    ///
+    /// # Errors
+    /// A length or b not positive; b = l₁ with φ = 180° in the stroke; a stroke that is empty; a start where the rod does not reach the
+    /// guide; a dead point in the stroke, where the rod is perpendicular to the guide, with its angle.
+    pub fn over_stroke(
+        dimensions: SixLinkDimensions,
+        branch: Branch,
+        stroke: [f64; 2],
+        links: [Link; 5],
+    ) -> Result<Self, BuildError> {
+        let six_link = Self::bare(dimensions, branch, links)?;
+        let [from, to] = stroke;
+        if six_link.pin_meets_pivot() && from + beyond(PI - from) <= to {
+            let length = dimensions.crank;
+            return Err(Blocked::PinMeetsPivot { length }.into());
+        }
+        let (sin, cos) = math::sin_cos(from);
+        let (x, y) = (
+            dimensions.crank * cos + dimensions.centres,
+            dimensions.crank * sin,
+        );
+        let height = dimensions.rocker * y / math::sqrt(x * x + y * y) + dimensions.below;
+        let rod = dimensions.rod;
+        let dead_points = six_link.dead_points(rod * (1.0 - reach::HAIR), 0.0);
+        let gap = math::abs(height) - rod;
+        let domain = reach::over(stroke, 6, [gap, rod], &dead_points)?;
+        Ok(Self { domain, ..six_link })
+    }
+
+    fn bare(
+        dimensions: SixLinkDimensions,
+        branch: Branch,
+        links: [Link; 5],
+    ) -> Result<Self, BuildError> {
+        positive("crank length", dimensions.crank)?;
+        positive("rocker length", dimensions.rocker)?;
+        positive("rod length", dimensions.rod)?;
+        positive("distance of the pivots", dimensions.centres)?;
+        finite("distance of the guide", dimensions.below)?;
+        Ok(Self {
+            dimensions,
+            branch,
+            domain: Domain::Turn,
+            links,
+        })
+    }
+
+    /// Whether the crank pin passes through O₂ at φ = 180°, or nearer than roundings of s allow.
+    fn pin_meets_pivot(&self) -> bool {
+        let SixLinkDimensions { crank, centres, .. } = self.dimensions;
+        math::abs(crank - centres) <= 1e-9 * centres
     }
 
     /// Whether the rocker turns fully (b < l₁, Whitworth) or swings.
@@ -139,19 +192,15 @@ impl SixLink {
         }
     }
 
-    /// The smallest φ ≥ 0 (rad) at which the rod is perpendicular to the guide: |l₂·sin φ₂ + a| = l₃.
-    fn first_unreachable(&self) -> f64 {
+    /// The crank angles (rad, 0 to 2π) at which a `rod` is perpendicular to the guide, |l₂·sin φ₂ + a| = l₃; a sine that is greater than
+    /// the largest of a turn by no more than `slack` is that.
+    fn dead_points(&self, rod: f64, slack: f64) -> DeadPoints {
         let (l1, b) = (self.dimensions.crank, self.dimensions.centres);
-        // At φ = 0 the rocker lies along x.
-        if math::abs(self.guide()) >= self.dimensions.rod {
-            return 0.0;
-        }
         let largest = self.largest_sine();
-        let mut first = f64::INFINITY;
-        for end in [self.dimensions.rod, -self.dimensions.rod] {
+        let mut found = DeadPoints::new();
+        for end in [rod, -rod] {
             let sin = (self.guide() + end) / self.dimensions.rocker;
-            // At equality a rounding may leave it just outside.
-            if math::abs(sin) > largest * (1.0 + 1e-9) {
+            if math::abs(sin) > largest * (1.0 + slack) {
                 continue;
             }
             let sin = sin.clamp(-largest, largest);
@@ -163,9 +212,12 @@ impl SixLink {
             } else {
                 [rocker + turned, rocker + PI - turned]
             };
-            first = positions.into_iter().map(beyond).fold(first, f64::min);
+            for phi in positions {
+                // Cannot fail: four places.
+                let _ = found.push(beyond(phi));
+            }
         }
-        first
+        found
     }
 }
 
@@ -211,7 +263,7 @@ impl Mechanism for SixLink {
     }
 
     fn domain(&self) -> Domain {
-        Domain::Turn
+        self.domain
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {

@@ -10,7 +10,11 @@
 //! from A to B. The machine's real orientation is given by the direction of gravity: for a press whose ram
 //! moves down as x_B grows, gravity points along +x.
 
+use core::f64::consts::PI;
+
 use super::Blocked;
+use super::four_bar::beyond;
+use super::reach::{self, DeadPoints};
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
@@ -47,13 +51,13 @@ impl Branch {
 pub struct SliderCrankDimensions {
     /// Crank length r > 0.
     pub crank: f64,
-    /// Rod length l > r + |e|.
+    /// Rod length l > r + |e|; over a stroke any that reaches the guide there.
     pub rod: f64,
     /// Offset e of the guide from the crank's pivot, either sign; zero for an in-line slider-crank.
     pub offset: f64,
 }
 
-/// A slider-crank with offset, driven at the crank, which turns fully.
+/// A slider-crank with offset, driven at the crank, which turns fully or swings over a stroke.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AB),
 /// [`SLIDER`](Self::SLIDER) (frame at B, parallel to the global axes).
@@ -64,6 +68,7 @@ pub struct SliderCrankDimensions {
 pub struct SliderCrank {
     dimensions: SliderCrankDimensions,
     branch: Branch,
+    domain: Domain,
     links: [Link; 3],
 }
 
@@ -75,33 +80,70 @@ impl SliderCrank {
     /// Index of the slider.
     pub const SLIDER: usize = 2;
 
-    /// A slider-crank of these dimensions, with the links crank, rod, slider.
+    /// A slider-crank of these dimensions, whose crank turns fully, with the links crank, rod, slider.
     ///
     /// # Errors
-    /// A length that is not positive; a rod too short for a full turn, l ≤ r + |e|, with the angle where it fails.
+    /// A length that is not positive; a rod too short for a full turn, l ≤ r + |e|, with the angle where it fails and those between
+    /// which it reaches.
     pub fn new(
         dimensions: SliderCrankDimensions,
         branch: Branch,
         links: [Link; 3],
     ) -> Result<Self, BuildError> {
-        let crank = positive("crank length", dimensions.crank)?;
-        let rod = positive("rod length", dimensions.rod)?;
-        let offset = finite("offset", dimensions.offset)?;
+        let bare = Self::bare(dimensions, branch, links)?;
+        let SliderCrankDimensions { crank, rod, offset } = dimensions;
         let shortest = crank + math::abs(offset);
         // A hair of distance keeps cos ψ away from the roundings of 1 − sin²ψ, so that no angle fails later.
-        if rod <= shortest * (1.0 + 1e-12) {
-            // The distance |e − r·sin φ| to be spanned is largest at φ = 90° (e < 0) or 270°; the first φ > 0 at
-            // which it exceeds the rod is where the turn ends.
+        if rod <= shortest * (1.0 + reach::HAIR) {
+            // At equality a rounding may leave a dead point just outside.
+            let dead_points = dimensions.dead_points(rod, 1e-9);
+            let assembled = math::abs(offset) < rod;
+            let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
             return Err(Blocked::TooShort {
                 link: "rod",
-                phi: first_unreachable(crank, rod, offset),
+                phi: if assembled { first } else { 0.0 },
                 shortest,
+                reach: reach::between(&dead_points, assembled),
             }
             .into());
         }
+        Ok(bare)
+    }
+
+    /// A slider-crank whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose rod reaches the guide all the way,
+    /// as one that is shorter than the crank. The rest as for [`new`](Self::new).
+    ///
+    /// Accuracy: joints close to 1e-12 over the stroke, up to its dead points (test `short_rods_move_between_their_dead_points`).
+    ///
+    /// # Errors
+    /// A length that is not positive; a stroke that is empty; a start where the rod does not reach the guide; a dead point in the
+    /// stroke, where the rod is perpendicular to the guide, with its angle.
+    pub fn over_stroke(
+        dimensions: SliderCrankDimensions,
+        branch: Branch,
+        stroke: [f64; 2],
+        links: [Link; 3],
+    ) -> Result<Self, BuildError> {
+        let bare = Self::bare(dimensions, branch, links)?;
+        let SliderCrankDimensions { crank, rod, offset } = dimensions;
+        let gap = math::abs(offset - crank * math::sin_cos(stroke[0]).0) - rod;
+        let dead_points = dimensions.dead_points(rod * (1.0 - reach::HAIR), 0.0);
+        let domain = reach::over(stroke, 3, [gap, rod], &dead_points)?;
+        Ok(Self { domain, ..bare })
+    }
+
+    fn bare(
+        dimensions: SliderCrankDimensions,
+        branch: Branch,
+        links: [Link; 3],
+    ) -> Result<Self, BuildError> {
+        positive("crank length", dimensions.crank)?;
+        positive("rod length", dimensions.rod)?;
+        finite("offset", dimensions.offset)?;
         Ok(Self {
             dimensions,
             branch,
+            domain: Domain::Turn,
             links,
         })
     }
@@ -117,19 +159,23 @@ impl SliderCrank {
     }
 }
 
-/// The smallest φ ≥ 0 (rad) at which |e − r·sin φ| reaches the rod's length.
-fn first_unreachable(crank: f64, rod: f64, offset: f64) -> f64 {
-    use core::f64::consts::PI;
-    if math::abs(offset) >= rod {
-        return 0.0;
-    }
-    let up = (offset + rod) / crank; // sin φ = (e + l)/r: the pin is too high
-    let down = (offset - rod) / crank; // sin φ = (e − l)/r: the pin is too low
-    // One of them is reached where rod ≤ crank + |offset|; at equality a rounding may leave it just outside.
-    if up <= 1.0 || offset <= 0.0 {
-        math::asin(up.min(1.0))
-    } else {
-        PI + math::asin((-down).min(1.0))
+impl SliderCrankDimensions {
+    /// The crank angles (rad, 0 to 2π) at which |e − r·sin φ| is the length of a `rod`; a sine that is greater than one by no more than
+    /// `slack` is one.
+    fn dead_points(&self, rod: f64, slack: f64) -> DeadPoints {
+        let mut found = DeadPoints::new();
+        for height in [self.offset + rod, self.offset - rod] {
+            let sin = height / self.crank;
+            if math::abs(sin) > 1.0 + slack {
+                continue;
+            }
+            let phi = math::asin(sin.clamp(-1.0, 1.0));
+            for phi in [phi, PI - phi] {
+                // Cannot fail: four places.
+                let _ = found.push(beyond(phi));
+            }
+        }
+        found
     }
 }
 
@@ -162,7 +208,7 @@ impl Mechanism for SliderCrank {
     }
 
     fn domain(&self) -> Domain {
-        Domain::Turn
+        self.domain
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
@@ -180,7 +226,7 @@ impl Mechanism for SliderCrank {
         // On the left branch the rod points to the left: ψ stays within a quarter turn of π.
         let rod = Frame::moving([x_a, y_a], sin, cos).unwrapped(match self.branch {
             Branch::Right => 0.0,
-            Branch::Left => core::f64::consts::PI,
+            Branch::Left => PI,
         });
         let [x_b, _] = rod.point([lengths.rod, 0.0]);
         let slider = Frame::translating([x_b, offset]);

@@ -24,6 +24,7 @@ use crate::mechanism::error::BuildError;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::four_bar::beyond;
+use super::reach;
 use super::{Blocked, Branch, FourBar, FourBarDimensions, Side, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::Link;
@@ -69,7 +70,7 @@ pub struct TogglePressDimensions {
     pub rod: f64,
     /// Upper link length p > 0, from its pivot to the knuckle.
     pub upper: f64,
-    /// Lower link length q > 0, from the knuckle to the ram, long enough to reach the guide all the turn.
+    /// Lower link length q > 0, from the knuckle to the ram, long enough to reach the guide all the turn, or all the stroke.
     pub lower: f64,
     /// Pivot P = [x, y] of the upper link, the crank's being [0, 0].
     pub pivot: [f64; 2],
@@ -77,7 +78,7 @@ pub struct TogglePressDimensions {
     pub guide: f64,
 }
 
-/// A toggle press, driven at the crank, which turns fully.
+/// A toggle press, driven at the crank, which turns fully or swings over a stroke.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AK), [`UPPER`](Self::UPPER)
 /// (frame at P along PK), [`LOWER`](Self::LOWER) (frame at K along KR), [`RAM`](Self::RAM) (frame at R, parallel to the
@@ -117,7 +118,52 @@ impl TogglePress {
         branch: Branch,
         links: [Link; 5],
     ) -> Result<Self, BuildError> {
-        let lower = positive("lower link length", dimensions.lower)?;
+        let press = Self::bare(dimensions, knuckle, branch, None, links)?;
+        let shortest = press.farthest_knuckle()?;
+        if dimensions.lower <= shortest * (1.0 + reach::HAIR) {
+            let dead_points = press.dead_points(dimensions.lower)?;
+            let assembled = press.off_guide_at(0.0)? < dimensions.lower;
+            let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
+            return Err(Blocked::TooShort {
+                link: "lower link",
+                phi: if assembled { first } else { 0.0 },
+                shortest,
+                reach: reach::between(&dead_points, assembled),
+            }
+            .into());
+        }
+        Ok(press)
+    }
+
+    /// A toggle press whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths of links that meet no dead point there. The
+    /// rest as for [`new`](Self::new).
+    ///
+    /// # Errors
+    /// Those of [`FourBar::over_stroke`] for crank, rod, upper link and P; a lower link or guide that is not possible; a start where the
+    /// lower link does not reach the guide; a dead point in the stroke, where it is perpendicular to the guide, with its angle.
+    pub fn over_stroke(
+        dimensions: TogglePressDimensions,
+        knuckle: Side,
+        branch: Branch,
+        stroke: [f64; 2],
+        links: [Link; 5],
+    ) -> Result<Self, BuildError> {
+        let press = Self::bare(dimensions, knuckle, branch, Some(stroke), links)?;
+        let lower = dimensions.lower;
+        let gap = press.off_guide_at(stroke[0])? - lower;
+        let dead_points = press.dead_points(lower * (1.0 - reach::HAIR))?;
+        reach::over(stroke, 6, [gap, lower], &dead_points)?;
+        Ok(press)
+    }
+
+    fn bare(
+        dimensions: TogglePressDimensions,
+        knuckle: Side,
+        branch: Branch,
+        stroke: Option<[f64; 2]>,
+        links: [Link; 5],
+    ) -> Result<Self, BuildError> {
+        positive("lower link length", dimensions.lower)?;
         finite("guide", dimensions.guide)?;
         let four_bar = FourBarDimensions {
             crank: dimensions.crank,
@@ -125,23 +171,17 @@ impl TogglePress {
             rocker: dimensions.upper,
             pivot: dimensions.pivot,
         };
-        let press = Self {
+        let first = [links[0], links[1], links[2]];
+        let four_bar = match stroke {
+            None => FourBar::new(four_bar, knuckle, first)?,
+            Some(stroke) => FourBar::over_stroke(four_bar, knuckle, stroke, first)?,
+        };
+        Ok(Self {
             dimensions,
-            four_bar: FourBar::new(four_bar, knuckle, [links[0], links[1], links[2]])?,
+            four_bar,
             branch,
             links,
-        };
-        let shortest = press.farthest_knuckle()?;
-        if lower <= shortest * (1.0 + 1e-12) {
-            let phi = press.first_unreachable()?;
-            return Err(Blocked::TooShort {
-                link: "lower link",
-                phi,
-                shortest,
-            }
-            .into());
-        }
-        Ok(press)
+        })
     }
 
     /// The linkage O-A-K-P that moves the upper link.
@@ -190,38 +230,32 @@ impl TogglePress {
             .map_or(0.0, |frame| frame.psi.value))
     }
 
-    /// The smallest φ ≥ 0 (rad) at which the lower link is perpendicular to the guide.
-    fn first_unreachable(&self) -> Result<f64, PoseError> {
-        let TogglePressDimensions { upper, lower, .. } = self.dimensions;
-        let off = |phi: f64| -> Result<f64, PoseError> {
-            let sin = math::sin_cos(self.upper_angle(phi)?).0;
-            Ok(math::abs(self.knuckle_off_guide(sin)))
-        };
-        if off(0.0)? >= lower {
-            return Ok(0.0);
-        }
-        let mut first = f64::INFINITY;
+    /// Distance of the knuckle from the guide's line (m) at a crank angle.
+    fn off_guide_at(&self, phi: f64) -> Result<f64, PoseError> {
+        let sin = math::sin_cos(self.upper_angle(phi)?).0;
+        Ok(math::abs(self.knuckle_off_guide(sin)))
+    }
+
+    /// The crank angles (rad, 0 to 2π) at which a `lower` link is perpendicular to the guide.
+    fn dead_points(&self, lower: f64) -> Result<heapless::Vec<f64, 10>, PoseError> {
+        let mut found = heapless::Vec::new();
         for distance in [lower, -lower] {
-            let sin = self.knuckle_off_guide(0.0) - distance;
-            let sin = sin / upper;
+            let sin = (self.knuckle_off_guide(0.0) - distance) / self.dimensions.upper;
             if math::abs(sin) <= 1.0 {
                 let angle = math::asin(sin);
                 for psi in [angle, PI - angle] {
-                    first = self
-                        .four_bar
-                        .crank_angles(psi)
-                        .into_iter()
-                        .fold(first, f64::min);
+                    // Cannot fail: two for each of four angles, and two more.
+                    found.extend(self.four_bar.crank_angles(psi));
                 }
             }
         }
         // Where it only just fails, at the end of the swing, no angle was found before it.
         for phi in self.four_bar.rocker_dead_centres().into_iter().flatten() {
-            if off(phi)? >= lower * (1.0 - 1e-12) {
-                first = first.min(phi);
+            if self.off_guide_at(phi)? >= lower * (1.0 - reach::HAIR) {
+                let _ = found.push(phi);
             }
         }
-        Ok(first)
+        Ok(found)
     }
 
     /// The crank angles at which the ram stands still.
@@ -319,7 +353,7 @@ impl Mechanism for TogglePress {
     }
 
     fn domain(&self) -> Domain {
-        Domain::Turn
+        self.four_bar.domain()
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {

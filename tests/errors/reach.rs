@@ -23,10 +23,19 @@ fn short_rod_names_its_angle() {
             slider_crank(r, l, e),
             &["make the rod longer than", "shorten the crank"],
         );
-        let Error::Build(BuildError::Blocked(Blocked::TooShort { phi, shortest, .. })) = error
+        let Error::Build(BuildError::Blocked(Blocked::TooShort {
+            phi,
+            shortest,
+            reach,
+            ..
+        })) = error
         else {
             panic!("{error:?}")
         };
+        // The other end of the reach is the mirror image at φ = 90° or 270°, or that of the other side.
+        let [before, after] = reach.unwrap();
+        assert_near("reach", after, phi, budget::CLOSED_FORM);
+        assert!(before < 0.0 && (e - r * before.sin()).abs() <= l * (1.0 + budget::IDENTITY));
         assert_near("shortest rod", shortest, r + e.abs(), f64::EPSILON);
         let degrees = format!("φ = {:.2}°", phi.to_degrees());
         assert!(
@@ -57,6 +66,7 @@ fn short_rod_names_its_angle() {
         link: "rod",
         phi: 0.0,
         shortest: 0.5,
+        reach: None,
     };
     assert_eq!(error, Error::Build(BuildError::Blocked(blocked)));
 }

@@ -15,6 +15,8 @@ pub enum SliderCrankError {
     RubbingRod(usize),
     /// A spring or a damper; its place in their list.
     Element(usize),
+    /// A crank that swings over a stroke: the closed form is of the whole turn.
+    Stroke,
 }
 
 impl fmt::Display for SliderCrankError {
@@ -30,6 +32,7 @@ impl fmt::Display for SliderCrankError {
                 "load {k} (counted from 0), which opposes the motion of a point of the rod between its pins"
             ),
             Self::Element(k) => write!(f, "spring or damper {k} (counted from 0)"),
+            Self::Stroke => f.write_str("a crank with a stroke, only one that turns fully"),
         }
     }
 }
@@ -42,7 +45,7 @@ impl Curable for SliderCrankError {
             Self::Window(_) => {
                 "use a table, of several pieces where the load begins or ends steeply"
             }
-            Self::RubbingRod(_) => "use a table",
+            Self::RubbingRod(_) | Self::Stroke => "use a table",
             Self::Element(_) => "use harmonics (harmonic::fit) or a table",
         })
     }

@@ -22,7 +22,7 @@ use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, words_l
 use crate::machine::{Action, Load, Mechanism as _};
 use crate::mechanism::{Branch, SliderCrank};
 use crate::number::error::RangeError;
-use crate::{Error, Machine, TableError, math};
+use crate::{Domain, Error, Machine, TableError, math};
 
 /// Smaller than this part of the largest coefficient of its curve, one is a rounding of a turned drawing.
 const NOTHING: f64 = 1e-9;
@@ -155,6 +155,9 @@ impl Sums {
         const LOAD: [C; 3] = [C::Load, C::LoadSin, C::LoadCos];
         if !machine.elements().is_empty() {
             return Err(SliderCrankError::Element(0));
+        }
+        if machine.mechanism().domain() != Domain::Turn {
+            return Err(SliderCrankError::Stroke);
         }
         let lengths = Lengths::of(machine.mechanism());
         let mut sums = Self {

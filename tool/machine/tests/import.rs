@@ -2,6 +2,7 @@
 
 mod curves;
 mod faults;
+mod forms;
 mod link_table;
 mod load_table;
 mod recordings;

@@ -2,6 +2,7 @@
 
 mod axes;
 mod ball_screw;
+mod cam_table;
 mod disc_cam;
 mod four_bar;
 mod geneva;
@@ -13,6 +14,7 @@ mod planetary;
 mod rack;
 mod scotch_yoke;
 mod six_link;
+mod strokes;
 mod toggle_press;
 
 use crate::reading::{machine, parse, refuses, refuses_edit, rendered};

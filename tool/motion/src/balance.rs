@@ -206,7 +206,7 @@ pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
     };
     let mechanism = file.machine.mechanism();
     let links = mechanism.link_names().iter().enumerate();
-    let links = links.take(mechanism.own_links()).filter(|(link, _)| {
+    let links = links.filter(|(link, _)| {
         let alone = Request {
             counterweights: vec![Counterweight {
                 link: *link,

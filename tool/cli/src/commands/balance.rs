@@ -120,7 +120,7 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
     let given = format!("--counterweight {text:?}");
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let mechanism = file.machine.mechanism();
-    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let links = mechanism.link_names();
     let example = links.first().map_or("crank", String::as_str);
     let &[link, most, reach] = parts.as_slice() else {
         return Err(miette!(

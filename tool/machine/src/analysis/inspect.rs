@@ -138,7 +138,7 @@ impl Findings {
             kind: mechanism.kind(),
             coordinate: mechanism.coordinate(),
             domain,
-            links: mechanism.links().len(),
+            links: mechanism.own_links(),
             joints: joint_findings(mechanism, &joints),
             closure: closure(mechanism)?,
             travels: centres::travels(mechanism)?,
@@ -290,12 +290,10 @@ fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
 }
 
 fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFinding> {
-    let names = mechanism.joint_names();
-    let finding = |(k, joint): (usize, &Joint)| JointFinding {
-        name: names
-            .get(k)
-            .cloned()
-            .unwrap_or_else(|| format!("joint {k}")),
+    // The links that stand in for curves, each with two joints that take its three freedoms, are no parts of the machine.
+    let names = mechanism.joint_names().iter();
+    let finding = |(k, (joint, name)): (usize, (&Joint, &String))| JointFinding {
+        name: name.clone(),
         kind: match joint {
             Joint::Revolute(_) => "pin",
             Joint::Prismatic(_) => "guide",
@@ -307,7 +305,7 @@ fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFindin
         constraints: joint.constraints(),
         driven: k == mechanism.drive(),
     };
-    joints.iter().enumerate().map(finding).collect()
+    joints.iter().zip(names).enumerate().map(finding).collect()
 }
 
 /// The size of a mechanism: the largest distance between two of its joints (m).

@@ -4,10 +4,13 @@ use jred::Error;
 
 use crate::model::machine::MachineFile;
 
+mod digits;
 mod driving;
 mod endless;
 mod near_centre;
+mod noise;
 mod overshoot;
+mod plausible;
 
 /// The warnings, in sentences.
 ///
@@ -18,5 +21,8 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     warnings.extend(endless::of(file)?);
     warnings.extend(near_centre::of(file)?);
     warnings.extend(overshoot::of(file));
+    warnings.extend(digits::of(file));
+    warnings.extend(noise::of(file));
+    warnings.extend(plausible::of(file)?);
     Ok(warnings)
 }

@@ -39,10 +39,12 @@ pub(super) enum Not {
 /// The slider-crank that a machine is, with nothing that the closed form cannot hold.
 pub(super) fn plain(machine: &Machine<AnyMechanism>) -> Result<Machine<SliderCrank>, Not> {
     let any = machine.mechanism();
+    if any.kind() == "slider-crank" && any.domain() != Domain::Turn {
+        return Err(Not::Stroke);
+    }
     let Some(mechanism) = any.inner::<SliderCrank>() else {
-        return Err(match any.link_names().get(any.own_links()) {
+        return Err(match any.names().get(any.own_links()) {
             Some(curve) if any.kind() == "slider-crank" => Not::Curve(curve.clone()),
-            None if any.kind() == "slider-crank" && any.domain() != Domain::Turn => Not::Stroke,
             _ => Not::Mechanism(any.kind()),
         });
     };

@@ -275,7 +275,7 @@ impl AnyMechanism {
         self
     }
 
-    /// With one more joint, number `joint`, whose rope can only pull: its force on the second body is positive then.
+    /// With one more joint whose rope can only pull: its force on the second body is positive then.
     #[must_use]
     pub fn with_rope(mut self, joint: usize) -> Self {
         self.ropes.push(joint);
@@ -290,7 +290,7 @@ impl AnyMechanism {
         self
     }
 
-    /// With the positions at which the linkage lies flat, and passes on its branch.
+    /// With its change points.
     #[must_use]
     pub fn with_change_points(mut self, points: Vec<ChangePoint>) -> Self {
         self.change_points = points;
@@ -331,8 +331,7 @@ impl AnyMechanism {
 
     /// The mechanism itself, if it is of this type and has no curves over the position.
     pub fn inner<M: Mechanism + 'static>(&self) -> Option<&M> {
-        let inner: &dyn Any = self.inner.as_ref();
-        inner.downcast_ref()
+        (self.inner.as_ref() as &dyn Any).downcast_ref()
     }
 
     /// The `type` of the machine file.
@@ -345,17 +344,22 @@ impl AnyMechanism {
         self.coordinate
     }
 
-    /// The names of the links, as loads and reports use them.
+    /// The names of the links that are parts of the mechanism, as loads and reports use them.
     pub fn link_names(&self) -> &[String] {
+        self.links.get(..self.own_links()).unwrap_or_default()
+    }
+
+    /// The same, and behind them the names of the curves that links stand in for.
+    pub fn names(&self) -> &[String] {
         &self.links
     }
 
-    /// The names of the joints.
+    /// The names of the joints that are parts of the mechanism.
     pub fn joint_names(&self) -> &[String] {
-        &self.joints
+        self.joints.get(..self.own_joints()).unwrap_or_default()
     }
 
-    /// The points that have a name.
+    /// The named points.
     pub fn points(&self) -> &[NamedPoint] {
         &self.points
     }

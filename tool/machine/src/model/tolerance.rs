@@ -1,5 +1,7 @@
 //! How far quantities of a machine file may lie from what it says.
 
+use std::ops::Range;
+
 use crate::plain;
 use crate::units::literal::{self, Literal};
 
@@ -31,6 +33,8 @@ pub struct Tolerance {
     pub shape: Shape,
     /// By how much: a share of the quantity, or an amount in a unit like its own.
     pub amount: Literal,
+    /// Where the machine file gives it; `None`: it does not.
+    pub place: Option<Range<usize>>,
 }
 
 impl Tolerance {
@@ -71,6 +75,7 @@ impl Tolerance {
             path: path.to_owned(),
             shape,
             amount,
+            place: None,
         })
     }
 

@@ -130,6 +130,29 @@ impl Spline {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
+    /// The points that it goes through, or near: arguments and values; of a period without its last.
+    pub fn points(&self) -> (Vec<f64>, Vec<f64>) {
+        let count = self.knots.len() - usize::from(self.periodic);
+        let x = self.knots[..count].to_vec();
+        let y = x.iter().map(|x| self.at(*x)[0]).collect();
+        (x, y)
+    }
+
+    /// The smoothing curve near these points, over the same range.
+    ///
+    /// # Errors
+    /// See [`Fault`].
+    pub fn smoothed(&self, cutoff: f64) -> Result<Self, Fault> {
+        let (x, y) = self.points();
+        let [from, to] = self.range();
+        let way = Way::Smoothing(cutoff);
+        if self.periodic {
+            Self::periodic(&x, &y, to - from, way)
+        } else {
+            Self::bounded(&x, &y, way)
+        }
+    }
+
     /// The piece at `x`, the place in it, and whole periods before it.
     fn place(&self, x: f64) -> (usize, f64, f64) {
         let [from, to] = self.range();

@@ -7,6 +7,7 @@ use super::drive_link::DriveLink;
 use super::mass::attached;
 use super::mechanism::parts::ends;
 use super::motion;
+use super::names::Names;
 use crate::model::carriage::Carriage;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
@@ -55,17 +56,16 @@ pub(super) fn read(
             .help("add a [motion] of the drive link: a carriage moves over its time"));
     };
     let mut carriages: Vec<Carriage> = Vec::new();
+    // A carriage is a load as well, and reports list it with them.
+    let mut names = Names::of("carriages or loads");
+    if let Some(item) = root.peek("load") {
+        let sections = item.sections("[[load]]")?;
+        sections.iter().for_each(|section| names.take(section));
+    }
     for section in &sections {
         let carriage = carriage(section, files, &machine, loads, of_machine)?;
-        if let Some(same) = carriages.iter().position(|c| c.name == carriage.name) {
-            return Err(section
-                .problem(
-                    format!("two carriages are named \"{}\"", carriage.name),
-                    "this one",
-                )
-                .at(sections[same].header(), "and this one")
-                .help("give each a name of its own"));
-        }
+        let place = (section.peek("name")).map_or_else(|| section.header(), |item| item.span());
+        names.add_text(&carriage.name, place)?;
         if loads.len() == MAX_LOADS {
             return Err(section
                 .problem(

@@ -1,6 +1,7 @@
 //! `[[drive_train]]`: the fixed stages between the motor and the drive link.
 
 use super::drive_link::DriveLink;
+use super::names::Names;
 use super::stage::{self, Losses};
 use crate::model::drive_train::{Branch, DriveTrain};
 use crate::text::item::Item;
@@ -18,7 +19,7 @@ const MAX_BRANCHES: usize = 8;
 /// One train of all tables, in order from the motor.
 pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
     let mut stages = Vec::new();
-    let mut branches = Vec::new();
+    let (mut branches, mut names) = (Vec::new(), Names::of("branches"));
     let mut linear: Option<(Item, &str)> = None;
     if let Some(item) = root.get("drive_train") {
         for section in item.sections("[[drive_train]]")? {
@@ -46,6 +47,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
             };
             if let Some(item) = section.get("branch") {
                 for own in item.sections("[[drive_train.branch]]")? {
+                    names.add(&own)?;
                     let number = branches.len() + 1;
                     branches.push(branch(
                         &own,

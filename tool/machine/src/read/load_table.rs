@@ -15,7 +15,7 @@ use crate::model::machine::least_common_multiple;
 use crate::model::mechanism::AnyMechanism;
 use crate::model::tabulated::{Direction, Over, Place, StandIn};
 use crate::number::spline::Way;
-use crate::text::columns::CsvFile;
+use crate::text::columns::{CsvFile, Layout};
 use crate::text::file::Files;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
@@ -83,6 +83,7 @@ struct Target<'t> {
     rows: Rows,
     way: Option<(Item<'t>, Way)>,
     window: Option<Window>,
+    layout: Layout<'t>,
 }
 
 fn table(
@@ -135,6 +136,7 @@ fn table(
         },
         way: way.transpose()?,
         window: window::read(section, drive, turns)?,
+        layout: Layout::read(section)?,
     };
     section.expects(&SCHEDULE);
     section.finish_with(|key| match key {
@@ -146,15 +148,12 @@ fn table(
         _ => None,
     })?;
     let file = CsvFile::open(&item, "loads.csv", files)?;
-    curves::read(&file.text, &target).map_err(|fault| match fault {
-        curves::Fault::InFile(problem) => file.shows(problem),
-        curves::Fault::InMachine(problem) => problem,
-    })
+    curves::read(&file.text, &target).map_err(|fault| file.shows(fault))
 }
 
 /// `on` and `at`.
 fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(Item<'t>, Place)>> {
-    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let links = mechanism.link_names();
     let at = section.get("at");
     let Some(on) = section.get("on") else {
         return match at {

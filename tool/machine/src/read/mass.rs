@@ -1,5 +1,6 @@
 //! `[[mass]]`: what is fixed to a link, such as a counterweight or a tool.
 
+use super::names::Names;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
@@ -20,8 +21,9 @@ pub(super) fn read(root: &Section, mechanism: AnyMechanism) -> Result<AnyMechani
             .problem(format!("more than {MOST} masses"), "one too many")
             .help("combine what is fixed to the same link"));
     }
-    let mut masses = Vec::new();
+    let (mut masses, mut names) = (Vec::new(), Names::of("masses"));
     for section in &sections {
+        names.add(section)?;
         let (_, mass) = attached(section, &mechanism, "mass")?;
         section.finish_with(|key| match key {
             "segments" | "during" => {
@@ -43,7 +45,7 @@ pub(super) fn attached(
     mechanism: &AnyMechanism,
     what: &str,
 ) -> Result<(String, Attached)> {
-    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let links = mechanism.link_names();
     let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
     let on = section.require("on", &example)?;
     let link = on.choice(links)?;

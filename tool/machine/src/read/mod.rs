@@ -19,6 +19,7 @@ mod loads;
 mod mass;
 mod mechanism;
 mod motion;
+mod names;
 mod profile;
 mod rules;
 mod schedule;

@@ -50,7 +50,8 @@ pub(super) fn finish(section: &Section) -> Result<()> {
     section.finish_with(|key| match key {
         "segment" => Some("segments are for the types \"cycle\" and \"point-to-point\""),
         "speed" => Some("a speed is for the type \"constant-speed\""),
-        "file" | "cyclic" | "step" | "smoothing" | "close_within" => {
+        "file" | "cyclic" | "step" | "smoothing" | "close_within" | "columns" | "header"
+        | "skip_rows" | "counts_per_turn" | "master_speed" => {
             Some("a file and its options are for the type \"profile\"")
         }
         "point" | "link" | "along" | "slide" => {

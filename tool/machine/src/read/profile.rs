@@ -3,57 +3,28 @@
 use std::f64::consts::TAU;
 
 use crate::analysis::repeats::Difference;
-use crate::model::coordinate::Coordinate;
-use crate::model::motion::{Closing, Motion, Recording};
-use crate::number::spline::MIN_POINTS;
+use crate::model::motion::{Closing, Motion, Recording, cutoffs};
 use crate::text::file::Files;
 
 use super::drive_link::DriveLink;
 use super::motion::{self, Prescribed};
 use crate::number::rounding::figure;
-use crate::text::columns;
-use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::columns::{Columns, CsvFile, Fault, Layout};
 use crate::text::csv;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{
-    ACCELERATION as LINEAR_ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, CUTOFF,
-    LENGTH, TIME, VELOCITY,
-};
+use crate::units::kind::{ANGULAR_SPEED, CUTOFF, TIME};
 
 mod closing;
+mod form;
 mod states;
 
 use closing::{CLOSED, check_speed_closes, closed};
+use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 
 /// A time step this many times the usual one is a gap in the recording.
 const GAP: f64 = 20.0;
-
-/// The fewest rows in a period of the cut-off frequency, and the fewest such periods in a recording.
-const ROWS_PER_CUTOFF: f64 = 4.0;
-const CUTOFFS: f64 = 2.0;
-
-const TIME_COLUMN: usize = 0;
-const POSITION: usize = 1;
-const SPEED: usize = 2;
-const ACCELERATION: usize = 3;
-
-/// The columns of a drive link that turns or swings.
-const ANGLES: [Known; 4] = [
-    known(&["t", "time"], &TIME),
-    known(&["phi", "φ", "psi", "ψ", "angle", "position"], &ANGLE),
-    known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
-    known(&["alpha", "α", "acceleration"], &ANGULAR_ACCELERATION),
-];
-
-/// The columns of one that slides.
-const LENGTHS: [Known; 4] = [
-    known(&["t", "time"], &TIME),
-    known(&["s", "x", "y", "position"], &LENGTH),
-    known(&["v", "speed"], &VELOCITY),
-    known(&["a", "acceleration"], &LINEAR_ACCELERATION),
-];
 
 /// Cure for most faults of the time column.
 const TIMES: &str =
@@ -70,6 +41,8 @@ struct Request {
     smoothing: Option<Value>,
     /// How far a cycle may miss its start.
     close_within: Option<Value>,
+    /// Speed of the master of an electronic cam.
+    master_speed: Option<Value>,
 }
 
 /// The motion of the file named in `section`.
@@ -86,17 +59,22 @@ pub(super) fn read(
         step: section.optional("step", &TIME)?,
         smoothing: section.optional("smoothing", &CUTOFF)?,
         close_within: section.optional("close_within", drive.position())?,
+        master_speed: section.optional("master_speed", &ANGULAR_SPEED)?,
     };
+    let layout = Layout::read(section)?;
     motion::finish(section)?;
-    for value in [&request.step, &request.smoothing, &request.close_within]
-        .into_iter()
-        .flatten()
-    {
+    let positive = [
+        &request.step,
+        &request.smoothing,
+        &request.close_within,
+        &request.master_speed,
+    ];
+    for value in positive.into_iter().flatten() {
         value.check_positive()?;
     }
     let file = CsvFile::open(&item, "profile.csv", files)?;
-    let columns = read_columns(&file.text, drive).map_err(|problem| {
-        let of_drive = || read_columns(&file.text, prescribed.drive).is_ok();
+    let columns = read_columns(&file.text, drive, &layout, &request).map_err(|fault| {
+        let of_drive = || read_columns(&file.text, prescribed.drive, &layout, &request).is_ok();
         match (&prescribed.tool, section.get("of")) {
             (Some(tool), Some(of)) if of_drive() => of
                 .problem(
@@ -107,62 +85,13 @@ pub(super) fn read(
                     "not those of the file",
                 )
                 .help("remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link"),
-            _ => file.shows(problem),
+            _ => file.shows(fault),
         }
     })?;
     check_request(&request, &columns, prescribed)?;
     let repeats =
         |start: f64, way: f64| motion::closed::difference(section, prescribed, start, way);
-    curve(&columns, &request, prescribed, &file.text, &repeats).map_err(|fault| match fault {
-        Place::File(problem) => file.shows(problem),
-        Place::Machine(problem) => problem,
-    })
-}
-
-/// Which file a problem is shown in.
-enum Place {
-    File(Problem),
-    Machine(Problem),
-}
-
-impl From<Problem> for Place {
-    fn from(problem: Problem) -> Self {
-        Self::File(problem)
-    }
-}
-
-fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
-    let (known, example) = match drive.coordinate {
-        Coordinate::Angle => (
-            &ANGLES,
-            "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi)",
-        ),
-        Coordinate::Length => (
-            &LENGTHS,
-            "\"t [s],s [mm]\" (or t [ms], s [m]; or v [m/s] instead of s)",
-        ),
-    };
-    let format = Format {
-        known,
-        ignored: |_| false,
-        example,
-        min_rows: MIN_POINTS,
-    };
-    let columns = columns::read(text, &format)?;
-    let given = [POSITION, SPEED, ACCELERATION].map(|index| columns.get(index).is_some());
-    if !matches!(
-        given,
-        [true, false, false] | [false, true, false] | [true, true, true]
-    ) {
-        return Err(Problem::new(
-            "the header must have a column either for the position or for the speed, or for position, speed and acceleration",
-        )
-        .at(csv::header_place(text), "header")
-        .help(format!(
-            "the first line gives column names with units: {example}"
-        )));
-    }
-    Ok(columns)
+    curve(&columns, &request, prescribed, &file.text, &repeats).map_err(|fault| file.shows(fault))
 }
 
 /// Checks that the keys of `[motion]` match the columns of the file.
@@ -176,10 +105,11 @@ fn check_request(request: &Request, columns: &Columns, prescribed: &Prescribed) 
     if let Some(start) = &request.start {
         prescribed.check_start(start)?;
     }
-    if let (Some(smoothing), true) = (&request.smoothing, columns.get(ACCELERATION).is_some()) {
+    let stated = of_positions && columns.get(SPEED).is_some();
+    if let (Some(smoothing), true) = (&request.smoothing, stated) {
         return Err(smoothing
-            .problem("is given, but the file has speeds and accelerations: no curve is laid through its rows", "not needed")
-            .help("remove this, or the columns of speed and acceleration"));
+            .problem("is given, but the file has positions and speeds: the motion goes through both", "not needed")
+            .help("remove this, or read the positions alone: columns = { time = \"…\", position = \"…\" }"));
     }
     match (&request.step, columns.get(TIME_COLUMN)) {
         (Some(step), Some(_)) => Err(step
@@ -197,7 +127,7 @@ fn curve(
     prescribed: &Prescribed,
     text: &str,
     repeats: &Repeats,
-) -> std::result::Result<Motion, Place> {
+) -> std::result::Result<Motion, Fault> {
     let drive = prescribed.axis;
     let turn = prescribed.per_turn();
     let span = turn.unwrap_or(drive.domain.span()).abs();
@@ -222,8 +152,14 @@ fn curve(
             .map_or(default, |value| value.si)
     };
     let mut advance = 0.0;
-    let motion = if columns.get(ACCELERATION).is_some() {
-        let nodes = states::nodes(columns, &times)?;
+    let motion = if columns.get(POSITION).is_some() && columns.get(SPEED).is_some() {
+        let nodes = match columns.get(ACCELERATION) {
+            Some(accelerations) => states::nodes(columns, &times, accelerations)?,
+            None => {
+                let slopes = states::slopes(columns, &times, request.cyclic).map_err(unmade)?;
+                states::nodes(columns, &times, &slopes)?
+            }
+        };
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
             let way = [first.phi, last.phi - first.phi];
@@ -332,13 +268,12 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
 }
 
 /// The cut-off (rad/s), which the rows must be able to show.
-fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Place> {
+fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Fault> {
     let Some(smoothing) = &request.smoothing else {
         return Ok(None);
     };
     let duration = times.last().copied().unwrap_or_default();
-    let rate = (times.len() - 1) as f64 / duration;
-    let (low, high) = (CUTOFFS / duration, rate / ROWS_PER_CUTOFF);
+    let [low, high] = cutoffs(times.len(), duration);
     if !(low..=high).contains(&smoothing.si) {
         let what = if low > high {
             format!(
@@ -353,7 +288,7 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
                 smoothing.show(high)
             )
         };
-        return Err(Place::Machine(
+        return Err(Fault::InMachine(
             smoothing.problem(&what, "not possible").help(
                 "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
                  goes through every row",

@@ -12,10 +12,13 @@ use crate::model::motion::Motion;
 use crate::model::schedule::{Now, Schedule, Scheduled, Travel, When};
 use crate::number::rounding::figure;
 use crate::text::item::Item;
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::TIME;
 
+use contradictions::{Acting, check_contradictions};
+
+mod contradictions;
 mod payload;
 
 /// Instants of a stretch of the motion at which it is looked whether a load acts.
@@ -55,7 +58,7 @@ pub(super) fn read(
 ) -> Result<Schedule> {
     let course = Course::of(root, motion)?;
     let mut scheduled = Vec::new();
-    let mut acting: Vec<(Section, Part)> = Vec::new();
+    let mut acting: Vec<Acting> = Vec::new();
     let sections = match root.get("load") {
         Some(item) => item.sections("[[load]]")?,
         None => Vec::new(),
@@ -77,7 +80,10 @@ pub(super) fn read(
             }
         }
         check_acts(&part, &course)?;
-        acting.push((section, part));
+        let first = named
+            .get(entry.loads.start)
+            .filter(|_| !entry.loads.is_empty());
+        acting.push(Acting::new(section, part, first.map(|named| &named.load)));
     }
     check_contradictions(&acting, &course)?;
     let payloads = payload::read(root, machine, &course)?;
@@ -333,43 +339,4 @@ fn check_acts(part: &Part, course: &Course) -> Result<()> {
             "never acts",
         )
         .help("forward is the direction in which the position of the drive link grows; `jred check` lists the segments"))
-}
-
-/// Loads of one name on one link are parts of one load: no two of them act at the same instant.
-fn check_contradictions(acting: &[(Section, Part)], course: &Course) -> Result<()> {
-    let text = |section: &Section, key: &'static str| {
-        let item = section.peek(key)?;
-        item.text("").ok().map(str::to_owned)
-    };
-    for (k, (second, later)) in acting.iter().enumerate() {
-        for (first, earlier) in &acting[..k] {
-            let same = ["name", "on"].map(|key| text(first, key) == text(second, key));
-            let scheduled = earlier.item.is_some() || later.item.is_some();
-            let (Some(name), [true, true], true) = (text(second, "name"), same, scheduled) else {
-                continue;
-            };
-            let spans = [earlier, later].map(|part| part.when.spans.clone().unwrap_or_default());
-            let end = course.duration();
-            let both = instants(course, &spans.concat()).into_iter().find(|now| {
-                [earlier, later]
-                    .iter()
-                    .all(|part| part.when.holds(now, end))
-            });
-            let Some(t) = both.and_then(|now| now.t) else {
-                continue;
-            };
-            let segment = course.segments.iter().position(|[a, b]| *a <= t && t < *b);
-            let place = segment.map_or_else(
-                || format!("at t = {} s", figure(t)),
-                |segment| format!("in segment {}", segment + 1),
-            );
-            return Err(Problem::new(format!(
-                "two loads named \"{name}\" act on the same link {place}, and contradict each other"
-            ))
-            .at(first.header(), "this one")
-            .at(second.header(), "and this one")
-            .help("loads of one name are one load with different values at different times: give each its own segments, times or direction, or its own name"));
-        }
-    }
-    Ok(())
 }

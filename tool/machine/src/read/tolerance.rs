@@ -14,6 +14,7 @@ pub(super) fn read(root: &Section) -> Result<Vec<Tolerance>> {
     let section = item.section("[tolerance]".into())?;
     let mut tolerances = Vec::new();
     for (path, item) in section.entries() {
+        let place = item.key_span();
         let found = if item.is_table() {
             let table = item.section(format!("[tolerance.\"{path}\"]"))?;
             let [normal, uniform] = ["normal", "uniform"].map(|key| table.get(key));
@@ -34,10 +35,14 @@ pub(super) fn read(root: &Section) -> Result<Vec<Tolerance>> {
         } else {
             Tolerance::parse(path, item.text("±5 %")?)
         };
-        tolerances.push(found.map_err(|why| {
+        let found = found.map_err(|why| {
             item.problem(&format!("is wrong: {why}"), "here")
                 .help(EXAMPLE)
-        })?);
+        })?;
+        tolerances.push(Tolerance {
+            place: Some(place),
+            ..found
+        });
     }
     Ok(tolerances)
 }

@@ -6,7 +6,7 @@ use jred::Domain;
 use jred::machine::Window;
 
 use super::drive_link::DriveLink;
-use crate::text::item::Value;
+use crate::text::item::{Item, Value};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::ANGLE;
@@ -63,6 +63,7 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
     };
     long_enough(&ramp, TAU)?;
     let [from, to] = between.pair([&ANGLE, &ANGLE])?;
+    precise_enough(&between, [&from, &to], ramp.si)?;
     let end = if to.si < from.si {
         to.si + period
     } else {
@@ -109,6 +110,28 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
         })
 }
 
+/// Share of a ramp by which the rounding of a window's ends may move it.
+const ROUNDED: f64 = 1e-6;
+
+/// Ends that have digits enough for the ramp between them: far from zero a position is rounded.
+fn precise_enough(between: &Item, [from, to]: [&Value; 2], ramp: f64) -> Result<()> {
+    let rounding = f64::EPSILON * from.si.abs().max(to.si.abs());
+    if rounding <= ROUNDED * ramp {
+        return Ok(());
+    }
+    Err(between
+        .problem(
+            &format!(
+                "runs from {} to {}: so far from zero the ends of a range as short as this are rounded by {}",
+                from.shown(),
+                to.shown(),
+                from.show(rounding)
+            ),
+            "too far away",
+        )
+        .help("give positions of the first turn, or of the stroke counted from its beginning, or a longer ramp"))
+}
+
 /// A ramp that a table can tell from a jump.
 fn long_enough(ramp: &Value, span: f64) -> Result<()> {
     ramp.check_positive()?;
@@ -152,6 +175,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
     };
     long_enough(&ramp, drive.domain.span())?;
     let [from, to] = between.pair([kind, kind])?;
+    precise_enough(&between, [&from, &to], ramp.si)?;
     let width = to.si - from.si;
     if width <= 0.0 {
         return Err(between

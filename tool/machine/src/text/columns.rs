@@ -1,18 +1,26 @@
 //! CSV files from other programs: columns of numbers with units in the header; where no comma separates, decimals may have
 //! one. Every mistake is shown in the CSV file.
 
+mod header;
+mod layout;
+
 use std::ops::Range;
+use std::result::Result;
 use std::sync::Arc;
+
+use ::csv::StringRecord;
 
 use super::csv::{Table, name_and_unit};
 use super::file::Files;
 use super::item::Item;
-use super::problem::{Problem, Result};
+use super::problem::{self, Problem};
 use crate::number::rounding::figure;
 use crate::plain;
-use crate::units::did_you_mean;
 use crate::units::kind::Kind;
-use crate::units::quantity;
+use header::check_first_lines;
+use layout::Title;
+
+pub(crate) use layout::Layout;
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
@@ -20,15 +28,41 @@ const MAX_SIZE: u64 = 64 << 20;
 /// A column that a file may have.
 #[derive(Clone, Copy)]
 pub(crate) struct Known {
-    /// The names that it may have, the usual one first; capitals do not matter.
+    /// The names that it may have, the usual one first, that of the machine file's `columns` last; capitals do not matter.
     pub(crate) names: &'static [&'static str],
     /// What it measures.
     pub(crate) kind: &'static Kind,
 }
 
+impl Known {
+    /// Whether it has this name.
+    pub(crate) fn is(&self, name: &str) -> bool {
+        self.names.iter().any(|own| own.eq_ignore_ascii_case(name))
+    }
+
+    /// Its name in the machine file.
+    pub(crate) fn key(&self) -> &'static str {
+        self.names.last().copied().unwrap_or_default()
+    }
+}
+
 /// A column of these names that measures this.
 pub(crate) const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
     Known { names, kind }
+}
+
+/// What is wrong, and where that is shown.
+pub(crate) enum Fault {
+    /// In the CSV file.
+    InFile(Problem),
+    /// In the machine file.
+    InMachine(Problem),
+}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self::InFile(problem)
+    }
 }
 
 /// Columns that a kind of file may have.
@@ -50,7 +84,7 @@ pub(crate) struct CsvFile {
 }
 
 impl CsvFile {
-    pub(crate) fn open(item: &Item, example: &str, files: &dyn Files) -> Result<Self> {
+    pub(crate) fn open(item: &Item, example: &str, files: &dyn Files) -> problem::Result<Self> {
         let file = item.text(example)?;
         let text = files.text(file, MAX_SIZE).map_err(|fault| {
             item.problem(&format!("cannot be read: {}", fault.message), "this file")
@@ -63,9 +97,12 @@ impl CsvFile {
         })
     }
 
-    /// The problem, shown in this file.
-    pub(crate) fn shows(&self, problem: Problem) -> Problem {
-        problem.in_file(&self.name, &self.text)
+    /// The problem of a fault, shown where it is.
+    pub(crate) fn shows(&self, fault: impl Into<Fault>) -> Problem {
+        match fault.into() {
+            Fault::InFile(problem) => problem.in_file(&self.name, &self.text),
+            Fault::InMachine(problem) => problem,
+        }
     }
 }
 
@@ -95,6 +132,19 @@ impl Columns {
         self.places.get(row).cloned().unwrap_or_default()
     }
 
+    /// Adds a column that follows from another one: its values (SI), and how that one is shown, whose unit is `scale` here.
+    pub(crate) fn derive(&mut self, index: usize, (from, scale): (usize, f64), values: Vec<f64>) {
+        let header = self
+            .headers
+            .get(from)
+            .map_or_else(String::new, |(header, _)| header.clone());
+        if let (Some(own), Some(place)) = (self.headers.get_mut(index), self.values.get_mut(index))
+        {
+            *own = (header, scale);
+            *place = Some(values);
+        }
+    }
+
     /// A value with the unit of its column.
     pub(crate) fn shown(&self, index: usize, value: f64) -> String {
         let Some((header, scale)) = self.headers.get(index) else {
@@ -117,7 +167,7 @@ impl Columns {
     }
 
     /// Checks that the values of a column rise from row to row.
-    pub(crate) fn check_rising(&self, index: usize, what: &str, help: &str) -> Result<()> {
+    pub(crate) fn check_rising(&self, index: usize, what: &str, help: &str) -> problem::Result<()> {
         let values = self.get(index).unwrap_or_default();
         let Some(row) = values.windows(2).position(|pair| pair[1] <= pair[0]) else {
             return Ok(());
@@ -133,28 +183,65 @@ impl Columns {
     }
 }
 
-/// Reads header and rows.
-pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
-    let mut table = Table::read(text)?;
-    let columns = header_columns(&table, format)?;
+/// Reads header and rows of a file with this layout.
+pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Columns, Fault> {
+    let whole = text;
+    let text = &*layout.without_skipped(text);
+    let mut table = match &layout.titles {
+        Some((titles, _)) => Table::titled(text, titles),
+        None => Table::read(text)?,
+    };
+    let titles = table
+        .header()
+        .iter()
+        .map(|title| Title::of(unquoted(title)));
+    let titles: Vec<Title> = titles
+        .map(|title| title.underscored(format.known))
+        .collect();
+    if layout.titles.is_none() && !titles.is_empty() {
+        check_first_lines(text, &titles, format, layout)?;
+    }
+    let mut first = table.advance().transpose()?;
+    let units = first.and_then(|()| units_below(&titles, table.row()));
+    if let (Some(()), Some((titles, item))) = (first, &layout.titles)
+        && table.row().len() != titles.len()
+    {
+        let what = format!(
+            "gives {} titles, but the file has {} columns",
+            titles.len(),
+            table.row().len()
+        );
+        return Err(Fault::InMachine(
+            item.problem(&what, "titles")
+                .help("give one title for each column of the file"),
+        ));
+    }
+    if units.is_some() {
+        first = table.advance().transpose()?;
+    }
+    let titles = units.unwrap_or(titles);
+    let columns = header::columns(&table, &titles, format, layout)?;
     let mut values: Vec<Option<Vec<f64>>> = vec![None; format.known.len()];
     let mut headers = vec![(String::new(), 1.0); format.known.len()];
-    for (column, name) in columns.iter().zip(table.header()) {
-        if let Some((index, scale)) = column {
+    for (column, title) in columns.iter().zip(&titles) {
+        if let Some((index, unit, scale)) = column {
             values[*index] = Some(Vec::new());
-            headers[*index] = (name.to_owned(), *scale);
+            let unit = unit.as_ref().filter(|unit| *unit != "1");
+            let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
+            headers[*index] = (format!("{}{unit}", title.name), *scale);
         }
     }
     let mut places = Vec::new();
-    while let Some(row) = table.advance() {
-        row?;
+    while first.is_some() {
         let (number, place) = (places.len() + 1, table.row_place());
-        for ((field, column), name) in table.row().iter().zip(&columns).zip(table.header()) {
-            let Some((index, scale)) = *column else {
+        for ((field, column), title) in table.row().iter().zip(&columns).zip(&titles) {
+            let Some((index, _, scale)) = column else {
                 continue;
             };
+            let (index, scale) = (*index, *scale);
+            let field = unquoted(field);
             let fault = |what: &str| {
-                let [field, name] = [field, name].map(plain::cut);
+                let [field, name] = [field, title.whole.as_str()].map(plain::cut);
                 let message =
                     format!("row {number}: \"{field}\" in the column \"{name}\" is {what}");
                 Problem::new(message).at(place.clone(), "this row")
@@ -165,17 +252,21 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
             })? * scale;
             let kind = format.known[index].kind;
             if value.abs() > kind.largest {
-                return Err(fault(&format!("too large for {}", kind.name)).help(format!(
-                    "at most {} {name} is accepted: check the number and the unit in the header",
-                    figure(kind.largest / scale)
-                )));
+                return Err(fault(&format!("too large for {}", kind.name))
+                    .help(format!(
+                        "at most {} {} is accepted: check the number and the unit in the header",
+                        figure(kind.largest / scale),
+                        title.whole
+                    ))
+                    .into());
             }
             values[index].get_or_insert_default().push(value);
         }
         places.push(place);
+        first = table.advance().transpose()?;
     }
     if places.len() < format.min_rows {
-        let end = text.trim_end().len();
+        let end = whole.trim_end().len();
         return Err(Problem::new(format!(
             "the file has {} rows, but needs at least {}",
             places.len(),
@@ -185,13 +276,75 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
         .help(format!(
             "add the columns {} and one row for each point",
             format.example
-        )));
+        ))
+        .into());
     }
     Ok(Columns {
         values,
         headers,
         places,
     })
+}
+
+/// Whether a file has a column that this is: by its name; by its unit as well where the name is also that of another one.
+pub(crate) fn has(
+    text: &str,
+    layout: &Layout,
+    known: &Known,
+    other: &Known,
+) -> Result<bool, Fault> {
+    let text = &*layout.without_skipped(text);
+    let titles: Vec<Title> = match &layout.titles {
+        Some((titles, _)) => titles.iter().map(|title| Title::of(title)).collect(),
+        None => {
+            let table = Table::read(text)?;
+            let titles = table.header().iter();
+            titles.map(|title| Title::of(unquoted(title))).collect()
+        }
+    };
+    let mapped = layout.mapped.iter().flatten();
+    let named = mapped.map(|mapped| (mapped.name, &mapped.title));
+    let all = titles.iter().map(|title| (title.name.as_str(), title));
+    let measured = |title: &Title| {
+        let titled = titles.iter().find(|own| own.is_meant_by(title));
+        let unit = title.unit.as_ref().or_else(|| titled?.unit.as_ref());
+        unit.is_some_and(|unit| layout.scale(Some(unit), known.kind).is_ok())
+    };
+    Ok(named
+        .chain(all)
+        .any(|(name, title)| known.is(name) && (!other.is(name) || measured(title))))
+}
+
+/// The titles with the units of a line below them, as "s;deg" or "[s],[deg]", if the line is one.
+fn units_below(titles: &[Title], row: &StringRecord) -> Option<Vec<Title>> {
+    let unit = |field: &str| -> String {
+        unquoted(field)
+            .trim_matches(['[', ']', '(', ')'])
+            .trim()
+            .to_owned()
+    };
+    let units: Vec<String> = row.iter().map(unit).collect();
+    let is_unit = |text: &String| text.is_empty() || layout::is_unit(text);
+    let bare = titles.iter().all(|title| title.unit.is_none());
+    let numbers = units
+        .iter()
+        .all(|text| text.is_empty() || text.parse::<f64>().is_ok());
+    if !bare || numbers || !units.iter().all(is_unit) {
+        return None;
+    }
+    let with_unit = |(title, unit): (&Title, String)| Title {
+        unit: (!unit.is_empty()).then_some(unit),
+        ..title.clone()
+    };
+    Some(titles.iter().zip(units).map(with_unit).collect())
+}
+
+/// A field without the quotes that a blank before them made a part of it.
+fn unquoted(field: &str) -> &str {
+    let inner = field
+        .strip_prefix('"')
+        .and_then(|field| field.strip_suffix('"'));
+    inner.map_or(field, str::trim)
 }
 
 /// A number, with a decimal comma where no comma separates.
@@ -202,36 +355,4 @@ fn number_of(field: &str, separator: char) -> Option<f64> {
         field.parse()
     };
     number.ok().filter(|value: &f64| value.is_finite())
-}
-
-/// For each column of the file, which of the format's it is and the size of its unit; `None` if it is passed over.
-fn header_columns(table: &Table, format: &Format) -> Result<Vec<Option<(usize, f64)>>> {
-    let help = format!(
-        "the first line gives column names with units: {}",
-        format.example
-    );
-    let mut columns: Vec<Option<(usize, f64)>> = Vec::new();
-    for (at, whole) in table.header().iter().enumerate() {
-        let fault =
-            |message: String| Problem::new(message).at(table.title_place(at), "this column");
-        let (name, _) = name_and_unit(whole);
-        let is = |known: &Known| known.names.iter().any(|n| n.eq_ignore_ascii_case(name));
-        let Some(index) = format.known.iter().position(is) else {
-            if (format.ignored)(name) {
-                columns.push(None);
-                continue;
-            }
-            let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
-            return Err(fault(format!("unknown column \"{}\"", plain::cut(whole)))
-                .help(did_you_mean(name, &names) + &help));
-        };
-        let kind = format.known[index].kind;
-        let (unit, _) = table.unit(at, &[kind], |unit| quantity::unit_of(unit, &[kind]))?;
-        if columns.iter().flatten().any(|(other, _)| *other == index) {
-            return Err(fault(format!("duplicate column \"{name}\""))
-                .help(format!("remove one of the two; {help}")));
-        }
-        columns.push(Some((index, unit.scale)));
-    }
-    Ok(columns)
 }

@@ -45,6 +45,16 @@ impl<'t> Table<'t> {
         Ok(table)
     }
 
+    /// Rows below no header, with these titles.
+    pub fn titled(text: &'t str, titles: &[String]) -> Self {
+        let mut table = Self::new(
+            text,
+            ReaderBuilder::new().has_headers(false).comment(Some(b'#')),
+        );
+        table.header = titles.iter().map(String::as_str).collect();
+        table
+    }
+
     /// Rows of any length without a header.
     pub fn without_header(text: &'t str) -> Self {
         Self::new(text, ReaderBuilder::new().has_headers(false).flexible(true))

@@ -1,5 +1,6 @@
 //! Quantities: a number and its unit, of a kind that the key asks for.
 
+use super::RPM;
 use super::fault::Fault;
 use super::kind::{ANGULAR_SPEED, CUTOFF, Kind, SHARE, TEMPERATURE, describe};
 use super::unit::{self, Unit};
@@ -40,7 +41,8 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
         }
         return Err(no_unit(&number, kind));
     }
-    let unit = unit::read(rest)?;
+    let unit = unit::read(rest).map_err(|fault| converted(fault, &number, rest, kind))?;
+    let unit = per_minute(unit, &[kind]);
     let units = || {
         let (name, example, units) = (kind.name, kind.example, kind.units);
         format!("write {name} such as \"{example}\"; possible units: {units}")
@@ -58,7 +60,7 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
 pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
     let unit = match text {
         "" => plain(),
-        text => unit::read_listed(text)?,
+        text => per_minute(unit::read_listed(text)?, kinds),
     };
     if let Some(fault) = misfit(&unit, text, kinds, || possible_units(kinds)) {
         return Err(match text {
@@ -69,6 +71,38 @@ pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
     let fits = |kind: &&Kind| kind.is_measured_by(unit.dimension);
     let kind = kinds.iter().position(fits).unwrap_or_default();
     Ok((unit, kind))
+}
+
+/// "1/min" and "min^-1" count turns where an angular speed is asked for, as name plates do.
+fn per_minute(unit: Unit, kinds: &[&Kind]) -> Unit {
+    let asked = |of: &Kind| kinds.iter().any(|kind| kind.dimension == of.dimension);
+    let counts = matches!(unit.text.as_str(), "1/min" | "min^-1" | "min⁻¹");
+    if counts && asked(&ANGULAR_SPEED) && !asked(&CUTOFF) {
+        return Unit {
+            scale: RPM,
+            dimension: ANGULAR_SPEED.dimension,
+            ..unit
+        };
+    }
+    unit
+}
+
+/// The fault of a unit that is not read, with the quantity in one that is, if it can be converted.
+fn converted(fault: Fault, number: &str, text: &str, kind: &Kind) -> Fault {
+    let given = unit::read_every(text).filter(|unit| kind.is_measured_by(unit.dimension));
+    let Some((given, own)) = given.zip(unit::read(kind.unit).ok()) else {
+        return fault;
+    };
+    let value = number.parse().unwrap_or(f64::NAN) * given.scale / own.scale;
+    if !value.is_finite() {
+        return fault;
+    }
+    // As many digits as a rounding to one in a thousand million has.
+    let shown: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    Fault {
+        help: format!("write \"{shown} {}\"; {}", kind.unit, fault.help),
+        ..fault
+    }
 }
 
 /// The fault of a number without a unit.

@@ -1,7 +1,7 @@
 //! Units as they are written: words with powers, at most one "/"; and what to write instead of one that cannot be read.
 
 use super::fault::{Fault, closest};
-use super::word::{Dimension, LISTED, Product, WORDS, Word};
+use super::word::{Dimension, EVERY, LISTED, Product, WORDS, Word};
 use crate::plain;
 
 /// A unit as read.
@@ -16,16 +16,14 @@ pub struct Unit {
 }
 
 /// Units that are not accepted, and what to write instead.
-const FOREIGN: [(&[&str], &str); 19] = [
-    (&["min"], "1 min = 60 s; turns per minute are \"rpm\""),
+const FOREIGN: [(&[&str], &str); 17] = [
     (&["h", "hr", "hour"], "1 h = 3600 s"),
     (&["sec", "second", "seconds"], "seconds are \"s\""),
     (
         &[
-            "turn",
             "turns",
-            "rev",
             "r",
+            "revs",
             "revolution",
             "revolutions",
             "U",
@@ -49,7 +47,6 @@ const FOREIGN: [(&[&str], &str); 19] = [
         &["J", "kJ"],
         "1 J = 1 N m = 1 W s; a torque is in \"N m\", an energy in \"W s\"",
     ),
-    (&["RPM", "Rpm", "U/min"], "turns per minute are \"rpm\""),
     (&["percent", "pct"], "per cent is \"%\""),
     (
         &["degF", "°F", "Fahrenheit", "fahrenheit"],
@@ -57,16 +54,16 @@ const FOREIGN: [(&[&str], &str); 19] = [
     ),
 ];
 
-/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`].
+/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`]. Words may run together, as in "kgcm2".
 ///
 /// # Errors
 /// An unknown word, or powers and divisions that can be read in more than one way.
 pub fn read(text: &str) -> Result<Unit, Fault> {
     short_enough(text)?;
-    of_words(text, text, WORDS)
+    of_words(&spaced(text, WORDS), text, WORDS)
 }
 
-/// Reads a unit as data sheets write it: there are more words, such as "A peak", and they may run together.
+/// Reads a unit as data sheets write it: there are more words, such as "A peak".
 ///
 /// # Errors
 /// As [`read`].
@@ -74,17 +71,47 @@ pub fn read_listed(text: &str) -> Result<Unit, Fault> {
     short_enough(text)?;
     // An ampere of an alternating current is one word.
     let tidy = tidy(text).replace(" rms", "rms").replace(" peak", "peak");
-    let (mut spaced, mut rest) = (String::new(), tidy.as_str());
+    of_words(&spaced(&tidy, LISTED), text, LISTED)
+}
+
+/// Reads a unit that no file may have, such as "lb in^2": for a message that converts it.
+pub(super) fn read_every(text: &str) -> Option<Unit> {
+    of_words(&spaced(text, EVERY), text, EVERY).ok()
+}
+
+/// Turns per minute, as name plates write them: with "1/min" only where an angular speed is asked for, which
+/// [`quantity`](super::quantity) knows.
+const RPM: [&str; 5] = ["RPM", "Rpm", "U/min", "r/min", "turns/min"];
+
+/// A unit whose words run together, or have a bare power, with blanks and "^": "kgcm2" is "kg cm^2".
+fn spaced(text: &str, known: &'static [Word]) -> String {
+    if RPM.contains(&text) {
+        return "rpm".to_owned();
+    }
+    let (mut spaced, mut rest) = (String::new(), text);
     while !rest.is_empty() {
         let end = rest.find([' ', '*', '/', '(', ')']).unwrap_or(rest.len());
         let (token, after) = rest.split_at(end);
         let (word, exponent) = token.split_at(token.find('^').unwrap_or(end));
-        spaced += &apart(word, exponent, LISTED).unwrap_or_else(|| token.to_owned());
+        // What is a unit of its own elsewhere does not run together: "degF" is no angle.
+        let is_foreign = FOREIGN.iter().any(|(words, _)| words.contains(&word));
+        let together = !is_foreign && slip(word, known).is_none();
+        let apart = apart(word, exponent, known).filter(|_| together);
+        spaced += &apart.unwrap_or_else(|| token.to_owned());
         let mut separators = after.chars();
         spaced.extend(separators.next());
         rest = separators.as_str();
     }
-    of_words(&spaced, text, LISTED)
+    spaced
+}
+
+/// The one known word that differs from this one in capitals only: "Kg" is no kelvin times gram.
+fn slip(word: &str, known: &'static [Word]) -> Option<&'static str> {
+    let mut same = (known.iter()).filter(|known| known.text.eq_ignore_ascii_case(word));
+    match (same.next(), same.next()) {
+        (Some(known), None) if known.text != word => Some(known.text),
+        _ => None,
+    }
 }
 
 fn of_words(text: &str, written: &str, words: &'static [Word]) -> Result<Unit, Fault> {
@@ -200,22 +227,17 @@ fn factor(token: &str, words: &'static [Word]) -> Result<(&'static Word, i8), Fa
     if let Some(known) = known.filter(|_| word != "%" || power == 1) {
         return Ok((known, power));
     }
-    let cure = cure(word, token.get(word.len()..).unwrap_or_default());
+    let cure = cure(word);
     Err(Fault::new(format!("has the unknown unit \"{word}\""), cure).label("unknown unit"))
 }
 
-/// What to write instead of an unknown unit with this exponent ("^2" or nothing).
-fn cure(word: &str, exponent: &str) -> String {
+/// What to write instead of an unknown unit.
+fn cure(word: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");
     }
-    // "Kg" is no kelvin times gram.
-    let mut same = (WORDS.iter()).filter(|known| known.text.eq_ignore_ascii_case(word));
-    if let (Some(known), None) = (same.next(), same.next()) {
-        return format!("did you mean \"{}\"?", known.text);
-    }
-    if let Some(words) = apart(word, exponent, WORDS) {
-        return format!("write it as \"{words}\"");
+    if let Some(known) = slip(word, WORDS) {
+        return format!("did you mean \"{known}\"?");
     }
     let known: Vec<&str> = WORDS.iter().map(|word| word.text).collect();
     closest(word, &known).map_or_else(
@@ -254,12 +276,17 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     })
 }
 
-/// Brings signs that mean the same to one form: · and × to *, superscripts to ^, − to -, µ to u, ° to deg.
+/// Brings signs that mean the same to one form: · and × to *, a point between letters too, superscripts to ^, − to -, µ to u, ° to deg.
 pub fn tidy(text: &str) -> String {
     const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let mut tidy = String::with_capacity(text.len());
     let mut raised = false;
-    for c in text.chars() {
+    let (mut before, mut chars) = (' ', text.chars().peekable());
+    while let Some(c) = chars.next() {
+        let between =
+            |next: Option<&char>| before.is_alphabetic() && next.is_some_and(|c| c.is_alphabetic());
+        let multiplies = c == '.' && between(chars.peek());
+        before = c;
         let digit = SUPERSCRIPTS.chars().position(|s| s == c);
         let was_raised = std::mem::replace(&mut raised, digit.is_some() || c == '⁻');
         if raised && !was_raised {
@@ -268,6 +295,7 @@ pub fn tidy(text: &str) -> String {
         match c {
             '⁻' | '−' => tidy.push('-'),
             '·' | '⋅' | '×' | '∙' | '•' => tidy.push('*'),
+            '.' if multiplies => tidy.push('*'),
             'µ' | 'μ' => tidy.push('u'),
             '°' => tidy.push_str("deg"),
             '\u{2126}' | '\u{3a9}' => tidy.push_str("Ohm"),

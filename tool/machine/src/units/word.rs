@@ -2,7 +2,7 @@
 //!
 //! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
 
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{SQRT_2, TAU};
 
 use super::{ARCMIN, DEGREE, RPM};
 
@@ -97,9 +97,10 @@ const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
 const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
 const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
 
-/// Every unit word, at the end those of data sheets only. A degree Celsius is as large as a kelvin; where it begins to count is the
-/// affair of who asks for a temperature. An alternating current is stated by its RMS value or by its peak.
-pub(super) const LISTED: &[Word] = &[
+/// Every unit word, behind those of machine files those of data sheets only, at the end those that are only converted. A degree Celsius is
+/// as large as a kelvin; where it begins to count is the affair of who asks for a temperature. An alternating current is stated by its RMS
+/// value or by its peak. A horsepower "hp" is the mechanical one, 550 ft·lbf/s; "PS" is the metric one, 75 kgf·m/s.
+pub(super) const EVERY: &[Word] = &[
     ten("mm", -3, LENGTH),
     ten("m", 0, LENGTH),
     ten("km", 3, LENGTH),
@@ -149,18 +150,53 @@ pub(super) const LISTED: &[Word] = &[
     ten("K", 0, TEMPERATURE),
     ten("degC", 0, TEMPERATURE),
     ten("C", 0, TEMPERATURE),
+    sized("min", 60.0, TIME),
+    sized("turn", TAU, ANGLE),
+    sized("rev", TAU, ANGLE),
+    sized("hp", HORSEPOWER, POWER),
+    sized("PS", 735.498_75, POWER),
     // Of data sheets.
     ten("J", 0, TORQUE),
     ten("kJ", 3, TORQUE),
-    sized("min", 60.0, TIME),
+    ten("sec", 0, TIME),
     sized("krpm", 1e3 * RPM, ANGULAR_SPEED),
     ten("ohm", 0, RESISTANCE),
     ten("Arms", 0, CURRENT),
     sized("Apeak", 1.0 / SQRT_2, CURRENT),
+    // Converted in messages.
+    sized("h", 3600.0, TIME),
+    sized("in", INCH, LENGTH),
+    sized("inch", INCH, LENGTH),
+    sized("ft", 12.0 * INCH, LENGTH),
+    sized("lb", POUND, MASS),
+    sized("lbs", POUND, MASS),
+    sized("lbm", POUND, MASS),
+    sized("oz", POUND / 16.0, MASS),
+    sized("lbf", POUND * GRAVITY, FORCE),
+    sized("ozf", POUND / 16.0 * GRAVITY, FORCE),
+    sized("kgf", GRAVITY, FORCE),
+    sized("kp", GRAVITY, FORCE),
+    ten("daN", 1, FORCE),
+    sized("gon", 0.9 * DEGREE, ANGLE),
 ];
 
+/// The words that are only converted, and those of data sheets.
+const CONVERTED: usize = 14;
+const OF_DATA_SHEETS: usize = 7;
+
+/// The words of data sheets and machine files.
+pub(super) const LISTED: &[Word] = EVERY.split_at(EVERY.len() - CONVERTED).0;
+
 /// The words of machine files.
-pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - 7).0;
+pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - OF_DATA_SHEETS).0;
+
+/// m, kg and m/s² of the inch, the pound and the standard acceleration of gravity, all exact.
+const INCH: f64 = 0.0254;
+const POUND: f64 = 0.453_592_37;
+const GRAVITY: f64 = 9.80665;
+
+/// W of 550 ft·lbf/s.
+const HORSEPOWER: f64 = 745.699_871_582_270_2;
 
 /// Words multiplied. Powers of ten are added up as exponents: "g mm^2" is exactly 1e-9.
 pub(super) struct Product {

@@ -193,11 +193,14 @@ fn recordings_that_cannot_be_meant_are_refused() {
             "t [s],omega [rpm],phi [deg]\n0,1,1\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n",
             "",
         ),
-        &["either for the position or for the speed"],
+        &[
+            "row 2: phi = 1 deg does not follow from the speeds",
+            "columns = {",
+        ],
     );
     refused(
         read(&steady.replace("t [s],", "phi [deg],"), ""),
-        &["either for the position"],
+        &["no column for the time"],
     );
     refused(
         read("omega [rpm]\n60\n60\n60\n60\n60\n", ""),

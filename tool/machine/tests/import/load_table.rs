@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use jred::Reducible;
 use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::inspect::Findings;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::numerics::integral;
 
@@ -54,6 +55,31 @@ fn constant_rows_are_the_plain_loads() {
             [&table, &plain].map(|file| file.machine.forces(phi, -7.0, 30.0).unwrap().drive);
         assert!((a - b).abs() < 1e-10, "d'Alembert at {phi}: {a} {b}");
     }
+}
+
+/// The rows' curves are no parts of the machine: `jred check` lists its links and joints only, which have one degree of freedom, and no load
+/// acts on a curve.
+#[test]
+fn curves_are_no_links_and_joints() {
+    let mut csv = String::from("Position [deg],Payload [kg],Thrust [N],Torque [N m]\n");
+    for k in 0..=36 {
+        writeln!(csv, "{},{},80,-3", k * 10, 2 + k % 2).unwrap();
+    }
+    let loads = "[[load]]\nname = \"feed\"\ntable = \"loads.csv\"\non = \"slider\"\n";
+    let file = crank("4 kg", loads, &csv);
+    let findings = Findings::of(&file).unwrap();
+    let joints: Vec<&str> = findings
+        .joints
+        .iter()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    assert_eq!(joints, ["crank pivot", "crank pin", "slider pin", "guide"]);
+    assert_eq!((findings.links, findings.freedoms()), (3, 1));
+    assert!(findings.holds(), "{:?}", findings.violations());
+    let mechanism = file.machine.mechanism();
+    assert_eq!(mechanism.link_names(), ["crank", "rod", "slider"]);
+    assert_eq!(mechanism.joint_names(), joints);
+    assert!(mechanism.names().iter().any(|name| name == "feed: thrust"));
 }
 
 /// A payload that varies over the turn: the drive's work at constant speed is the change of the kinetic energy, which only the

@@ -238,10 +238,10 @@ fn elements_that_make_no_sense() {
     for (from, to, words) in edits {
         refuses_edit(&text, from, to, words);
     }
-    refuses(
-        &balanced_press(&COUNTERBALANCE.repeat(9)),
-        &["more than 8 springs and dampers"],
-    );
+    let numbered =
+        |k: u32| COUNTERBALANCE.replace("\"counterbalance\"", &format!("\"spring {k}\""));
+    let nine: String = (0..9).map(numbered).collect();
+    refuses(&balanced_press(&nine), &["more than 8 springs and dampers"]);
     let torsion = "[[spring]]\nbetween = [\"crank.A\", \"slider\"]\nstiffness = \"3 N m/rad\"\nfree_angle = \"0 deg\"\n";
     refuses(
         &balanced_press(torsion),

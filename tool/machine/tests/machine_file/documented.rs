@@ -71,6 +71,48 @@ fn every_type_of_mechanism_has_a_page_an_example_and_a_machine() {
     assert_eq!(started, types, "types with a machine to start from");
 }
 
+/// The joints of a page are those of the machine of its type, by the names that the program prints.
+#[test]
+fn joints_have_the_names_of_their_pages() {
+    // These pages name joints by the link that the file names, or by what the follower is.
+    let by_rule = ["disc-cam", "parallel-shafts", "planetary"];
+    let mut compared = BTreeSet::new();
+    for path in files("machines", "toml") {
+        let file = read::read(&path).unwrap();
+        let mechanism = file.machine.mechanism();
+        let kind = mechanism.kind();
+        let page = files("docs/mechanisms", "md").into_iter();
+        let mut page = page.filter(|page| page.file_stem().is_some_and(|stem| stem == kind));
+        let Some(text) = page.next().map(|page| fs::read_to_string(page).unwrap()) else {
+            continue;
+        };
+        let Some((_, rest)) = text.split_once("Joints: ") else {
+            continue;
+        };
+        if by_rule.contains(&kind)
+            || kind == "reduced-curves"
+            || (kind == "hoist" && mechanism.joint_names().len() < 5)
+        {
+            continue;
+        }
+        // What is in brackets explains; the sentence ends at its point.
+        let (mut list, mut depth) = (String::new(), 0);
+        for c in rest.replace('\n', " ").chars() {
+            match c {
+                '(' => depth += 1,
+                ')' => depth -= 1,
+                '.' if depth == 0 => break,
+                c if depth == 0 => list.push(c),
+                _ => {}
+            }
+        }
+        let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).collect();
+        assert_eq!(names, mechanism.joint_names(), "{}", path.display());
+        compared.insert(kind);
+    }
+    assert!(compared.len() >= 10, "{compared:?}");
+}
+
 #[test]
 fn every_example_is_read() {
     let examples = blocks(DOC, "toml\n");

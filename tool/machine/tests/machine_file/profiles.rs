@@ -216,7 +216,7 @@ fn a_profile_with_states_keeps_its_corners() {
         (
             rows("1.5,180,0,0\n"),
             "smoothing = \"4 Hz\"\ncyclic = false",
-            "no curve is laid through its rows",
+            "the file has positions and speeds",
         ),
         (
             rows("1,180,0,1\n"),

@@ -93,3 +93,45 @@ fn a_shear_in_figures() {
     near("join", join.speed, most, 1e-6);
     near("C_v", sync.coefficients().unwrap()[0].unwrap(), 1.0, 1e-12);
 }
+
+/// From rest to a speed v by a jerk-limited law takes v/a + a/j, on the way ½·v of it; there the acceleration ends at zero, and that of
+/// the constant speed behind it is zero: nothing jumps, whatever the size of the numbers.
+#[test]
+fn a_constant_speed_behind_a_soft_end_has_no_jerk() {
+    let (v, a, j) = (5.5_f64, 20.0_f64, 300.0_f64);
+    for scale in [1e-4_f64, 1.0, 55.0 / 54.0, 1e4] {
+        let [v, a, j] = [v, a, j].map(|value| value * scale);
+        let soft = |end: f64| {
+            format!(
+                "law = \"jerk-limited\"; end_speed = \"{end} rad/s\"; max_acceleration = \"{a} rad/s^2\"; max_jerk = \"{j} rad/s^3\""
+            )
+        };
+        let steady =
+            format!("law = \"constant-speed\"; speed = \"{v} rad/s\"; duration = \"0.45 s\"");
+        let motion = motion("point-to-point", &[&soft(v), &steady, &soft(0.0)]);
+        let [up, level, down] = motion.courses()[..] else {
+            panic!();
+        };
+        let t = v / a + a / j;
+        for course in [up, down] {
+            near("duration", course.duration, t, 1e-12);
+            near("jerk", course.jerk.unwrap(), j, 1e-9 * j);
+            let due = j * t.powi(3) / (0.5 * v * t);
+            near(
+                "C_j",
+                course.coefficients().unwrap()[2].unwrap(),
+                due,
+                1e-8 * due,
+            );
+        }
+        near("jerk of the constant speed", level.jerk.unwrap(), 0.0, 0.0);
+        // A jump of a thousandth of the largest acceleration is one.
+        let sudden = format!(
+            "law = \"trapezoid\"; end_speed = \"{} rad/s\"; max_acceleration = \"{} rad/s^2\"",
+            1.001 * v,
+            1e-3 * a
+        );
+        let courses = self::motion("point-to-point", &[&soft(v), &steady, &sudden]).courses();
+        assert!(courses[0].jerk.is_some() && courses[1].jerk.is_none());
+    }
+}

@@ -181,7 +181,7 @@ fn machine(
         instant.direction.signum()
     };
     let frames = mechanism.frames(instant.phi)?;
-    let names = mechanism.link_names();
+    let names = mechanism.names();
     // A carriage's share is its own, not that of the link that carries it.
     let unladen = file.machine_among(now).mechanism();
     let links = unladen.links().iter().copied().zip(&frames).zip(names);

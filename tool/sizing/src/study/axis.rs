@@ -198,7 +198,7 @@ impl Grid {
                 .any(|other| other.quantity == axis.quantity)
             {
                 return Err(miette!(
-                    help = "remove one of the two",
+                    help = "two --vary name this quantity, perhaps by two paths: remove one of the two",
                     "{} is varied twice",
                     axis.path
                 ));

@@ -10,8 +10,10 @@
 
 pub mod summary;
 
+use std::sync::Arc;
+
 use jred_machine::plain;
-use miette::{Result, miette};
+use miette::{Report, Result, miette};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_distr::{Distribution as _, StandardNormal};
@@ -26,6 +28,7 @@ use crate::study::task::Task;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Limit;
 use jred_machine::model::tolerance::{Shape, Tolerance};
+use jred_machine::text::problem::Problem;
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]
@@ -89,11 +92,11 @@ impl Scatter {
     /// The tolerances of the machine file, each replaced by a `given` one for the same quantity, and the other given ones.
     ///
     /// # Errors
-    /// A tolerance that does not suit its quantity; none at all.
+    /// A tolerance that does not suit its quantity; two of one quantity in the machine file, or two given ones; none at all.
     pub fn all(study: &Study, given: &[Tolerance]) -> Result<Vec<Self>> {
-        let mut scatters: Vec<Self> = Vec::new();
-        for tolerance in study.nominal.tolerances.iter().chain(given) {
-            let scatter = Self::new(study, tolerance)?;
+        let of_file = &study.nominal.tolerances;
+        let mut scatters = Self::each(study, of_file)?;
+        for scatter in Self::each(study, given)? {
             match scatters.iter_mut().find(|s| s.quantity == scatter.quantity) {
                 Some(earlier) => *earlier = scatter,
                 None => scatters.push(scatter),
@@ -108,6 +111,20 @@ impl Scatter {
         Ok(scatters)
     }
 
+    /// Of tolerances from one source, which gives each quantity one.
+    fn each(study: &Study, tolerances: &[Tolerance]) -> Result<Vec<Self>> {
+        let mut scatters: Vec<Self> = Vec::new();
+        for tolerance in tolerances {
+            let scatter = Self::new(study, tolerance)?;
+            if let Some(k) = (scatters.iter()).position(|s| s.quantity == scatter.quantity) {
+                let first = tolerances.get(k).unwrap_or(tolerance);
+                return Err(twice(study, &scatter.path, [first, tolerance]));
+            }
+            scatters.push(scatter);
+        }
+        Ok(scatters)
+    }
+
     /// A value.
     fn draw(&self, rng: &mut ChaCha8Rng) -> f64 {
         let deviation: f64 = match self.shape {
@@ -116,6 +133,23 @@ impl Scatter {
         };
         self.nominal + self.amount * deviation
     }
+}
+
+/// One quantity with two tolerances, by the same path or by two.
+fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
+    let shown = both.map(|tolerance| format!("\"{}\" = {}", tolerance.path, tolerance.shown()));
+    let mut problem = Problem::new(format!(
+        "{path} has two tolerances: {}",
+        shown.join(" and ")
+    ))
+    .help("both paths are of one quantity: remove one of the two");
+    for (tolerance, label) in both.into_iter().zip(["the first", "the second"]) {
+        if let Some(place) = &tolerance.place {
+            problem = problem.at(place.clone(), label);
+        }
+    }
+    let text = Arc::new(study.document.text().to_owned());
+    Report::new(problem.in_file(&study.name, &text))
 }
 
 jred_machine::words! {

@@ -127,3 +127,36 @@ fn a_probability_in_closed_form() {
     let deviation = (expected * (1.0 - expected) / N as f64).sqrt();
     within("probability", found.share, expected, 4.0 * deviation);
 }
+
+/// One quantity has one tolerance in a machine file, and one among those given; one that is given replaces that of the file.
+#[test]
+fn a_quantity_has_one_tolerance() {
+    let text = |lines: &str| format!("{RACK}\n[tolerance]\n{lines}\n");
+    let given = |text: &str| Tolerance::parse("rack.mass", text).unwrap();
+    let (_folder, once) = study(&text("\"rack.mass\" = \"5 %\""), 16);
+    let all = Scatter::all(&once, &[given("2 %")]).unwrap();
+    assert_eq!(all.len(), 1);
+    within("amount", all[0].amount, 0.02 * 85.0, 1e-12);
+    let refused = |study: &Study, tolerances: &[Tolerance]| {
+        let report = format!("{:?}", Scatter::all(study, tolerances).unwrap_err());
+        assert!(
+            report.contains("mechanism.rack.mass has two tolerances"),
+            "{report}"
+        );
+        report
+    };
+    refused(&once, &[given("2 %"), given("3 %")]);
+    let (_folder, twice) = study(
+        &text("\"rack.mass\" = \"5 %\"\n\"mechanism.rack.mass\" = \"50 %\""),
+        16,
+    );
+    let report = refused(&twice, &[]);
+    for line in [
+        "\"rack.mass\" = \"5 %\"",
+        "\"mechanism.rack.mass\" = \"50 %\"",
+        "the first",
+        "the second",
+    ] {
+        assert!(report.contains(line), "{line} is not in {report}");
+    }
+}

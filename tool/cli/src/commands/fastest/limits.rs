@@ -182,7 +182,7 @@ fn part(
 fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let given = format!("--max-tool-speed {}", plain::quoted(text));
     let mechanism = file.machine.mechanism();
-    let links = &mechanism.link_names()[..mechanism.own_links()];
+    let links = mechanism.link_names();
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let &[point, speed, from, to] = parts.as_slice() else {
         return Err(miette!(

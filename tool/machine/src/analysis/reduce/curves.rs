@@ -96,7 +96,7 @@ impl Set for Curves {
         let (inertia, unit) = (coordinate.inertia(), coordinate.inertia_unit());
         let mut heads = curves(coordinate);
         if self.links {
-            let each = source.machine.mechanism().link_names().iter();
+            let each = source.machine.mechanism().names().iter();
             heads.extend(each.map(|link| Column::other(format!("{inertia} {link}"), unit)));
             let train = format!("{inertia} flywheel and drive train");
             heads.push(Column::other(train, unit));

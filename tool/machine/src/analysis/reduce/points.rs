@@ -63,7 +63,7 @@ impl Set for Points {
                 add(Quantity::Acceleration, "a", "m/s^2");
             }
         }
-        for link in mechanism.link_names().iter().take(mechanism.own_links()) {
+        for link in mechanism.link_names() {
             let mut add =
                 |quantity, symbol, unit| heads.push(Column::of(quantity, link, symbol, unit));
             add(Quantity::Other, "psi", "deg");

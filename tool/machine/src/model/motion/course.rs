@@ -11,8 +11,11 @@ use super::piece::Piece;
 const PLACES: u32 = 200;
 const RECORDED: u32 = 10_000;
 
-/// Share of the largest acceleration by which it may differ from one piece to the next: rounding.
+/// Share of the motion's largest acceleration by which it may differ from one piece to the next: rounding.
 const CONTINUOUS: f64 = 1e-6;
+
+/// The same of the largest speed over the shortest piece: what a polynomial rounds to where nothing accelerates.
+const ROUNDING: f64 = 1e-12;
 
 /// One segment of a motion: what it prescribes, of the tool or of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,12 +73,31 @@ impl Motion {
             };
             courses.push(pieces.iter().fold(course, with_piece));
         }
-        for (index, course) in courses.iter_mut().enumerate() {
-            if self.acceleration_jumps(index, course.acceleration) {
+        let same = [false, true].map(|of_drive| self.same_acceleration(&courses, of_drive));
+        for course in &mut courses {
+            if self.acceleration_jumps(course.segment, same) {
                 course.jerk = None;
             }
         }
         courses
+    }
+
+    /// By how much two accelerations may differ and be one: of the drive link, or of what is prescribed. The scale is the whole motion's: a
+    /// segment of constant speed has none of its own.
+    fn same_acceleration(&self, courses: &[SegmentCourse], of_drive: bool) -> f64 {
+        let most = |value: fn(&SegmentCourse) -> f64| {
+            let own = courses.iter().filter(|course| {
+                let prescribes = course.of_drive && self.tool.is_some();
+                prescribes == of_drive
+            });
+            own.map(value).fold(0.0, f64::max)
+        };
+        let own = self.pieces.iter().filter(|p| p.of_drive == of_drive);
+        let shortest = own
+            .map(|piece| piece.duration)
+            .fold(f64::INFINITY, f64::min);
+        CONTINUOUS * most(|course| course.acceleration)
+            + ROUNDING * most(|course| course.speed) / shortest
     }
 
     /// The drive link's largest speed and acceleration (per s, s²).
@@ -98,10 +120,10 @@ impl Motion {
         peaks
     }
 
-    /// Whether the acceleration jumps within segment number `index`, or where it meets its neighbours, or rest.
-    fn acceleration_jumps(&self, index: usize, largest: f64) -> bool {
+    /// Whether the acceleration jumps within segment number `index`, or where it meets its neighbours, or rest, by more than what is the
+    /// `same` of the prescribed coordinate and of the drive link.
+    fn acceleration_jumps(&self, index: usize, same: [f64; 2]) -> bool {
         let count = self.pieces.len();
-        let same = |a: f64, b: f64| (a - b).abs() <= CONTINUOUS * largest;
         let ends = |piece: &Piece, end: bool| {
             let t = if end { piece.duration } else { 0.0 };
             piece.at(t).alpha
@@ -113,7 +135,8 @@ impl Motion {
                 // The tool and the drive link have accelerations of their own: a join takes over what there is.
                 let compared = other.is_none_or(|other| other.of_drive == piece.of_drive);
                 let beyond = other.map_or(0.0, |other| ends(other, end));
-                compared && !same(beyond, ends(piece, !end))
+                let same = same[usize::from(piece.of_drive)];
+                compared && (beyond - ends(piece, !end)).abs() > same
             };
             let round = |k: usize| self.cyclic.then_some(k);
             let before = k.checked_sub(1).or_else(|| round(count - 1));

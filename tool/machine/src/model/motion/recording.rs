@@ -42,3 +42,13 @@ impl Recording<'_> {
         }
     }
 }
+
+/// The fewest rows in a period of the cut-off frequency, and the fewest such periods in a recording.
+const ROWS_PER_CUTOFF: f64 = 4.0;
+const CUTOFFS: f64 = 2.0;
+
+/// The lowest and the highest cut-off frequency (Hz) that so many rows over a time (s) can show.
+pub fn cutoffs(rows: usize, duration: f64) -> [f64; 2] {
+    let rate = rows.saturating_sub(1) as f64 / duration;
+    [CUTOFFS / duration, rate / ROWS_PER_CUTOFF]
+}

@@ -7,6 +7,7 @@ use jred::machine::{Element, MAX_ELEMENTS, Marker};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedElement};
+use crate::read::names::Names;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{
@@ -23,6 +24,7 @@ pub(super) fn read(
     coordinate: Coordinate,
 ) -> Result<Vec<NamedElement>> {
     let mut elements = mechanism.own_elements().to_vec();
+    let mut names = Names::of("springs or dampers");
     for (key, title) in [("spring", "[[spring]]"), ("damper", "[[damper]]")] {
         let Some(item) = root.get(key) else {
             continue;
@@ -36,6 +38,7 @@ pub(super) fn read(
                     )
                     .help("combine parallel ones: add their stiffnesses"));
             }
+            names.add(&section)?;
             elements.push(element(&section, key, mechanism, coordinate)?);
         }
     }

@@ -6,7 +6,7 @@ use crate::model::tabulated::{Course, Direction, Over, StandIn, Table};
 use crate::number::rounding::figure;
 use crate::number::spline::{MIN_POINTS, Spline, Way};
 use crate::read::curve_file::Positions;
-use crate::text::columns::{self, Columns, Format, Known, known};
+use crate::text::columns::{self, Columns, Fault, Format, Known, known};
 use crate::text::csv;
 use crate::text::problem::Problem;
 use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
@@ -26,18 +26,6 @@ const GAP: f64 = 20.0;
 /// Share of a column's largest value by which a smooth curve may go beyond all its rows: through a step it goes 11 % beyond.
 const SWING: f64 = 0.1;
 
-/// What is wrong, and where that is shown.
-pub(super) enum Fault {
-    InFile(Problem),
-    InMachine(Problem),
-}
-
-impl From<Problem> for Fault {
-    fn from(problem: Problem) -> Self {
-        Self::InFile(problem)
-    }
-}
-
 type Result<T> = std::result::Result<T, Fault>;
 
 /// The columns of a table on the drive link itself.
@@ -45,19 +33,19 @@ fn on_drive(coordinate: Coordinate) -> (Vec<Known>, &'static str) {
     match coordinate {
         Coordinate::Angle => (
             vec![
-                known(&["Position", "phi", "φ"], &ANGLE),
-                known(&["Payload"], &INERTIA),
-                known(&["Thrust"], &TORQUE),
-                known(&["Torque"], &TORQUE),
+                known(&["Position", "phi", "φ", "position"], &ANGLE),
+                known(&["Payload", "payload"], &INERTIA),
+                known(&["Thrust", "thrust"], &TORQUE),
+                known(&["Torque", "torque"], &TORQUE),
             ],
             "\"Position [deg],Payload [kg m^2],Thrust [N m],Torque [N m]\" (the position and at least one other)",
         ),
         Coordinate::Length => (
             vec![
-                known(&["Position", "s"], &LENGTH),
-                known(&["Payload"], &MASS),
-                known(&["Thrust"], &FORCE),
-                known(&["Torque", "Force"], &FORCE),
+                known(&["Position", "s", "position"], &LENGTH),
+                known(&["Payload", "payload"], &MASS),
+                known(&["Thrust", "thrust"], &FORCE),
+                known(&["Torque", "Force", "force"], &FORCE),
             ],
             "\"Position [mm],Payload [kg],Thrust [N],Force [N]\" (the position and at least one other)",
         ),
@@ -74,13 +62,13 @@ fn on_link(target: &Target) -> (Vec<Known>, &'static str) {
         columns[TORQUE_COLUMN].names = &["Torque"];
     }
     if target.over != Over::Drive {
-        columns[POSITION] = known(&["Position", "s", "x", "y"], &LENGTH);
+        columns[POSITION] = known(&["Position", "s", "x", "y", "position"], &LENGTH);
     }
     columns.extend([
-        known(&["Force x", "F_x"], &FORCE),
-        known(&["Force y", "F_y"], &FORCE),
-        known(&["Force", "F"], &FORCE),
-        known(&["Moment", "M"], &TORQUE),
+        known(&["Force x", "F_x", "force_x"], &FORCE),
+        known(&["Force y", "F_y", "force_y"], &FORCE),
+        known(&["Force", "F", "force"], &FORCE),
+        known(&["Moment", "M", "moment"], &TORQUE),
     ]);
     let example = match target.coordinate() {
         Coordinate::Angle => {
@@ -108,7 +96,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<StandIn>> {
         example,
         min_rows: MIN_POINTS,
     };
-    let columns = columns::read(text, &format)?;
+    let columns = columns::read(text, &format, &target.layout)?;
     let header = |message: String| {
         Problem::new(message)
             .at(csv::header_place(text), "header")

@@ -1,7 +1,6 @@
 //! `type = "four-bar"`.
 
 use jred::Domain;
-use jred::machine::PoseError;
 use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, Side};
 use jred::number::RangeError;
 
@@ -128,34 +127,18 @@ pub(super) fn blocked(
 }
 
 /// A stroke that the linkage cannot follow.
-fn stopped(section: &Section, stroke: &Item, error: BuildError) -> Problem {
-    let degrees = |phi: f64| format!("φ = {:.2}°", phi.to_degrees());
-    match error {
-        BuildError::Pose(PoseError::DeadPoint { phi, .. }) => stroke
-            .problem(
-                &format!(
-                    "reaches a dead point at {}, where coupler and rocker are in line",
-                    degrees(phi)
-                ),
-                "goes too far",
-            )
-            .help("end the stroke some degrees before it, or change the lengths"),
-        BuildError::Pose(PoseError::CannotAssemble { phi, gap, .. }) => stroke
-            .problem(
-                &format!(
-                    "starts at {}, where coupler and rocker cannot be connected: they are {:.6} m apart",
-                    degrees(phi),
-                    gap
-                ),
-                "cannot be assembled here",
-            )
-            .help("start the stroke at a position where the linkage can be assembled, or change the lengths"),
-        BuildError::Range(RangeError::NotPositive(..)) => stroke
+pub(super) fn stopped(section: &Section, stroke: &Item, error: BuildError) -> Problem {
+    if let BuildError::Range(RangeError::NotPositive(..)) = error {
+        return stroke
             .problem(
                 "is empty: its end must be larger than its start",
                 "check these angles",
             )
-            .help("write the smaller angle first: stroke = [\"-30 deg\", \"60 deg\"]"),
-        _ => core(section, error),
+            .help("write the smaller angle first: stroke = [\"-30 deg\", \"60 deg\"]");
     }
+    let words = [
+        "coupler and rocker cannot be connected",
+        "coupler and rocker are in line",
+    ];
+    super::stopped(section, stroke, words, error)
 }

@@ -2,7 +2,7 @@
 
 use jred::mechanism::{BuildError, InvertedSliderCrank, InvertedSliderCrankDimensions, Misfit};
 
-use super::{core, link};
+use super::{core, link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -30,8 +30,20 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         pivot,
         offset,
     };
+    let stroke = stroke(section)?;
+    let built = match &stroke {
+        Some((_, stroke)) => InvertedSliderCrank::over_stroke(dimensions, *stroke, links),
+        None => InvertedSliderCrank::new(dimensions, links),
+    };
     let mechanism =
-        InvertedSliderCrank::new(dimensions, links).map_err(|error| {
+        built.map_err(|error| {
+            if let Some((item, _)) = &stroke {
+                let words = [
+                    "the slot does not reach the crank pin",
+                    "the crank pin is as near to the lever's pivot as the slot",
+                ];
+                return stopped(section, item, words, error);
+            }
             let BuildError::Misfit(Misfit::ChangePoint {
                 centres,
                 rocking,
@@ -58,7 +70,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             };
             item.problem(&what, "neither rocks nor turns")
                 .at(length.span(), "crank")
-                .help(format!("{rocks}{turns}"))
+                .help(format!(
+                    "{rocks}{turns}; or let the crank swing over a stroke that stays away from there: stroke = [\"30 deg\", \"120 deg\"]"
+                ))
         })?;
     let names = ["crank", "block", "lever"];
     let joints = ["crank pivot", "crank pin", "slot", "lever pivot"];

@@ -25,7 +25,8 @@ mod winder;
 
 use std::f64::consts::TAU;
 
-use jred::machine::{MassProperties, Mechanism as _};
+use jred::machine::{MassProperties, Mechanism as _, PoseError};
+use jred::mechanism::BuildError;
 use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
@@ -33,6 +34,7 @@ use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::figure;
 use crate::text::file::Files;
 
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
@@ -70,10 +72,10 @@ type Reader = fn(&Section) -> Result<AnyMechanism>;
 type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
 /// Every type with all its keys besides those of every type, where they do not depend on others, and its reader.
-const TYPES: [(&str, &[&str], Reader); 23] = [
+const TYPES: [(&str, &[&str], Reader); 22] = [
     (
         SLIDER_CRANK,
-        &["branch", "offset", "crank", "rod", "slider"],
+        &["branch", "offset", "stroke", "crank", "rod", "slider"],
         slider_crank::read,
     ),
     (GEAR_TRAIN, &[], train::read_gears),
@@ -118,18 +120,17 @@ const TYPES: [(&str, &[&str], Reader); 23] = [
     (
         SIX_LINK,
         &[
-            "centres", "guide", "branch", "crank", "block", "rocker", "rod", "slider",
+            "centres", "guide", "branch", "stroke", "crank", "block", "rocker", "rod", "slider",
         ],
         six_link::read,
     ),
     (
         TOGGLE_PRESS,
         &[
-            "pivot", "guide", "knee", "branch", "crank", "rod", "upper", "lower", "ram",
+            "pivot", "guide", "knee", "branch", "stroke", "crank", "rod", "upper", "lower", "ram",
         ],
         toggle_press::read,
     ),
-    (DISC_CAM, &[], disc_cam::read),
     (RACK, &["pinion", "rack", "stroke"], rack::read),
     (
         BALL_SCREW,
@@ -180,8 +181,11 @@ const TYPES: [(&str, &[&str], Reader); 23] = [
     (WINDER, &["core", "web", "full_diameter"], winder::read),
 ];
 
-/// Every type that is read from a file of its own.
-const FILE_TYPES: [(&str, FileReader); 1] = [(REDUCED_CURVES, reduced_curves::read)];
+/// Every type that is, or may be, read from a file of its own.
+const FILE_TYPES: [(&str, FileReader); 2] = [
+    (DISC_CAM, disc_cam::read),
+    (REDUCED_CURVES, reduced_curves::read),
+];
 
 /// The types of mechanism that machine files can name.
 pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
@@ -260,7 +264,7 @@ fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
     if mechanism.domain() != Domain::Turn || mechanism.coordinate() != Coordinate::Angle {
         return Ok(mechanism);
     }
-    let Some(item) = section.get("stroke") else {
+    let Some((item, stroke)) = stroke(section)? else {
         return Ok(mechanism);
     };
     if !mechanism.contacts().is_empty() {
@@ -268,6 +272,14 @@ fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
             .problem("is not for a cam, which turns fully", "remove this")
             .help("a motion may swing over a part of the turn without it: write its moves in [motion]"));
     }
+    Ok(mechanism.on_stroke(stroke))
+}
+
+/// `stroke` of a drive link that turns: two angles (rad) less than a turn apart.
+fn stroke<'a>(section: &Section<'a>) -> Result<Option<(Item<'a>, [f64; 2])>> {
+    let Some(item) = section.get("stroke") else {
+        return Ok(None);
+    };
     let [from, to] = item.pair([&ANGLE, &ANGLE])?;
     let width = to.si - from.si;
     if width <= 0.0 || width >= TAU {
@@ -278,8 +290,40 @@ fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
             )
             .help("the second angle must be the larger one, by less than a turn; a drive link that turns fully has no stroke"));
     }
-    Ok(mechanism.on_stroke([from.si, to.si]))
+    let stroke = [from.si, to.si];
+    Ok(Some((item, stroke)))
 }
+
+/// A stroke that a mechanism cannot follow; the `joint` is open or locks there, in words such as "the rod is perpendicular to the guide".
+fn stopped(
+    section: &Section,
+    stroke: &Item,
+    [open, locked]: [&str; 2],
+    error: BuildError,
+) -> Problem {
+    let degrees = |phi: f64| format!("φ = {:.2}°", phi.to_degrees());
+    match error {
+        BuildError::Pose(PoseError::DeadPoint { phi, .. }) => stroke
+            .problem(
+                &format!("reaches a dead point at {}, where {locked}", degrees(phi)),
+                "goes too far",
+            )
+            .help("end the stroke some degrees before it, or change the lengths"),
+        BuildError::Pose(PoseError::CannotAssemble { phi, gap, .. }) => stroke
+            .problem(
+                &format!("starts at {}, where {open}: {gap:.6} m are missing", degrees(phi)),
+                "cannot be assembled here",
+            )
+            .help("start the stroke at a position where the mechanism can be assembled, or change the lengths"),
+        error => core(section, error),
+    }
+}
+
+/// What opens, and what locks, where the last link of a mechanism no longer reaches its guide.
+const ROD: [&str; 2] = [
+    "the rod does not reach the guide",
+    "the rod is perpendicular to the guide",
+];
 
 /// Mass, moment of inertia and centre of mass of a crank or a rod.
 fn link(section: &Section) -> Result<Link> {

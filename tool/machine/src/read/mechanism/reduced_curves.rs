@@ -11,7 +11,7 @@ use crate::number::spline::{MIN_POINTS, Spline, Way};
 use crate::read::curve_file::{Positions, Rows};
 use crate::read::drive_link::DriveLink;
 use crate::text::columns;
-use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::columns::{Columns, CsvFile, Fault, Format, Known, Layout, known};
 use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
@@ -20,7 +20,6 @@ use crate::units::kind::{
     ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
     VISCOUS_MOMENT,
 };
-use crate::units::quantity;
 
 const POSITION: usize = 0;
 const INERTIA_COLUMN: usize = 1;
@@ -79,7 +78,8 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
         .choice(&["turn", "stroke"])?
         == 0;
     let file = CsvFile::open(&item, "curves.csv", files)?;
-    let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
+    let layout = Layout::read(section)?;
+    let curves = Curves::read(&file.text, turn, &layout).map_err(|fault| file.shows(fault))?;
     let slides = curves.drive.slides();
     let alone = DriveLinkAlone::new(curves.drive.domain, slides, Link::MASSLESS);
     let joint = if slides {
@@ -104,8 +104,8 @@ struct Curves {
 }
 
 impl Curves {
-    fn read(text: &str, turn: bool) -> Result<Self> {
-        let (columns, coordinate) = read_columns(text, turn)?;
+    fn read(text: &str, turn: bool, layout: &Layout) -> std::result::Result<Self, Fault> {
+        let (columns, coordinate) = read_columns(text, turn, layout)?;
         let x = columns.get(POSITION).unwrap_or_default();
         let domain = match (turn, x) {
             (false, [first, .., last]) if last > first => Domain::Stroke {
@@ -149,7 +149,8 @@ impl Curves {
                 columns.shown(POSITION, at)
             ))
             .at(columns.place(row), "after this row")
-            .help("the curve must stay positive: add rows where it is steep"));
+            .help("the curve must stay positive: add rows where it is steep")
+            .into());
         }
         facts.extend(agreement(&positions, &columns, &curve, &inertia));
         add("inertia", Course::Inertia(curve));
@@ -192,16 +193,12 @@ impl Curves {
     }
 }
 
-/// Whether a column is the position of a drive link that slides: by its name, or by its unit where the name is also that of an angle.
-fn is_way(title: &str) -> bool {
-    let (name, unit) = csv::name_and_unit(title);
-    let is = |known: &Known| known.names.iter().any(|n| n.eq_ignore_ascii_case(name));
-    let is_length = |unit| quantity::unit_of(unit, &[&LENGTH]).is_ok();
-    is(&LENGTHS[POSITION]) && (!is(&ANGLES[POSITION]) || unit.is_some_and(is_length))
-}
-
 /// The columns, for a rotating or a sliding drive link, depending on its position column.
-fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
+fn read_columns(
+    text: &str,
+    turn: bool,
+    layout: &Layout,
+) -> std::result::Result<(Columns, Coordinate), Fault> {
     let format = |known: &'static [Known], example: &'static str| Format {
         known,
         ignored: of_reduce,
@@ -216,14 +213,19 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         &LENGTHS,
         "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
     );
-    let table = csv::Table::read(text)?;
-    let slides = table.header().iter().any(is_way);
+    // By its name, or by its unit where the name is also that of an angle.
+    let slides = columns::has(
+        text,
+        layout,
+        &lengths.known[POSITION],
+        &angles.known[POSITION],
+    )?;
     let (format, coordinate) = if slides {
         (lengths, Coordinate::Length)
     } else {
         (angles, Coordinate::Angle)
     };
-    let columns = columns::read(text, &format)?;
+    let columns = columns::read(text, &format, layout)?;
     for (index, what) in [(POSITION, "position"), (INERTIA_COLUMN, "reduced inertia")] {
         if columns.get(index).is_none() {
             return Err(
@@ -232,7 +234,8 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
                     .help(format!(
                         "the first line gives column names with units: {}",
                         format.example
-                    )),
+                    ))
+                    .into(),
             );
         }
     }
@@ -240,7 +243,8 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         return Err(
             Problem::new("the drive link slides, so its range is not a turn")
                 .at(csv::header_place(text), "s is a displacement")
-                .help("write range = \"stroke\" in [mechanism]"),
+                .help("write range = \"stroke\" in [mechanism]")
+                .into(),
         );
     }
     Ok((columns, coordinate))

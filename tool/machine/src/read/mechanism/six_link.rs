@@ -3,8 +3,8 @@
 use jred::mechanism::{Branch, SixLink, SixLinkDimensions};
 
 use super::four_bar::{blocked, length};
-use super::link;
 use super::parts::slide;
+use super::{ROD, link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -43,8 +43,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         link(&rod)?,
         slide(&slider)?,
     ];
-    let mechanism = SixLink::new(dimensions, branch, links)
-        .map_err(|error| blocked(section, &crank_length, &rod_length, error))?;
+    let mechanism = match stroke(section)? {
+        Some((item, stroke)) => SixLink::over_stroke(dimensions, branch, stroke, links)
+            .map_err(|error| stopped(section, &item, ROD, error))?,
+        None => SixLink::new(dimensions, branch, links)
+            .map_err(|error| blocked(section, &crank_length, &rod_length, error))?,
+    };
     let names = ["crank", "block", "rocker", "rod", "slider"];
     let joints = [
         "crank pivot",

@@ -6,7 +6,7 @@ use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimen
 
 use crate::model::mechanism::AnyMechanism;
 
-use super::{core, link};
+use super::{ROD, core, link, stopped, stroke};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{LENGTH, MASS};
@@ -18,6 +18,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         _ => Branch::Right,
     };
     let offset = section.optional("offset", &LENGTH)?;
+    let stroke = stroke(section)?;
     let (crank, rod, slider) = (
         section.section("crank")?,
         section.section("rod")?,
@@ -45,8 +46,16 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         rod: rod_length.si,
         offset: offset.as_ref().map_or(0.0, |value| value.si),
     };
-    let mechanism = SliderCrank::new(dimensions, branch, [crank, rod, slider]).map_err(|error| {
-        let BuildError::Blocked(Blocked::TooShort { phi, shortest, .. }) = error else {
+    let links = [crank, rod, slider];
+    let built = match &stroke {
+        Some((_, stroke)) => SliderCrank::over_stroke(dimensions, branch, *stroke, links),
+        None => SliderCrank::new(dimensions, branch, links),
+    };
+    let mechanism = built.map_err(|error| {
+        if let Some((item, _)) = &stroke {
+            return stopped(section, item, ROD, error);
+        }
+        let BuildError::Blocked(Blocked::TooShort { phi, shortest, reach, .. }) = error else {
             return core(section, error);
         };
         let what = format!(
@@ -59,8 +68,16 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         } else {
             ""
         };
+        let swings = reach.map_or_else(String::new, |[from, to]| {
+            let margin = (0.1 * (to - from)).min(1_f64.to_radians());
+            format!(
+                ", or let the crank swing over a stroke inside its dead points: stroke = [\"{:.2} deg\", \"{:.2} deg\"]",
+                (from + margin).to_degrees(),
+                (to - margin).to_degrees()
+            )
+        });
         rod_length.problem(&what, "too short").help(format!(
-            "make the rod longer than crank + |offset| = {}, or reduce the crank or the offset{through}",
+            "make the rod longer than crank + |offset| = {}, reduce the crank or the offset{swings}{through}",
             rod_length.show(shortest)
         ))
     })?;

@@ -1,10 +1,11 @@
 //! `type = "toggle-press"`: knuckle-joint press.
 
-use jred::mechanism::{Branch, TogglePress, TogglePressDimensions};
+use jred::machine::PoseError;
+use jred::mechanism::{Branch, BuildError, TogglePress, TogglePressDimensions};
 
 use super::four_bar::{blocked, length, side};
-use super::link;
 use super::parts::slide;
+use super::{link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -42,15 +43,35 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         link(&lower)?,
         slide(&ram)?,
     ];
-    let mechanism = TogglePress::new(dimensions, knee, branch, links)
-        .map_err(|error| blocked(section, &crank_length, &lower_length, error))?;
+    let mechanism = match stroke(section)? {
+        Some((item, stroke)) => TogglePress::over_stroke(dimensions, knee, branch, stroke, links)
+            .map_err(|error| {
+            // Joint 2 is the knuckle, in which the rod pushes the upper link.
+            let words = match error {
+                BuildError::Pose(
+                    PoseError::DeadPoint { joint: 2, .. }
+                    | PoseError::CannotAssemble { joint: 2, .. },
+                ) => [
+                    "rod and upper link do not meet",
+                    "rod and upper link are in line",
+                ],
+                _ => [
+                    "the lower link does not reach the guide",
+                    "the lower link is perpendicular to the guide",
+                ],
+            };
+            stopped(section, &item, words, error)
+        })?,
+        None => TogglePress::new(dimensions, knee, branch, links)
+            .map_err(|error| blocked(section, &crank_length, &lower_length, error))?,
+    };
     let names = ["crank", "rod", "upper", "lower", "ram"];
     let joints = [
         "crank pivot",
         "crank pin",
-        "knuckle, rod",
+        "knuckle of the rod",
         "upper pivot",
-        "knuckle, lower link",
+        "knuckle of the lower link",
         "ram pin",
         "guide",
     ];

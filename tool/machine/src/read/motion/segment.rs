@@ -106,7 +106,7 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
         .filter(|distance| distance.si.abs() < drive.position().smallest)
     {
         return Err(zero
-            .problem("is zero, so nothing moves", "zero")
+            .problem(&stands(zero), "no move")
             .help("write a pause as dwell = \"0.25 s\", without law and duration"));
     }
     // Without a law and a duration, both are missing: the duration is named first, as it is asked for of every law.
@@ -258,6 +258,17 @@ fn timed(section: &Section, distance: Option<Value>) -> Result<(f64, f64)> {
     Ok((distance, section.quantity("duration", &TIME)?.positive()?))
 }
 
+/// What is wrong with a distance or a speed below which nothing moves.
+fn stands(value: &Value) -> String {
+    if value.si == 0.0 {
+        return "is zero, so nothing moves".to_owned();
+    }
+    format!(
+        "is {}, too small for any machine: nothing moves",
+        value.shown()
+    )
+}
+
 /// Two of distance, speed and duration.
 fn steady(section: &Section, distance: Option<Value>, drive: DriveLink) -> Result<Written> {
     let speed = section.optional("speed", drive.speed())?;
@@ -267,7 +278,7 @@ fn steady(section: &Section, distance: Option<Value>, drive: DriveLink) -> Resul
     }
     if let Some(zero) = (speed.as_ref()).filter(|speed| speed.si.abs() < drive.speed().smallest) {
         return Err(zero
-            .problem("is zero, so nothing moves", "zero")
+            .problem(&stands(zero), "no move")
             .help("write a pause as dwell = \"0.25 s\", without law and speed"));
     }
     let (way, duration, speed) = match (distance, duration, speed) {

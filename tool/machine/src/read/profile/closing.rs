@@ -1,6 +1,6 @@
 //! Whether a recorded cycle closes: its speeds at both ends, and what it goes on by.
 
-use super::{Place, Prescribed, Repeats, SPEED};
+use super::{Fault, Prescribed, Repeats, SPEED};
 use crate::number::rounding::figure;
 use crate::read::motion::closed;
 use crate::text::columns::Columns;
@@ -43,7 +43,7 @@ pub(super) fn closed(
     columns: &Columns,
     prescribed: &Prescribed,
     repeats: &Repeats,
-) -> std::result::Result<f64, Place> {
+) -> std::result::Result<f64, Fault> {
     let drive = prescribed.axis;
     let turn = prescribed.per_turn();
     let whole = turn.map_or(0.0, |turn| (way / turn).round() * turn);
@@ -53,7 +53,7 @@ pub(super) fn closed(
     }
     let mut differs = String::new();
     if turn.is_some() {
-        let Some(difference) = repeats(start, way).map_err(Place::Machine)? else {
+        let Some(difference) = repeats(start, way).map_err(Fault::InMachine)? else {
             return Ok(way);
         };
         differs = format!(

@@ -5,7 +5,8 @@ use crate::model::motion::Node;
 use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
-use super::{ACCELERATION, POSITION, SPEED, TIME_COLUMN};
+use super::{POSITION, SPEED, TIME_COLUMN};
+use crate::number::spline::{Fault, Spline, Way};
 
 /// Share of the largest speed times the step by which a position may miss the speeds, and of the largest acceleration times the step by which
 /// a speed may miss the accelerations: more is another unit.
@@ -14,13 +15,29 @@ const MISSED: [f64; 2] = [0.05, 0.7];
 /// The same of the largest speed and of the largest position, for short steps: digits that were cut.
 const DIGITS: f64 = 1e-4;
 
-const CURE: &str = "each column is the derivative of the one before over the time: check the units; without the columns of speed and \
-                    acceleration, a smooth curve is laid through the positions";
+const CURE: &str = "each column is the derivative of the one before over the time: check the units; to lay a smooth curve through the \
+                    positions alone, name them: columns = { time = \"…\", position = \"…\" }";
 
-/// The nodes of the rows, at these times.
-pub(super) fn nodes(columns: &Columns, times: &[f64]) -> Result<Vec<Node>> {
+/// The accelerations of rows with positions and speeds only: the slope of the twice continuously differentiable curve through the speeds.
+pub(super) fn slopes(
+    columns: &Columns,
+    times: &[f64],
+    cyclic: bool,
+) -> std::result::Result<Vec<f64>, Fault> {
+    let speeds = columns.get(SPEED).unwrap_or_default();
+    let curve = match times {
+        [inner @ .., end] if cyclic && speeds.len() == times.len() => {
+            Spline::periodic(inner, &speeds[..inner.len()], *end, Way::Interpolating)?
+        }
+        _ => Spline::bounded(times, speeds, Way::Interpolating)?,
+    };
+    Ok(times.iter().map(|t| curve.at(*t)[1]).collect())
+}
+
+/// The nodes of the rows, at these times, with these accelerations.
+pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> Result<Vec<Node>> {
     let column = |index: usize| columns.get(index).unwrap_or_default();
-    let [positions, speeds, accelerations] = [POSITION, SPEED, ACCELERATION].map(column);
+    let [positions, speeds] = [POSITION, SPEED].map(column);
     let mut nodes: Vec<Node> = Vec::with_capacity(times.len());
     let mut rows: Vec<usize> = Vec::with_capacity(times.len());
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));

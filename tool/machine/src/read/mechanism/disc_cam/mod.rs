@@ -4,6 +4,7 @@ mod facts;
 mod follower;
 mod program;
 mod refusal;
+mod table;
 
 use std::f64::consts::TAU;
 
@@ -11,6 +12,7 @@ use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions};
 
 use super::{core, link, parts};
 use crate::model::mechanism::{AnyMechanism, Contact, NamedElement};
+use crate::text::file::Files;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
@@ -22,7 +24,7 @@ pub(super) use refusal::problem;
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
 
-pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism> {
     let base_radius = section.quantity("base_radius", &LENGTH)?;
     base_radius.check_positive()?;
     let closure = section.get("closure");
@@ -37,7 +39,23 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         Some(_) => link(&part)?,
         None => parts::slide(&part)?,
     };
-    let program = program(section, "[[mechanism.segment]]", follower.pivot().is_some())?;
+    let oscillating = follower.pivot().is_some();
+    let (program, about) = match section.get("lift") {
+        Some(item) => {
+            if let Some(segment) = section.get("segment") {
+                return Err(segment
+                    .problem("is given together with `lift`", "here")
+                    .at(item.key_span(), "and here")
+                    .help("give either the segments or the table of the lift"));
+            }
+            let (program, about) = table::read(section, &item, oscillating, files)?;
+            (program, Some(about))
+        }
+        None => (
+            program(section, "[[mechanism.segment]]", oscillating)?,
+            None,
+        ),
+    };
     let spring = section
         .get("spring")
         .map(|item| item.section("[mechanism.spring]".into()))
@@ -54,10 +72,13 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         pieces: mechanism.program().pieces().collect(),
     });
     let facts = facts::of(&mechanism);
-    let mechanism = described(mechanism).with_elements(spring);
+    let mut described = described(mechanism).with_elements(spring);
+    if let Some(about) = about {
+        described = described.with_fact("lift from the table", about);
+    }
     let mechanism = facts
         .into_iter()
-        .fold(mechanism, |any, [label, text]| any.with_fact(label, text));
+        .fold(described, |any, [label, text]| any.with_fact(label, text));
     Ok(match contact {
         Some(contact) => mechanism.with_contact(contact),
         None => mechanism,

@@ -98,6 +98,11 @@ fn segment<'a>(
     let rise = if *key == "rise" { size.si } else { -size.si };
     let angle = section.quantity("angle", &ANGLE)?.positive()?;
     let law = section.require("law", "law = \"cycloidal\"")?;
+    if law.is_word("table") {
+        return Err(law
+            .problem("is \"table\", which is no law of a segment", "not here")
+            .help("a table is the whole program of a disc cam: write lift = \"lift.csv\" into [mechanism], in place of all segments"));
+    }
     let names = law::LAWS.into_iter().chain([CONSTANT_VELOCITY, POLYNOMIAL]);
     let names: Vec<&str> = names.collect();
     let read = match names.get(law.choice(&names)?).copied() {

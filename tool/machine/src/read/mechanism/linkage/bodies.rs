@@ -6,8 +6,9 @@ use jred::machine::{Body, Marker, MassProperties};
 
 use crate::plain;
 use crate::read::mechanism::core;
+use crate::read::names::Names;
 use crate::text::item::{Item, Value};
-use crate::text::problem::{Problem, Result, quoted};
+use crate::text::problem::{Result, quoted};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 use crate::units::{closest, did_you_mean};
@@ -91,16 +92,10 @@ impl Bodies {
             ground,
             moving: Vec::with_capacity(sections.len()),
         };
+        let mut names = Names::of("bodies");
         for section in &sections {
             let body = drawn(section)?;
-            if let Some(first) = bodies.moving.iter().find(|b| b.name == body.name) {
-                return Err(
-                    Problem::new(format!("two bodies have the name \"{}\"", body.name))
-                        .at(first.place.clone(), "the first")
-                        .at(body.place, "the second")
-                        .help("give each body a unique name: joints and loads refer to it by name"),
-                );
-            }
+            names.add(section)?;
             bodies.moving.push(body);
         }
         Ok(bodies)

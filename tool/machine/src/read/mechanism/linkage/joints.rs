@@ -5,8 +5,9 @@ use std::ops::Range;
 use jred::machine::{Body, Frame, Joint};
 use jred::mechanism::linkage::Pair;
 
+use crate::read::names::Names;
 use crate::text::item::Item;
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};
 
@@ -76,17 +77,11 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
             ));
     }
     let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
+    let mut names = Names::of("joints");
     for section in &sections {
         let cams = joints.iter().filter(|joint| joint.cam.is_some()).count();
         let joint = joint(section, bodies, cams)?;
-        if let Some(first) = joints.iter().find(|j| j.name == joint.name) {
-            return Err(
-                Problem::new(format!("two joints have the name \"{}\"", joint.name))
-                    .at(first.place.clone(), "the first")
-                    .at(joint.place, "the second")
-                    .help("give each joint a unique name, such as name = \"crank pin\""),
-            );
-        }
+        names.add_text(&joint.name, joint.place.clone())?;
         joints.push(joint);
     }
     Ok(joints)

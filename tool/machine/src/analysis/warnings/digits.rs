@@ -1,0 +1,30 @@
+//! A segment that is so short in so long a motion that its times have few digits left.
+
+use crate::model::machine::MachineFile;
+use crate::number::rounding::short;
+
+/// Share of a segment by which the rounding of its times is noticed.
+const NOTICED: f64 = 1e-5;
+
+/// A warning for each segment whose times are rounded.
+pub(super) fn of(file: &MachineFile) -> Vec<String> {
+    let Some(motion) = &file.motion else {
+        return Vec::new();
+    };
+    let end = motion.duration();
+    let rounding = f64::EPSILON * end;
+    let courses = motion.courses().into_iter();
+    let rounded = courses.filter(|course| rounding > NOTICED * course.duration);
+    rounded
+        .map(|course| {
+            format!(
+                "segment {} lasts {} s in a motion of {} s: its times are rounded by {} of it, and so are its speeds and torques; describe it in \
+                 a motion of its own, or shorten the pauses",
+                course.segment + 1,
+                short(course.duration),
+                short(end),
+                short(rounding / course.duration)
+            )
+        })
+        .collect()
+}

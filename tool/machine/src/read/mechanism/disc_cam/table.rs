@@ -1,0 +1,324 @@
+//! `lift = "lift.csv"`: a cam program from the lift over the angle of the cam, perhaps with its two derivatives.
+//!
+//! A periodic cubic spline goes through the rows, twice continuously differentiable, unless they have their derivatives. A program is of
+//! polynomials of fifth degree from row to row, each with the lift and both derivatives of its ends: of all with as few segments as a program
+//! may have, the one that misses rows and their middles least, found by bisection of that error.
+
+use std::f64::consts::TAU;
+
+use jred::Domain;
+use jred::machine::motion::{End, Polynomial};
+use jred::mechanism::cam::{MAX_SEGMENTS, Program, Segment};
+
+use crate::number::rounding::short;
+use crate::number::spline::{MIN_POINTS, Way};
+use crate::read::curve_file::{Positions, Rows};
+use crate::read::mechanism::core;
+use crate::text::columns::{self, Columns, CsvFile, Fault, Format, Known, Layout, known};
+use crate::text::csv;
+use crate::text::file::Files;
+use crate::text::item::Item;
+use crate::text::problem::{self, Problem};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, LENGTH, SHARE};
+
+const POSITION: usize = 0;
+const LIFT: usize = 1;
+const SLOPE: usize = 2;
+const BEND: usize = 3;
+
+/// The columns of a follower that slides, and of one that swings.
+const SLIDES: [Known; 4] = [
+    known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
+    known(&["s", "rise", "lift"], &LENGTH),
+    known(&["s'", "v", "slope"], &CAM_VELOCITY),
+    known(&["s''", "a", "bend"], &CAM_ACCELERATION),
+];
+const SWINGS: [Known; 4] = [
+    known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
+    known(&["psi", "ψ", "rise", "lift"], &ANGLE),
+    known(&["psi'", "slope"], &SHARE),
+    known(&["psi''", "bend"], &CAM_TURNING),
+];
+
+/// Share of the stroke by which the program may miss the rows, unless the file says how much.
+const MISSES: f64 = 1e-3;
+
+/// Share of the stroke that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Halvings of the error of the program.
+const HALVINGS: u32 = 48;
+
+/// Lift with both derivatives by the cam's angle.
+type Point = (f64, [f64; 3]);
+
+/// The program of the file that `item` names, and a line about it.
+pub(super) fn read(
+    section: &Section,
+    item: &Item,
+    oscillating: bool,
+    files: &dyn Files,
+) -> problem::Result<(Program, String)> {
+    let way = if oscillating { &ANGLE } else { &LENGTH };
+    let within = section.optional("lift_within", way)?;
+    let layout = Layout::read(section)?;
+    if let Some(within) = &within {
+        within.check_positive()?;
+    }
+    let file = CsvFile::open(item, "lift.csv", files)?;
+    let lift = Lift::of(&file.text, &layout, oscillating).map_err(|fault| file.shows(fault))?;
+    let (knots, missed) = lift.fit();
+    let shown = |x: f64| {
+        if oscillating {
+            format!("{} deg", short(x.to_degrees()))
+        } else {
+            format!("{} um", short(x * 1e6))
+        }
+    };
+    let most = within.map_or(MISSES * lift.stroke, |within| within.si);
+    if missed > most {
+        let what = format!(
+            "is a table that {MAX_SEGMENTS} polynomials miss by {}, more than {}",
+            shown(missed),
+            shown(most)
+        );
+        return Err(item.problem(&what, "this table").help(format!(
+            "smooth its values, give it more digits or the columns of both derivatives, or write lift_within = \"{}\"",
+            shown(1.05 * missed)
+        )));
+    }
+    let program = Program::new(&lift.segments(&knots)).map_err(|error| core(section, error))?;
+    let about = format!(
+        "{} polynomials of fifth degree through {} rows, which miss the table by up to {}",
+        knots.len() - 1,
+        lift.rows.len() - 1,
+        shown(missed)
+    );
+    Ok((program, about))
+}
+
+/// The rows of a table, from 0 to a turn, both included, and what lies between them.
+struct Lift {
+    rows: Vec<Point>,
+    /// The lift in the middle between a row and the next, where a curve goes through the rows.
+    middles: Option<Vec<f64>>,
+    stroke: f64,
+}
+
+impl Lift {
+    fn of(text: &str, layout: &Layout, oscillating: bool) -> Result<Self, Fault> {
+        let (known, example) = if oscillating {
+            (
+                &SWINGS,
+                "\"phi [deg],psi [deg]\", and psi' [1], psi'' [1/rad] if there are any",
+            )
+        } else {
+            (
+                &SLIDES,
+                "\"phi [deg],s [mm]\", and s' [mm/rad], s'' [mm/rad^2] if there are any",
+            )
+        };
+        let format = Format {
+            known,
+            ignored: |_| false,
+            example,
+            min_rows: MIN_POINTS,
+        };
+        let columns = columns::read(text, &format, layout)?;
+        let header = |message: &str, help: &str| {
+            Problem::new(message)
+                .at(csv::header_place(text), "header")
+                .help(help)
+        };
+        if columns.get(POSITION).is_none() || columns.get(LIFT).is_none() {
+            let help = format!("the first line gives column names with units: {example}");
+            return Err(header(
+                "the header must have the angle of the cam and the lift",
+                &help,
+            )
+            .into());
+        }
+        if columns.get(SLOPE).is_some() != columns.get(BEND).is_some() {
+            let help = "give both derivatives, or the lift alone: columns = { angle = \"…\", lift = \"…\" }";
+            return Err(header("the file has one derivative of the lift only", help).into());
+        }
+        let positions = Positions::of(
+            &columns,
+            &Rows {
+                domain: Domain::Turn,
+                of: "the cam".to_owned(),
+                partly: false,
+                turns: 1,
+            },
+        )?;
+        let column = |index: usize| Ok::<_, Problem>(positions.values(index)?.unwrap_or_default());
+        let [lift, slope, bend] = [column(LIFT)?, column(SLOPE)?, column(BEND)?];
+        let curve = slope
+            .is_empty()
+            .then(|| positions.curve(&lift, Way::Interpolating))
+            .transpose()?;
+        let (slopes, bends) = (&slope, &bend);
+        let point = |(k, (x, s)): (usize, (&f64, &f64))| {
+            let derivatives = match &curve {
+                Some(curve) => [curve.at(*x)[1], curve.at(*x)[2]],
+                None => [slopes, bends]
+                    .map(|values: &Vec<f64>| values.get(k).copied().unwrap_or_default()),
+            };
+            let turned = x.rem_euclid(TAU);
+            // A rounding below a turn is its start.
+            let turned = if TAU - turned < ROUNDING { 0.0 } else { turned };
+            (turned, [*s, derivatives[0], derivatives[1]])
+        };
+        let mut rows: Vec<Point> = (positions.x().iter().zip(&lift))
+            .enumerate()
+            .map(point)
+            .collect();
+        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let stroke = stroke(&lift);
+        Self::check_start(&rows, stroke, &columns)?;
+        if let Some((start, state)) = rows.first().copied() {
+            rows.push((start + TAU, state));
+        }
+        let middles = curve.map(|curve| {
+            let pairs = rows.windows(2);
+            pairs
+                .map(|pair| curve.at(pair[0].0.midpoint(pair[1].0))[0])
+                .collect()
+        });
+        Ok(Self {
+            rows,
+            middles,
+            stroke,
+        })
+    }
+
+    /// The first row is at the beginning of the turn, on the base circle.
+    fn check_start(rows: &[Point], stroke: f64, columns: &Columns) -> Result<(), Fault> {
+        let Some((start, [lift, ..])) = rows.first() else {
+            return Ok(());
+        };
+        if *start > ROUNDING {
+            return Err(
+                Problem::new("the table has no row at 0 deg, where the program begins")
+                    .at(columns.place(0), "first row")
+                    .help("add the row of 0 deg, or count the angle of the cam from a row")
+                    .into(),
+            );
+        }
+        if lift.abs() > ROUNDING * stroke {
+            let shown = columns.shown(LIFT, *lift);
+            return Err(Problem::new(format!("the lift at 0 deg is {shown}, but must be zero"))
+                .at(columns.place(0), "first row")
+                .help(format!(
+                    "the lift is counted from the base circle, on which the follower is at 0 deg: take {shown} off every row, and add it to \
+                     base_radius if the cam is to be the same"
+                ))
+                .into());
+        }
+        Ok(())
+    }
+
+    /// The polynomial from one row to another, over the angle since the first.
+    fn polynomial(&self, [from, to]: [usize; 2]) -> Polynomial {
+        let [(x, a), (end, b)] = [self.rows[from], self.rows[to]];
+        Polynomial::between(
+            b[0] - a[0],
+            end - x,
+            End::new(a[1], a[2]),
+            End::new(b[1], b[2]),
+        )
+    }
+
+    /// By how much it misses the rows between, and the middles; no further than `most` is looked.
+    fn missed(&self, ends: [usize; 2], most: f64) -> f64 {
+        let (course, [from, to]) = (self.polynomial(ends), ends);
+        let (start, [base, ..]) = self.rows[from];
+        let at = |x: f64| base + course.at(x - start)[0];
+        let mut missed = 0.0_f64;
+        for k in from..to {
+            let (x, [lift, ..]) = self.rows[k];
+            missed = missed.max((at(x) - lift).abs());
+            if let Some(middle) = self.middles.as_ref().and_then(|middles| middles.get(k)) {
+                let x = x.midpoint(self.rows[k + 1].0);
+                missed = missed.max((at(x) - middle).abs());
+            }
+            if missed > most {
+                break;
+            }
+        }
+        missed
+    }
+
+    /// The rows at which segments meet that miss nothing by more than `most`, each as long as it can be; `None`: more than a program has.
+    fn within(&self, most: f64) -> Option<Vec<usize>> {
+        let last = self.rows.len() - 1;
+        let fits = |ends: [usize; 2]| self.missed(ends, most) <= most;
+        let mut knots = vec![0];
+        let mut from = 0;
+        while from < last {
+            if knots.len() > MAX_SEGMENTS {
+                return None;
+            }
+            // Twice as far, as long as it fits; then by halves between what fits and what does not.
+            let mut step = 1;
+            while from + 2 * step <= last && fits([from, from + 2 * step]) {
+                step *= 2;
+            }
+            let (mut good, mut bad) = (from + step, (from + 2 * step).min(last + 1));
+            while bad - good > 1 {
+                let middle = good.midpoint(bad);
+                if fits([from, middle]) {
+                    good = middle;
+                } else {
+                    bad = middle;
+                }
+            }
+            from = good;
+            knots.push(from);
+        }
+        Some(knots)
+    }
+
+    /// The rows at which the segments of the best program meet, and by how much it misses.
+    fn fit(&self) -> (Vec<usize>, f64) {
+        let floor = ROUNDING * ROUNDING.sqrt() * self.stroke;
+        let (mut low, mut high) = (floor, self.stroke.max(floor));
+        let mut best = self.within(low);
+        if best.is_none() {
+            // In ratios: the error is a small share of the stroke.
+            for _ in 0..HALVINGS {
+                let middle = (low * high).sqrt();
+                match self.within(middle) {
+                    Some(knots) => (best, high) = (Some(knots), middle),
+                    None => low = middle,
+                }
+            }
+        }
+        let knots = best.unwrap_or_else(|| vec![0, self.rows.len() - 1]);
+        let each = knots
+            .windows(2)
+            .map(|pair| self.missed([pair[0], pair[1]], f64::INFINITY));
+        let missed = each.fold(0.0, f64::max);
+        (knots, missed)
+    }
+
+    fn segments(&self, knots: &[usize]) -> Vec<Segment> {
+        let segment = |pair: &[usize]| {
+            let [(from, a), (to, b)] = [self.rows[pair[0]], self.rows[pair[1]]];
+            let rest = [a[1], a[2], b[1], b[2], b[0] - a[0]];
+            if rest.iter().all(|value| *value == 0.0) {
+                return Segment::dwell(to - from);
+            }
+            Segment::polynomial(to - from, b[0] - a[0], [a[1], a[2]], [b[1], b[2]])
+        };
+        knots.windows(2).map(segment).collect()
+    }
+}
+
+/// Largest less smallest lift.
+fn stroke(lift: &[f64]) -> f64 {
+    let most = lift.iter().fold(f64::NEG_INFINITY, |most, s| most.max(*s));
+    let least = lift.iter().fold(f64::INFINITY, |least, s| least.min(*s));
+    most - least
+}

@@ -1,0 +1,190 @@
+//! How a CSV file of another program is laid out, as the machine file says: what is above its header, its titles, and what they mean.
+
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+
+use super::Known;
+use crate::text::item::Item;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, Kind, SHARE};
+use crate::units::quantity::unit_of;
+use crate::units::{Fault, unit};
+
+/// Most lines above a header.
+const MOST_LINES: u32 = 10_000;
+
+/// What the machine file says of the layout of a file.
+#[derive(Default)]
+pub(crate) struct Layout<'a> {
+    /// The table of the machine file, for messages.
+    pub(super) section: String,
+    /// Lines above the header.
+    skipped: usize,
+    /// The titles of a file without a header, and the key that gives them.
+    pub(super) titles: Option<(Vec<String>, Item<'a>)>,
+    /// Which column of the file is which.
+    pub(super) mapped: Option<Vec<Mapped<'a>>>,
+    /// rad of one count.
+    count: Option<f64>,
+}
+
+/// A column that the machine file names: the known name, and the title in the file, with its unit if that has none.
+pub(super) struct Mapped<'a> {
+    pub(super) name: &'a str,
+    pub(super) title: Title,
+    pub(super) item: Item<'a>,
+}
+
+impl<'a> Layout<'a> {
+    /// `skip_rows`, `header`, `columns` and `counts_per_turn`.
+    pub(crate) fn read(section: &Section<'a>) -> Result<Self> {
+        let skipped = match section.get("skip_rows") {
+            Some(item) => item.count(MOST_LINES, "1")? as usize,
+            None => 0,
+        };
+        let titles = match section.get("header") {
+            Some(item) => {
+                let list = item.list("title", "[\"t [s]\", \"phi [deg]\"]")?;
+                let texts = list.iter().map(|title| Ok(title.text("t [s]")?.to_owned()));
+                Some((texts.collect::<Result<Vec<_>>>()?, item))
+            }
+            None => None,
+        };
+        let mapped = match section.get("columns") {
+            Some(item) => {
+                let table = item.section(format!("`columns` of {}", section.title()))?;
+                let entries = table.entries().into_iter();
+                let mapped = entries.map(|(name, item)| {
+                    let title = Title::of(item.text("Time (sec)")?);
+                    Ok(Mapped { name, title, item })
+                });
+                Some(mapped.collect::<Result<Vec<_>>>()?)
+            }
+            None => None,
+        };
+        let count = match section.get("counts_per_turn") {
+            Some(item) => Some(TAU / f64::from(item.count(u32::MAX, "8192")?)),
+            None => None,
+        };
+        Ok(Self {
+            section: section.title().to_owned(),
+            skipped,
+            titles,
+            mapped,
+            count,
+        })
+    }
+
+    /// The text with the lines above the header as comments, every byte in its place.
+    pub(super) fn without_skipped<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        if self.skipped == 0 {
+            return Cow::Borrowed(text);
+        }
+        let mut out = String::with_capacity(text.len());
+        for (k, line) in text.split_inclusive('\n').enumerate() {
+            let first = line.chars().next().filter(|c| !c.is_whitespace());
+            match first {
+                Some(first) if k < self.skipped => {
+                    let length = first.len_utf8();
+                    out.extend(std::iter::repeat_n('#', length));
+                    out += line.get(length..).unwrap_or_default();
+                }
+                _ => out += line,
+            }
+        }
+        Cow::Owned(out)
+    }
+
+    /// The size of a unit (SI) of a column, counts among them.
+    pub(super) fn scale(
+        &self,
+        unit: Option<&str>,
+        kind: &'static Kind,
+    ) -> std::result::Result<f64, Fault> {
+        let text = unit.unwrap_or_default();
+        let kinds = [&ANGLE, &ANGULAR_SPEED, &ANGULAR_ACCELERATION];
+        let counted = counts(text).and_then(|order| kinds.get(order));
+        if counted.is_some_and(|own| own.dimension == kind.dimension) {
+            return self.count.ok_or_else(|| {
+                Fault::new(
+                    "is in counts",
+                    format!(
+                        "write the counts of a turn into {}: counts_per_turn = 8192",
+                        self.section
+                    ),
+                )
+            });
+        }
+        if text == "1" && kind.dimension == SHARE.dimension {
+            return Ok(1.0);
+        }
+        unit_of(text, &[kind]).map(|(unit, _)| unit.scale)
+    }
+}
+
+/// Of "counts", "counts/s" and "counts/s^2" how often they are divided by a time.
+fn counts(text: &str) -> Option<usize> {
+    const COUNTS: [&str; 6] = ["counts", "count", "cnt", "inc", "incs", "increments"];
+    let tidy = unit::tidy(text);
+    let (word, per) = tidy.split_once('/').unwrap_or((&tidy, ""));
+    let order = ["", "s", "s^2"].iter().position(|times| *times == per)?;
+    COUNTS.contains(&word.trim()).then_some(order)
+}
+
+/// Whether a text is the unit of a column.
+pub(super) fn is_unit(text: &str) -> bool {
+    text == "1" || counts(text).is_some() || unit::read_listed(text).is_ok()
+}
+
+/// A title of a column: its name and its unit.
+#[derive(Clone, Debug)]
+pub(super) struct Title {
+    pub(super) whole: String,
+    pub(super) name: String,
+    pub(super) unit: Option<String>,
+}
+
+impl Title {
+    /// Splits "phi [deg]" and "Time (sec)"; what is in round brackets but no unit belongs to the name.
+    pub(super) fn of(whole: &str) -> Self {
+        let whole = whole.trim();
+        let bracketed = whole.strip_suffix(']').and_then(|t| t.rsplit_once('['));
+        let rounded = whole.strip_suffix(')').and_then(|t| t.rsplit_once('('));
+        let rounded = rounded.filter(|(_, unit)| is_unit(unit.trim()));
+        let (name, unit) = bracketed.or(rounded).map_or((whole, None), |(name, unit)| {
+            (name.trim_end(), Some(unit.trim().to_owned()))
+        });
+        Self {
+            whole: whole.to_owned(),
+            name: name.to_owned(),
+            unit,
+        }
+    }
+
+    /// The same with a unit behind the last underscore, as in "time_s", if that leaves a known name.
+    pub(super) fn underscored(self, known: &[Known]) -> Self {
+        let is_known = |name: &str| known.iter().any(|known| known.is(name));
+        if self.unit.is_some() || is_known(&self.name) {
+            return self;
+        }
+        match self.whole.rsplit_once('_') {
+            Some((name, unit)) if is_known(name) && is_unit(unit) => Self {
+                name: name.to_owned(),
+                unit: Some(unit.to_owned()),
+                whole: self.whole.clone(),
+            },
+            _ => self,
+        }
+    }
+
+    /// Whether a title of the machine file means this one of the file.
+    pub(super) fn is_meant_by(&self, asked: &Self) -> bool {
+        let same = |a: &str, b: &str| a.to_lowercase() == b.to_lowercase();
+        let units = match (&self.unit, &asked.unit) {
+            (Some(own), Some(asked)) => unit::tidy(own) == unit::tidy(asked),
+            _ => true,
+        };
+        same(&self.whole, &asked.whole) || same(&self.name, &asked.name) && units
+    }
+}
