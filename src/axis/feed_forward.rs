@@ -151,7 +151,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     }
 
     /// The torque for the reference, at the reference's phase and speed. The status is of the speed that `sliding` is against, too.
-    #[inline]
+    #[inline(always)]
     pub fn at_reference(
         &self,
         reference: Motion<F::Number>,
@@ -172,7 +172,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     }
 
     /// The torque for the reference's acceleration, at the measured phase and speed.
-    #[inline]
+    #[inline(always)]
     pub fn at_measured(
         &self,
         phase: Phase,

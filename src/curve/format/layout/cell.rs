@@ -5,7 +5,7 @@ use crate::Phase;
 use crate::curve::curves::{self, Set, has};
 use crate::curve::format::bases;
 use crate::curve::{CellCurves, Table};
-use crate::number::{Kernel, Ring, Role, Sliding, fence};
+use crate::number::{Kernel, Ring, Role, Sliding};
 
 /// One cell's words and the place in it.
 pub(super) struct Cell<'a, L: Layout> {
@@ -113,17 +113,15 @@ impl<'a, L: Layout> Cell<'a, L> {
         .map(L::Number::torque)
     }
 
-    /// sum − load + |c|·sgn ω, of the curves that the machine has.
+    /// sum − load, if the machine has one.
     #[inline(always)]
-    pub(super) fn with_load_and_friction(
-        &self,
-        sum: Raw<L>,
-        sliding: Sliding<L::Number>,
-    ) -> Raw<L> {
-        // Nothing is read before the term ahead of it is done with its registers.
-        fence();
-        let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
-        fence();
+    pub(super) fn with_load(&self, sum: Raw<L>) -> Raw<L> {
+        self.curve(Role::Load).map_or(sum, |load| sum - load)
+    }
+
+    /// sum + |c|·sgn ω, if the machine has friction.
+    #[inline(always)]
+    pub(super) fn with_friction(&self, sum: Raw<L>, sliding: Sliding<L::Number>) -> Raw<L> {
         let coulomb = self.coulomb();
         coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, sliding))
     }

@@ -279,7 +279,12 @@ macro_rules! format {
                 let sum = Self::Number::product(inertia, alpha);
                 let coefficient = cell.speed_coefficient(slope, tick.factor, omega);
                 let sum = Self::Number::accumulate(sum, coefficient, omega);
-                Self::Number::torque(cell.with_load_and_friction(sum, sliding))
+                // Nothing is read before the term ahead of it is done with its registers. Not in forward dynamics, where a program asks
+                // for several accelerations at one place, and what they share is then read again.
+                fence();
+                let sum = cell.with_load(sum);
+                fence();
+                Self::Number::torque(cell.with_friction(sum, sliding))
             }
 
             fn contributions(
@@ -312,7 +317,7 @@ macro_rules! format {
                 let (inertia, slope) = cell.inertia();
                 let resisting =
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let resisting = cell.with_load_and_friction(resisting, sliding);
+                let resisting = cell.with_friction(cell.with_load(resisting), sliding);
                 let reciprocal = cell.curve(Role::Reciprocal);
                 // Not by `map`, which may become a loop, and which many models share as one function that knows no set of curves.
                 let [one, other] = torques;

@@ -94,8 +94,10 @@ impl Layout for Spline16 {
         let half = |word| read(Self::half(word, column % 2 == 1));
         let point = |row: usize| word(cell, row * Self::ROW.pitch(set) + column / 2, half);
         let [p0, p1, p2, p3] = cubic([point(0), point(1), point(2), point(3)], Q31::STEP);
-        let [p0, p1, p2, p3] = [p0, p1, p2, p3].map(|p| p * more.gain);
-        [more.offset.map_or(p0, |offset| p0 + offset), p1, p2, p3]
+        let gain = more.gain;
+        let p0 = p0 * gain;
+        let p0 = more.offset.map_or(p0, |offset| p0 + offset);
+        [p0, p1 * gain, p2 * gain, p3 * gain]
     }
     #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {

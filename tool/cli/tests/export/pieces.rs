@@ -41,6 +41,7 @@ fn searched(file: &MachineFile) -> Export {
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
+        core: jred_machine::export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: Some(0.5),
