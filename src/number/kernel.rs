@@ -237,3 +237,30 @@ macro_rules! float {
 
 float!(f32, Some(1));
 float!(f64, None);
+
+#[cfg(test)]
+mod tests {
+    use core::num::Wrapping;
+
+    use super::Kernel as _;
+    use crate::Q31;
+
+    /// |c|·sgn ω in floating point and in fixed point, of c with either sign.
+    #[test]
+    #[allow(clippy::float_cmp, reason = "sums of halves are exact")]
+    fn every_speed_but_zero_has_a_sign() {
+        for c in [2.5, -2.5] {
+            for omega in [1e-45, f32::MIN_POSITIVE, 1.0, f32::MAX] {
+                assert_eq!(f32::add_signed(4.0, c, omega), 6.5, "{omega}");
+                assert_eq!(f32::add_signed(4.0, c, -omega), 1.5, "{omega}");
+            }
+            assert_eq!(f32::add_signed(4.0, c, 0.0), 4.0);
+            assert_eq!(f32::add_signed(4.0, c, -0.0), 4.0);
+            let [sum, c] = [400, (c * 10.0) as i32].map(Wrapping);
+            let fixed = |omega| Q31::add_signed(sum, c, Q31::from_bits(omega)).0;
+            assert_eq!([1, i32::MAX].map(fixed), [425; 2]);
+            assert_eq!([-1, i32::MIN].map(fixed), [375; 2]);
+            assert_eq!(fixed(0), 400);
+        }
+    }
+}
