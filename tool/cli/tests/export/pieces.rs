@@ -350,6 +350,8 @@ fn the_source_text_is_a_program() {
     let more = [
         "--torque-error",
         "2 N m",
+        "--layout",
+        "spline",
         "--pieces",
         "auto",
         "--format",
@@ -378,6 +380,8 @@ fn the_source_text_is_a_program() {
     let more = [
         "--torque-error",
         "2 N m",
+        "--layout",
+        "spline",
         "--pieces",
         "auto",
         "--format",

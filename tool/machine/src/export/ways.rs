@@ -11,10 +11,10 @@
 //! in both directions. At rest, where friction may be anything between r₋ and r₊, it is their mean.
 
 use jred::machine::PoseError;
-use jred::{Domain, Machine, Reducible, Reduction};
+use jred::{Domain, Error, Machine, Reducible, Reduction};
 
 use super::{Failure, Task};
-use crate::model::machine::MachineFile;
+use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::schedule::Now;
 use crate::number::rounding::short;
@@ -34,24 +34,24 @@ pub(super) struct BothWays {
 impl BothWays {
     /// Of a file of which nothing else goes by the motion.
     pub(super) fn new(file: &MachineFile, task: &Task) -> Result<Self, Failure> {
-        let machine = task.whole_machine(file)?;
-        let schedule = file.schedule.of_machine(&machine, None)?;
-        let way = |omega: f64| {
+        if file.schedule.is_empty() {
+            return Ok(Self {
+                forward: task.whole_machine(file)?,
+                backward: None,
+            });
+        }
+        let (machines, ratio) = (Machines::of(file)?, file.drive_train.ratio());
+        let way = |omega: f64| -> Result<Machine<AnyMechanism>, Error> {
             let now = Now {
                 omega: Some(omega),
                 ..Now::default()
             };
-            schedule.machine(schedule.number(&now)).cloned()
-        };
-        let (Some(forward), Some(backward)) = (way(1.0), way(-1.0)) else {
-            return Ok(Self {
-                forward: machine,
-                backward: None,
-            });
+            let machine = machines.among(&now).clone();
+            Ok(machine.with_flywheel(task.rotor * ratio * ratio)?)
         };
         let both = Self {
-            forward,
-            backward: Some(backward),
+            forward: way(1.0)?,
+            backward: Some(way(-1.0)?),
         };
         both.check(file)?;
         Ok(both)
@@ -144,5 +144,28 @@ impl Reducible for BothWays {
         self.backward
             .as_ref()
             .map_or(Ok(()), Reducible::check_repeats)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::combined;
+    use jred::Reduction;
+
+    /// c − load is the resistance forwards, −c − load that backwards, with springs and process torques too.
+    #[test]
+    fn one_load_and_one_friction_are_both_directions() {
+        let bare = Reduction::new([0.2, 0.1, 0.0]).with_potential_energy([3.0, 0.7]);
+        let forward = bare.with_process(1.5).with_coulomb(2.0);
+        let backward = bare.with_process(-0.25).with_coulomb(3.0);
+        let both = combined(&forward, &backward);
+        for (omega, way) in [(0.5, forward), (-0.5, backward)] {
+            let [found, exact] = [both, way].map(|r| r.torque(omega, 4.0).total());
+            assert!((found - exact).abs() < 1e-12, "{found} {exact}");
+        }
+        // 2 N·m forwards and 3 backwards: 2.5 and a load of 0.5.
+        let friction = |c: f64| Reduction::new([0.2, 0.0, 0.0]).with_coulomb(c);
+        let both = combined(&friction(2.0), &friction(3.0));
+        assert!((both.coulomb - 2.5).abs() < 1e-12 && (both.load_torque() - 0.5).abs() < 1e-12);
     }
 }
