@@ -105,7 +105,7 @@ pub enum Command {
     Retime(retime::Retime),
     /// Find counterweights and springs that make the torque of the drive, or the fluctuation of the reduced inertia, least.
     Balance(balance::Balance),
-    /// Write the smallest firmware table that meets a torque error.
+    /// Write a fast firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.
     Rules(Rules),

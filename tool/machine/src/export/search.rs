@@ -181,15 +181,16 @@ impl<'s, F: Format> Attempt<'s, F> {
         Ok(None)
     }
 
-    /// The most exact table of up to `most` cells: of growing sizes, and of all up to [`EXHAUSTIVE`] if it is the result. Where an error is
-    /// missed it only says how far the layout comes.
+    /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond. Where an error is missed, it
+    /// only says how far the layout comes: of the small sizes growing ones do, up to three quarters of the largest.
     fn best(&mut self, most: u32) -> Result<Option<Made>, Error> {
-        let exhaustive = match self.search.goal.torque_error {
-            Some(_) => MIN_CELLS as u32,
-            None => EXHAUSTIVE,
+        let largest = most.min(EXHAUSTIVE);
+        let from = match self.search.goal.torque_error {
+            Some(_) => (largest / 4 * 3).max(MIN_CELLS as u32),
+            None => MIN_CELLS as u32,
         };
-        let all = (MIN_CELLS as u32..=most.min(exhaustive)).rev();
-        let beyond = tabulate::growing(most).filter(|cells| *cells > exhaustive);
+        let all = (from..=largest).rev();
+        let beyond = tabulate::growing(most).filter(|cells| *cells > largest || *cells < from);
         let mut sizes: Vec<(f64, u32)> = Vec::new();
         let mut least = f64::INFINITY;
         for cells in beyond.chain(all) {
