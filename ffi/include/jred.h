@@ -94,7 +94,6 @@ typedef struct {
 typedef struct {
     uint64_t step;
     uint64_t start;
-    uint64_t least;
     int32_t rest;
 } jred_encoder;
 
@@ -139,28 +138,22 @@ typedef struct {
 /* The phase at a count of 32 bits. A register that overflows while the machine goes on turning keeps its angle only if 2^32 counts are
  * whole turns of the drive link: take jred_counter_extend and jred_encoder_phase_wide. */
 static inline uint32_t jred_encoder_phase(const jred_encoder *encoder, int32_t count) {
-    const uint32_t from_least = (uint32_t)count ^ 0x80000000u;
+    /* The lower word of the step with a sign, so that both factors of the long product have one; the upper word makes up for it. */
+    const int32_t lower = (int32_t)(uint32_t)encoder->step;
+    const uint32_t upper = (uint32_t)(encoder->step >> 32) + (uint32_t)(lower < 0);
 #if JRED_SHORT_MULTIPLY_
-    /* By halves, in an order that needs few of the registers of such a core. */
-    uint32_t upper = (uint32_t)(encoder->least >> 32) + from_least * (uint32_t)(encoder->step >> 32);
-    uint32_t a1 = from_least >> 16, a0 = from_least & 0xffffu, b0 = (uint32_t)encoder->step;
-    const uint32_t b1 = b0 >> 16, least = (uint32_t)encoder->least;
-    b0 &= 0xffffu;
-    upper += a1 * b1;
-    a1 *= b0;
-    b0 *= a0;
-    a0 = a0 * b1 + (b0 >> 16);
-    upper += a0 >> 16;
-    a1 += a0 & 0xffffu;
-    upper += a1 >> 16;
-    b0 = ((b0 & 0xffffu) | a1 << 16) + least;
-    return upper + (b0 < least);
+    const int32_t a1 = count >> 16, a0 = count & 0xffff, b1 = lower >> 16, b0 = lower & 0xffff;
+    const uint32_t low = (uint32_t)a0 * (uint32_t)b0, start = (uint32_t)encoder->start;
+    const int32_t middle = a0 * b1 + (int32_t)(low >> 16), other = a1 * b0 + (middle & 0xffff);
+    const uint32_t sum = ((uint32_t)other << 16 | (low & 0xffffu)) + start;
+    const uint32_t high = (uint32_t)(a1 * b1 + (middle >> 16) + (other >> 16));
+    return high + (uint32_t)(encoder->start >> 32) + (uint32_t)(sum < start) + (uint32_t)count * upper;
 #else
-    return (uint32_t)((from_least * encoder->step + encoder->least) >> 32);
+    return (uint32_t)(((uint64_t)((int64_t)count * lower) + encoder->start) >> 32) + (uint32_t)count * upper;
 #endif
 }
 
-/* The phase at a count of 64 bits. Here and below a negative number is shifted to the right as all compilers for these cores do it. */
+/* The phase at a count of 64 bits. Here, above and below a negative number is shifted to the right as all compilers for these cores do it. */
 static inline uint32_t jred_encoder_phase_wide(const jred_encoder *encoder, int64_t count) {
     const int64_t upper = (count >> 32) * encoder->rest;
     const int64_t lower = ((int64_t)(uint32_t)count * encoder->rest) >> 32;

@@ -85,8 +85,6 @@ pub struct Encoder {
     step: u64,
     /// The phase of count 0 in units of 2⁻⁶⁴, and half a unit of a phase.
     start: u64,
-    /// The same of the least count of 32 bits.
-    least: u64,
     /// The rest of `step`, in units of 2⁻⁹⁶.
     rest: i32,
 }
@@ -148,11 +146,9 @@ impl Encoder {
         let nearest = (step + (1 << 31)) >> 32;
         let rest = (step as i128 - ((nearest as i128) << 32)) as i32;
         let step = nearest as u64;
-        let start = home.wrapping_add(HALF);
         Ok(Self {
             step,
-            start,
-            least: start.wrapping_sub(step << 31),
+            start: home.wrapping_add(HALF),
             rest,
         })
     }
@@ -161,9 +157,7 @@ impl Encoder {
     #[must_use]
     #[inline(always)]
     pub const fn phase(&self, count: i32) -> Phase {
-        // From the least count on, so that nothing is negative.
-        let count = count as u32 ^ 1 << 31;
-        Phase::from_bits(upper_of_sum(count, self.step, self.least))
+        Phase::from_bits(upper_of_sum(count, self.step, self.start))
     }
 
     /// The phase at a count of 64 bits.

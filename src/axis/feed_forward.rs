@@ -106,7 +106,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     }
 
     /// The torque for the reference, at the reference's phase and speed. The status is of what `sliding` is against, too.
-    #[inline]
+    #[inline(always)]
     pub fn at_reference(
         &self,
         reference: Motion<F::Number>,
@@ -116,7 +116,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     }
 
     /// The torque for the reference's acceleration, at the measured phase and speed. The status is of both speeds, and of what `sliding` is against.
-    #[inline]
+    #[inline(always)]
     pub fn at_measured(
         &self,
         phase: Phase,

@@ -82,7 +82,6 @@ pub trait Kernel: Number {
         Self::row_step(x, u)
     }
 
-    fn magnitude(raw: Self::Raw) -> Self::Raw;
     /// ½·J′·ω_b²/T_b·ω from the slope: a coefficient that adds to b.
     fn velocity(slope: Self::Raw, factor: Self::Factor, omega: Self) -> Self::Raw;
     /// a·b: J·α, or (½·J′·ω + b)·ω.
@@ -92,9 +91,9 @@ pub trait Kernel: Number {
     fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw {
         sum + Self::product(a, b)
     }
-    /// sum + c·sgn ω; nothing for ω = 0.
+    /// sum + |c|·sgn ω; nothing for ω = 0.
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
-    /// sum + c·share
+    /// sum + |c|·share
     fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw;
     /// sum and Coulomb friction.
     #[inline(always)]
@@ -180,10 +179,6 @@ macro_rules! float {
                 x * u
             }
             #[inline(always)]
-            fn magnitude(raw: $float) -> $float {
-                raw.abs()
-            }
-            #[inline(always)]
             fn velocity(slope: $float, factor: $float, omega: $float) -> $float {
                 slope * factor * omega
             }
@@ -193,18 +188,20 @@ macro_rules! float {
             }
             #[inline(always)]
             fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
-                // By the bits of ω, without a comparison of floating point: that is a call where it is software.
-                let bits = omega.to_bits();
-                let c = if bits & $float::INFINITY.to_bits() == 0 {
-                    0
-                } else {
-                    c.to_bits()
-                };
-                sum + $float::from_bits(c ^ bits & (-0.0 as $float).to_bits())
+                if cfg!(soft_float) {
+                    // By the bits of ω: a comparison is a call there.
+                    let sign = -0.0 as $float;
+                    let bits = omega.to_bits();
+                    let not_zero = (bits << 1).wrapping_sub(1) < $float::INFINITY.to_bits() << 1;
+                    let c = if not_zero { c.abs().to_bits() } else { 0 };
+                    return sum + $float::from_bits(c | bits & sign.to_bits());
+                }
+                let c = if omega < 0.0 { -c.abs() } else { c.abs() };
+                if omega == 0.0 { sum } else { sum + c }
             }
             #[inline(always)]
             fn add_share(sum: $float, c: $float, share: $float) -> $float {
-                sum + c * share
+                sum + c.abs() * share
             }
             #[inline(always)]
             fn torque(sum: $float) -> $float {
@@ -240,3 +237,30 @@ macro_rules! float {
 
 float!(f32, Some(1));
 float!(f64, None);
+
+#[cfg(test)]
+mod tests {
+    use core::num::Wrapping;
+
+    use super::Kernel as _;
+    use crate::Q31;
+
+    /// |c|·sgn ω in floating point and in fixed point, of c with either sign.
+    #[test]
+    #[allow(clippy::float_cmp, reason = "sums of halves are exact")]
+    fn every_speed_but_zero_has_a_sign() {
+        for c in [2.5, -2.5] {
+            for omega in [1e-45, f32::MIN_POSITIVE, 1.0, f32::MAX] {
+                assert_eq!(f32::add_signed(4.0, c, omega), 6.5, "{omega}");
+                assert_eq!(f32::add_signed(4.0, c, -omega), 1.5, "{omega}");
+            }
+            assert_eq!(f32::add_signed(4.0, c, 0.0), 4.0);
+            assert_eq!(f32::add_signed(4.0, c, -0.0), 4.0);
+            let [sum, c] = [400, (c * 10.0) as i32].map(Wrapping);
+            let fixed = |omega| Q31::add_signed(sum, c, Q31::from_bits(omega)).0;
+            assert_eq!([1, i32::MAX].map(fixed), [425; 2]);
+            assert_eq!([-1, i32::MIN].map(fixed), [375; 2]);
+            assert_eq!(fixed(0), 400);
+        }
+    }
+}

@@ -18,6 +18,7 @@
 
 pub(crate) mod error;
 mod factor;
+mod fence;
 mod kernel;
 #[cfg(feature = "mechanics")]
 #[allow(
@@ -46,6 +47,7 @@ pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 
 pub(crate) use factor::Factor;
+pub(crate) use fence::fence;
 pub(crate) use product::{high, upper_of_sum};
 pub use quantity::Quantity;
 pub use role::Role;

@@ -49,34 +49,40 @@ fn high_short_by_halves(x: i32, u: i32) -> i32 {
 
 /// Floor of (a·b + c)/2³², modulo 2³².
 #[inline(always)]
-pub(crate) const fn upper_of_sum(a: u32, b: u64, c: u64) -> u32 {
-    if cfg!(short_multiply) {
-        upper_of_sum_by_halves(a, b, c)
+pub(crate) const fn upper_of_sum(a: i32, b: u64, c: u64) -> u32 {
+    // The lower word of b with a sign, so that both factors of the long product have one; the upper word makes up for it.
+    let lower = b as i32;
+    let upper = ((b >> 32) as u32).wrapping_add((lower < 0) as u32);
+    let sum = if cfg!(short_multiply) {
+        upper_of_short_sum_by_halves(a, lower, c)
     } else {
-        ((a as u64).wrapping_mul(b).wrapping_add(c) >> 32) as u32
-    }
+        ((a as i64 * lower as i64).wrapping_add(c as i64) >> 32) as u32
+    };
+    sum.wrapping_add((a as u32).wrapping_mul(upper))
 }
 
+/// The same of a factor b with 32 bits.
 #[inline(always)]
-const fn upper_of_sum_by_halves(a: u32, b: u64, c: u64) -> u32 {
+const fn upper_of_short_sum_by_halves(a: i32, b: i32, c: u64) -> u32 {
     let (a1, a0) = (a >> 16, a & 0xffff);
-    let (b1, b0) = (b as u32 >> 16, b as u32 & 0xffff);
-    // The lower word of b: no sum overflows, as in `high_by_halves`.
-    let low = a0 * b0;
-    let middle = a0 * b1 + (low >> 16);
-    let other = a1 * b0 + (middle & 0xffff);
-    let upper = a1 * b1 + (middle >> 16) + (other >> 16);
-    let (_, carry) = (other << 16 | low & 0xffff).overflowing_add(c as u32);
-    // What does not fit is whole turns.
-    upper
-        .wrapping_add(a.wrapping_mul((b >> 32) as u32))
+    let (b1, b0) = (b >> 16, b & 0xffff);
+    // No sum overflows, as in `high_by_halves`.
+    let low = (a0 as u32).wrapping_mul(b0 as u32);
+    let middle = a0.wrapping_mul(b1).wrapping_add((low >> 16) as i32);
+    let other = a1.wrapping_mul(b0).wrapping_add(middle & 0xffff);
+    let upper = a1
+        .wrapping_mul(b1)
+        .wrapping_add(middle >> 16)
+        .wrapping_add(other >> 16);
+    let (_, carry) = ((other as u32) << 16 | low & 0xffff).overflowing_add(c as u32);
+    (upper as u32)
         .wrapping_add((c >> 32) as u32)
         .wrapping_add(carry as u32)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{high_by_halves, high_short_by_halves, upper_of_sum_by_halves};
+    use super::{high_by_halves, high_short_by_halves, upper_of_short_sum_by_halves, upper_of_sum};
 
     /// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), after the extremes.
     fn numbers() -> impl Iterator<Item = i32> + Clone {
@@ -114,15 +120,18 @@ mod tests {
             }
         }
     }
+    /// Against integers of 128 bits.
     #[test]
-    fn halves_give_the_upper_word_of_the_sum() {
+    fn the_upper_word_of_the_sum_is_exact() {
         for a in numbers().take(200) {
             for b in numbers().take(200) {
-                let a = a as u32;
-                let b = u64::from(b as u32) << 32 | u64::from((b ^ a as i32) as u32);
-                let c = b.rotate_left(17);
-                let long = (u64::from(a).wrapping_mul(b).wrapping_add(c) >> 32) as u32;
-                assert_eq!(upper_of_sum_by_halves(a, b, c), long, "{a} · {b} + {c}");
+                let c = (i64::from(b) << 32 | i64::from(b ^ a)).rotate_left(17) as u64;
+                let exact = |factor: i128| ((i128::from(a) * factor + i128::from(c)) >> 32) as u32;
+                let halves = upper_of_short_sum_by_halves(a, b, c);
+                assert_eq!(halves, exact(b.into()), "{a} · {b} + {c}");
+                let long = i64::from(b) << 32 | i64::from(b.rotate_left(7) ^ a);
+                let sum = upper_of_sum(a, long as u64, c);
+                assert_eq!(sum, exact((long as u64).into()), "{a} · {long} + {c}");
             }
         }
     }

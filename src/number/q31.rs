@@ -201,10 +201,6 @@ impl Kernel for Q31 {
         Wrapping(high_short(x.0, u))
     }
     #[inline(always)]
-    fn magnitude(raw: Self::Raw) -> Self::Raw {
-        Wrapping(raw.0.wrapping_abs())
-    }
-    #[inline(always)]
     fn velocity(slope: Self::Raw, factor: i32, omega: Self) -> Self::Raw {
         // The slope is Q30 times `step`, the factor makes 31 fractional bits of it. `Model::new` saw to it that the product fits.
         Wrapping(high(slope.0.wrapping_mul(factor), omega.0))
@@ -215,19 +211,13 @@ impl Kernel for Q31 {
     }
     #[inline(always)]
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {
-        // A match on the ordering would cost eight instructions more.
-        #[expect(clippy::comparison_chain)]
-        if omega.0 > 0 {
-            sum + c
-        } else if omega.0 < 0 {
-            sum - c
-        } else {
-            sum
-        }
+        // |c|·sgn ω has the sign of c·ω before c.
+        let c = if (c.0 ^ omega.0) < 0 { -c } else { c };
+        if omega.0 == 0 { sum } else { sum + c }
     }
     #[inline(always)]
     fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw {
-        sum + Wrapping(high(c.0, share.0) << 1)
+        sum + Wrapping(high(c.0.wrapping_abs(), share.0) << 1)
     }
     #[inline(always)]
     fn torque(sum: Self::Raw) -> Self {

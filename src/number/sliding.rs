@@ -9,8 +9,8 @@ use super::Number;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sliding<N: Number> {
-    /// All of c against the sign of this speed: of the motion itself, or of its set-point, which does not chatter. In floating point a speed below the
-    /// least normal number is 0.
+    /// All of c against the sign of this speed: of the motion itself, or of its set-point, which does not chatter. Only 0
+    /// itself has no sign, however small a speed is (test `every_speed_but_zero_has_a_sign`).
     Against(N::Speed),
     /// This share of c, −1 to 1: a ramp over a width of speed.
     Share(N),

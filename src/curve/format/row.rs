@@ -76,6 +76,8 @@ pub trait Runs<'a, T>: Copy + core::fmt::Debug {
     fn new(words: &'a [T], pitch: usize) -> Self;
     /// The same of so many rows, at most 17 bits of them: without a division, for a tick.
     fn counted(words: &'a [T], pitch: usize, rows: u32) -> Self;
+    /// How many rows there are.
+    fn count(&self, pitch: usize) -> usize;
     /// A row.
     fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
     /// Four rows, from the index-th on.
@@ -133,6 +135,21 @@ where
     }
 
     #[inline(always)]
+    fn count(&self, pitch: usize) -> usize {
+        if pitch == A {
+            self.a.len()
+        } else if pitch == B {
+            self.b.len()
+        } else if pitch == C {
+            self.c.len()
+        } else if pitch == D {
+            self.d.len()
+        } else {
+            self.e.len()
+        }
+    }
+
+    #[inline(always)]
     fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]> {
         if pitch == A {
             self.a.get(index).map(<[T; A]>::as_slice)
@@ -172,6 +189,6 @@ fn counted<T, const W: usize>(words: &[T], rows: u32) -> &[[T; W]] {
 
 #[inline(always)]
 fn four<T, const W: usize>(rows: &[[T; W]], index: usize) -> Option<&[T]> {
-    let rows = rows.get(index..)?.first_chunk::<4>()?;
+    let rows = rows.get(index..index.checked_add(4)?)?;
     Some(rows.as_flattened())
 }

@@ -20,7 +20,7 @@ use clap::{ArgGroup, Args, CommandFactory as _, FromArgMatches as _, Parser, Sub
 use self::search::Objectives;
 use self::word::word;
 use jred_machine::analysis::reduce::Over;
-use jred_machine::export::{Choice, Form, LayoutChoice, Number};
+use jred_machine::export::{Choice, Core, Form, LayoutChoice, Number};
 use jred_report::list::inspection::Format as CheckFormat;
 use jred_report::table::output::Format;
 
@@ -105,7 +105,7 @@ pub enum Command {
     Retime(retime::Retime),
     /// Find counterweights and springs that make the torque of the drive, or the fluctuation of the reduced inertia, least.
     Balance(balance::Balance),
-    /// Write the smallest firmware table that meets a torque error.
+    /// Write a fast firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.
     Rules(Rules),
@@ -337,6 +337,10 @@ pub struct Export {
     /// Layout of the curves in memory.
     #[arg(long, value_parser = word::<LayoutChoice>(), default_value_t)]
     pub layout: LayoutChoice,
+    /// Core that the firmware runs on: of the layouts that meet the torque error, one with the fewest instructions there is taken, unless
+    /// --max-bytes or --layout is given.
+    #[arg(long, value_parser = word::<Core>(), default_value_t)]
+    pub core: Core,
     /// The firmware asks for accelerations, too: forward dynamics, limits, governor. Tables in fixed point then have a curve of 1/J.
     #[arg(long)]
     pub forward: bool,

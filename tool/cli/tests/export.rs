@@ -2,7 +2,9 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+mod by_direction;
 mod bytes;
+mod choice;
 mod closed_form;
 mod document;
 // As the command wrote it.
@@ -84,6 +86,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
+        core: jred_machine::export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: None,

@@ -36,6 +36,7 @@ fn task(number: Number, layout: LayoutChoice) -> Task {
     Task {
         number,
         layout,
+        core: jred_machine::export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: None,

@@ -25,7 +25,7 @@ impl<'a, L: Layout> Cell<'a, L> {
         phase: Phase,
         set: Set,
     ) -> Option<Self> {
-        let (index, u) = L::locate(phase.to_bits(), table.cells());
+        let (index, u) = L::locate(phase.to_bits(), L::cells(rows, table, set));
         Some(Self {
             words: L::cell(rows, index as usize, set)?,
             set,
@@ -69,13 +69,13 @@ impl<'a, L: Layout> Cell<'a, L> {
         self.curve(Role::Viscous)
     }
 
-    /// |c|
+    /// c, with any sign.
     #[inline(always)]
     pub(super) fn coulomb(&self) -> Option<Raw<L>> {
         if has(self.set, curves::CONSTANT_COULOMB) {
             return Some(L::Number::raw(self.constants.coulomb));
         }
-        self.curve(Role::Coulomb).map(L::Number::magnitude)
+        self.curve(Role::Coulomb)
     }
 
     /// ½·J′·ω + b
@@ -113,14 +113,15 @@ impl<'a, L: Layout> Cell<'a, L> {
         .map(L::Number::torque)
     }
 
-    /// sum − load + c·sgn ω, of the curves that the machine has.
+    /// sum − load, if the machine has one.
     #[inline(always)]
-    pub(super) fn with_load_and_friction(
-        &self,
-        sum: Raw<L>,
-        sliding: Sliding<L::Number>,
-    ) -> Raw<L> {
-        let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
+    pub(super) fn with_load(&self, sum: Raw<L>) -> Raw<L> {
+        self.curve(Role::Load).map_or(sum, |load| sum - load)
+    }
+
+    /// sum + |c|·sgn ω, if the machine has friction.
+    #[inline(always)]
+    pub(super) fn with_friction(&self, sum: Raw<L>, sliding: Sliding<L::Number>) -> Raw<L> {
         let coulomb = self.coulomb();
         coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, sliding))
     }
@@ -145,10 +146,7 @@ impl<W: Copy> Constants<W> {
         L::Number: Kernel<Word = W>,
     {
         More {
-            offset: match role {
-                Role::Inertia => L::Number::raw(self.inertia),
-                _ => Raw::<L>::default(),
-            },
+            offset: matches!(role, Role::Inertia).then(|| L::Number::raw(self.inertia)),
             gain: Ring::whole(self.gain(role)),
         }
     }
@@ -166,7 +164,7 @@ pub(super) fn wide<L: Layout>(
     let column = role.column(set).unwrap_or(0);
     let more = table.constants().more::<L>(role);
     let more = More {
-        offset: L::Number::widen(more.offset),
+        offset: more.offset.map(L::Number::widen),
         gain: L::Number::widen(more.gain),
     };
     let read = |word| L::Number::widen(L::Number::raw(word));
@@ -189,7 +187,7 @@ pub(super) fn curves<L: Layout>(
         };
         let more = constants.more::<L>(role);
         let more = More {
-            offset: L::Number::exact(role, more.offset),
+            offset: more.offset.map(|offset| L::Number::exact(role, offset)),
             gain: f64::from(constants.gain(role)),
         };
         let stored: [f64; 4] = L::coefficients(words, column, set, more, |word| exact(role, word));

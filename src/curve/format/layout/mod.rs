@@ -16,9 +16,9 @@ use super::{CONSTANTS, Format, Row, Rows, Runs, Size, bases};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CellCurves, CurveValues, Table};
-use crate::curve::{TableError, Usage};
+use crate::curve::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding};
+use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding, fence};
 use crate::{Outcome, Phase, Q31};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
@@ -37,8 +37,8 @@ pub struct Constants<W> {
 /// What a curve's coefficients need besides its words.
 #[derive(Clone, Copy, Default)]
 pub struct More<R> {
-    /// Added to the value.
-    offset: R,
+    /// Added to the value, of the curve that has it: single precision in software pays for a zero as for any number.
+    offset: Option<R>,
     /// Multiplies 16-bit points.
     gain: R,
 }
@@ -74,6 +74,16 @@ pub trait Layout:
     /// The rows of a table.
     fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
         Runs::new(words, Self::ROW.pitch(set))
+    }
+    /// Number of cells. A row a cell is counted by its rows: with that number the index is compared in any case.
+    #[inline(always)]
+    fn cells(rows: &Self::Rows<'_>, table: &Table<'_, Self>, set: Set) -> u32 {
+        if Self::ROW.more == 0 {
+            rows.count(Self::ROW.pitch(set)) as u32
+        } else {
+            // No more than MAX_CELLS: so the compiler knows that no sum with an index overflows.
+            table.cells() & MAX_CELLS
+        }
     }
     /// The words that a cell reads.
     #[inline(always)]
@@ -263,12 +273,18 @@ macro_rules! format {
                 sliding: Sliding<Self::Number>,
             ) -> Self::Number {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
-                    return Self::Number::default();
+                    return beyond();
                 };
                 let (inertia, slope) = cell.inertia();
-                let sum = Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let sum = Self::Number::accumulate(sum, inertia, alpha);
-                Self::Number::torque(cell.with_load_and_friction(sum, sliding))
+                let sum = Self::Number::product(inertia, alpha);
+                let coefficient = cell.speed_coefficient(slope, tick.factor, omega);
+                let sum = Self::Number::accumulate(sum, coefficient, omega);
+                // Nothing is read before the term ahead of it is done with its registers. Not in forward dynamics, where a program asks
+                // for several accelerations at one place, and what they share is then read again.
+                fence();
+                let sum = cell.with_load(sum);
+                fence();
+                Self::Number::torque(cell.with_friction(sum, sliding))
             }
 
             fn contributions(
@@ -301,7 +317,7 @@ macro_rules! format {
                 let (inertia, slope) = cell.inertia();
                 let resisting =
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let resisting = cell.with_load_and_friction(resisting, sliding);
+                let resisting = cell.with_friction(cell.with_load(resisting), sliding);
                 let reciprocal = cell.curve(Role::Reciprocal);
                 // Not by `map`, which may become a loop, and which many models share as one function that knows no set of curves.
                 let [one, other] = torques;
@@ -312,6 +328,14 @@ macro_rules! format {
             }
         }
     };
+}
+
+/// In the place of a cell that is not there: never called. With the fence it is a way of its own, and costs a tick one branch.
+#[cold]
+#[inline(always)]
+fn beyond<T: Default>() -> T {
+    fence();
+    T::default()
 }
 
 /// (torque − resisting)/J, by 1/J if the table has it.
@@ -347,7 +371,7 @@ fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
         inertia_slope: L::Number::exact(Role::Inertia, slope) / f64::from(L::STEP),
         load: number(Role::Load, cell.curve(Role::Load)),
         viscous: number(Role::Viscous, cell.viscous()),
-        coulomb: number(Role::Coulomb, cell.coulomb()),
+        coulomb: number(Role::Coulomb, cell.coulomb()).abs(),
     }
 }
 

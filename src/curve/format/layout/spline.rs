@@ -49,7 +49,7 @@ impl<S: Scalar> Layout for Spline<S> {
     ) -> [R; 4] {
         let point = |row: usize| word(cell, row * width(set) + column, &read);
         let [p0, p1, p2, p3] = cubic([point(0), point(1), point(2), point(3)], S::STEP);
-        [p0 + more.offset, p1, p2, p3]
+        [more.offset.map_or(p0, |offset| p0 + offset), p1, p2, p3]
     }
     #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
@@ -95,7 +95,9 @@ impl Layout for Spline16 {
         let point = |row: usize| word(cell, row * Self::ROW.pitch(set) + column / 2, half);
         let [p0, p1, p2, p3] = cubic([point(0), point(1), point(2), point(3)], Q31::STEP);
         let gain = more.gain;
-        [p0 * gain + more.offset, p1 * gain, p2 * gain, p3 * gain]
+        let p0 = p0 * gain;
+        let p0 = more.offset.map_or(p0, |offset| p0 + offset);
+        [p0, p1 * gain, p2 * gain, p3 * gain]
     }
     #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {

@@ -12,18 +12,8 @@
 //! The product (V·ω + b)·ω and the partial sums may wrap: they are taken modulo 2³², and only the whole sum counts, of
 //! which [`Table`](crate::Table) knows that it fits.
 
-use crate::number::{Outcome, Sliding};
+use crate::number::{Outcome, Sliding, fence};
 use crate::{Phase, Q15};
-
-/// A compiler fence where the processor has no long multiplication, nothing elsewhere. No instruction; no value depends on it.
-///
-/// Such a core works with eight registers. A fence keeps loads behind it, and ways apart that the compiler would make one; where each
-/// of them stands it saves 3 to 7 instructions of a tick.
-#[inline(always)]
-pub(super) fn fence() {
-    #[cfg(short_multiply)]
-    core::sync::atomic::compiler_fence(core::sync::atomic::Ordering::SeqCst);
-}
 
 /// The cell, and the place in it in units of 2⁻¹⁶ of a cell.
 #[inline(always)]
@@ -68,27 +58,46 @@ pub(super) fn of_speed_alone(velocity: i32, omega: i32) -> i32 {
     (velocity.wrapping_mul(omega) >> 15).wrapping_mul(omega) >> 15
 }
 
-/// sum + c·sgn ω
+/// sgn x, without a branch.
 #[inline(always)]
-#[allow(clippy::comparison_chain, reason = "the three ways of sgn")]
-pub(super) fn add_signed(sum: i32, c: impl FnOnce() -> i32, omega: i32) -> i32 {
-    // c comes as a function, so that it is read within the branch: one register less is in use.
+fn sign(x: i32) -> i32 {
+    x >> 31 | (x.wrapping_neg() as u32 >> 31) as i32
+}
+
+/// sum + c·sgn ω, of c in Q31 from 0 on.
+#[inline(always)]
+fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
+    if cfg!(not(short_multiply)) {
+        return sum.wrapping_add(c.wrapping_mul(sign(omega)));
+    }
     if omega > 0 {
-        sum.wrapping_add(c())
-    } else if omega < 0 {
-        sum.wrapping_sub(c())
-    } else {
-        sum
+        // Or the ways are made one, and all terms wait behind it in more registers than there are.
+        fence();
+        return sum.wrapping_add(c);
+    }
+    sum.wrapping_sub(if omega < 0 { c } else { 0 })
+}
+
+/// sum + |c|·sgn ω or |c| times the share, in Q31, of c in Q15 with any sign.
+#[inline(always)]
+pub(super) fn add_sliding(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
+    match sliding {
+        Sliding::Against(omega) if cfg!(not(short_multiply)) => {
+            // c with the sign of c·ω, which is 0 only if one of them is.
+            let product = c.wrapping_mul(i32::from(omega.to_bits()));
+            sum.wrapping_add(c.wrapping_mul(sign(product)) << 16)
+        }
+        _ => add_constant(sum, c.wrapping_abs() << 16, sliding),
     }
 }
 
-/// sum and Coulomb friction of |c| in Q31.
+/// The same of a constant c in Q31, from 0 on.
 #[inline(always)]
-pub(super) fn add_sliding(sum: i32, c: impl FnOnce() -> i32, sliding: Sliding<Q15>) -> i32 {
+pub(super) fn add_constant(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
     match sliding {
         Sliding::Against(omega) => add_signed(sum, c, i32::from(omega.to_bits())),
         Sliding::Share(share) => {
-            let product = (c() >> 16).wrapping_mul(i32::from(share.to_bits())); // Q30
+            let product = (c >> 16).wrapping_mul(i32::from(share.to_bits())); // Q30
             sum.wrapping_add(product << 1)
         }
     }

@@ -5,7 +5,7 @@ use super::row::{self, Rows};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::format::Runs;
 use crate::curve::{Table, TableError};
-use crate::number::{Outcome, Sliding};
+use crate::number::{Outcome, Sliding, fence};
 use crate::{Phase, Q15};
 
 /// What a tick takes of a table.
@@ -97,15 +97,13 @@ impl<'a> Tick<'a> {
             let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
             sum.wrapping_add(inertia.wrapping_mul(i32::from(alpha.to_bits())))
         };
-        if has(set, curves::COULOMB | curves::CONSTANT_COULOMB) {
-            let sum = self.of_speed(set, row, u, omega, sliding);
-            return kernel::torque(Self::with_load(set, of_inertia(sum), row, start, u));
-        }
         let sum = Self::with_load(set, 0, row, start, u);
         let sum = of_inertia(sum);
-        // V and b are not read before J·α is done with its registers.
-        kernel::fence();
-        kernel::torque(sum.wrapping_add(self.of_speed(set, row, u, omega, sliding)))
+        // Nothing is read before the term ahead of it is done with its registers.
+        fence();
+        let sum = sum.wrapping_add(self.of_speed(set, row, u, omega));
+        fence();
+        kernel::torque(self.with_coulomb(set, sum, row, u, sliding))
     }
 
     /// Forward dynamics.
@@ -141,7 +139,7 @@ impl<'a> Tick<'a> {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
             // Or both ways out share their last instructions, and every tick takes more of them.
-            kernel::fence();
+            fence();
             return [Outcome::default(); 2];
         };
         let start = row::at(row, row::start(set));
@@ -149,7 +147,8 @@ impl<'a> Tick<'a> {
             let velocity = kernel::line(row::at(row, row::velocity(set)), u);
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
-            let resisting = self.of_speed(set, row, u, omega, sliding);
+            let resisting = self.of_speed(set, row, u, omega);
+            let resisting = self.with_coulomb(set, resisting, row, u, sliding);
             Self::with_load(set, resisting, row, start, u) >> 16
         };
         let inertia = if has(set, curves::RECIPROCAL) {
@@ -173,21 +172,13 @@ impl<'a> Tick<'a> {
         }
     }
 
-    /// (V·ω + b)·ω + c·sgn ω in Q31
+    /// (V·ω + b)·ω in Q31
     #[inline(always)]
-    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15, sliding: Sliding<Q15>) -> i32 {
+    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15) -> i32 {
         let omega = i32::from(omega.to_bits());
         let b = self.viscous(set, row, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
-        let sum = kernel::of_speed(velocity, b, omega);
-        if has(set, curves::COULOMB) {
-            let c = kernel::line(row::at(row, row::coulomb(set)), u).wrapping_abs() << 16;
-            return kernel::add_sliding(sum, || c, sliding);
-        }
-        if has(set, curves::CONSTANT_COULOMB) {
-            return kernel::add_sliding(sum, || self.coulomb, sliding);
-        }
-        sum
+        kernel::of_speed(velocity, b, omega)
     }
 
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, of the row of a cell and the place in it.
@@ -204,10 +195,7 @@ impl<'a> Tick<'a> {
         let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
         let omega = i32::from(omega.to_bits());
-        let coulomb = match self.coulomb(set, row, u) {
-            Some(c) => kernel::add_sliding(half, || c, sliding),
-            None => half,
-        };
+        let coulomb = self.with_coulomb(set, half, row, u, sliding);
         [
             inertia
                 .wrapping_mul(i32::from(alpha.to_bits()))
@@ -230,13 +218,17 @@ impl<'a> Tick<'a> {
         self.viscous
     }
 
-    /// |c| in Q31
+    /// sum + |c|·sgn ω in Q31
     #[inline(always)]
-    fn coulomb(&self, set: Set, row: &[u32], u: i32) -> Option<i32> {
+    fn with_coulomb(&self, set: Set, sum: i32, row: &[u32], u: i32, sliding: Sliding<Q15>) -> i32 {
         if has(set, curves::COULOMB) {
-            return Some(kernel::line(row::at(row, row::coulomb(set)), u).wrapping_abs() << 16);
+            let c = kernel::line(row::at(row, row::coulomb(set)), u);
+            return kernel::add_sliding(sum, c, sliding);
         }
-        has(set, curves::CONSTANT_COULOMB).then_some(self.coulomb)
+        if has(set, curves::CONSTANT_COULOMB) {
+            return kernel::add_constant(sum, self.coulomb, sliding);
+        }
+        sum
     }
 
     /// sum − load, and half a unit of the result to round it: that of a load is in the table.

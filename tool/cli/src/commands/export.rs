@@ -123,6 +123,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     let task = Task {
         number: options.number,
         layout: options.layout,
+        core: options.core,
         forward: options.forward,
         reciprocal,
         torque_error,
@@ -134,6 +135,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         edges: edges(options, &file)?,
         machine: options.machine_id,
     };
+    busy::begin("searching for the table of every type and layout");
     let found = if options.prove {
         busy::begin("proving the error of the table");
         Export::proven(&file, &task, &mut |_| true)

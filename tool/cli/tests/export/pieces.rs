@@ -41,6 +41,7 @@ fn searched(file: &MachineFile) -> Export {
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
+        core: jred_machine::export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: Some(0.5),
@@ -349,6 +350,8 @@ fn the_source_text_is_a_program() {
     let more = [
         "--torque-error",
         "2 N m",
+        "--layout",
+        "spline",
         "--pieces",
         "auto",
         "--format",
@@ -377,6 +380,8 @@ fn the_source_text_is_a_program() {
     let more = [
         "--torque-error",
         "2 N m",
+        "--layout",
+        "spline",
         "--pieces",
         "auto",
         "--format",

@@ -8,26 +8,24 @@
 // piece 4: 345 to 360 deg, 4 cells, 184 bytes of image, torque error 1.11483 N m
 // torque error reached 1.79591 N m of 2 N m allowed, at 315 deg, for |omega| <= 29.4524 rad/s, |alpha| <= 226.725 rad/s^2
 // measured in ticks: torque within 1.78891 N m (0.009219 of the largest, 194.036 N m), alpha within 12.6882 rad/s^2
-use jred::*;
-
 /// Identifier of the machine: `Image::of_machine` refuses the image of another.
 pub const MACHINE: u32 = 0x3d4c7e82;
 
 /// The machine in pieces.
-pub type PiecewiseModel = Pieces<'static, Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }, 4>;
+pub type PiecewiseModel = jred::Pieces<'static, jred::Spline<f32>, { jred::curves::LOAD | jred::curves::COULOMB | jred::curves::CONSTANT_VISCOUS }, 4>;
 
 /// Checks the tables and puts them together.
-pub fn pieces() -> Result<PiecewiseModel, ImageError> {
-    fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>), ImageError> {
-        Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))
+pub fn pieces() -> Result<PiecewiseModel, jred::ImageError> {
+    fn piece(start: u32, words: &'static [u32]) -> Result<(jred::Phase, jred::Model<'static, jred::Spline<f32>, { jred::curves::LOAD | jred::curves::COULOMB | jred::curves::CONSTANT_VISCOUS }>), jred::ImageError> {
+        Ok((jred::Phase::from_bits(start), jred::Image::new(words)?.of_machine(MACHINE)?.model()?))
     }
-    Pieces::new(Domain::Turn, [
+    jred::Pieces::new(jred::Domain::Turn, [
         piece(0x00000000, &TABLE_1)?,
         piece(0xe0000000, &TABLE_2)?,
         piece(0xeaaaaaab, &TABLE_3)?,
         piece(0xf5555555, &TABLE_4)?,
     ])
-    .map_err(ImageError::Table)
+    .map_err(jred::ImageError::Table)
 }
 
 pub static TABLE_1: [u32; 79] = [

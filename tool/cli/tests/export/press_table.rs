@@ -6,23 +6,21 @@
 // measured in ticks: torque within 1.36532 N m (0.007036 of the largest, 194.036 N m), alpha within 9.68805 rad/s^2
 // 1.0 stands for: torque 1104.14 N m, speed 34.5805 rad/s, inertia 0.273012 kg m^2, acceleration 4044.28 rad/s^2
 // unused bits: J_red 0.8, J'·omega^2/2 5.3, load 2.7, b·omega 6.3, c 7.9, sum 0.6
-use jred::*;
-
 /// Identifier of the machine: `Image::of_machine` refuses the image of another.
 #[allow(dead_code)]
 pub const MACHINE: u32 = 0x3d4c7e82;
 
 /// The machine.
 #[allow(dead_code)]
-pub type TableModel = Model<'static, Spline16, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>;
+pub type TableModel = jred::Model<'static, jred::Spline16, { jred::curves::LOAD | jred::curves::COULOMB | jred::curves::CONSTANT_VISCOUS }>;
 
 // A table of another type or with other curves does not compile.
-const _: () = assert!(Image::is_of::<Spline16, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>(&TABLE));
+const _: () = assert!(jred::Image::is_of::<jred::Spline16, { jred::curves::LOAD | jred::curves::COULOMB | jred::curves::CONSTANT_VISCOUS }>(&TABLE));
 
 /// Checks the table.
 #[allow(dead_code)]
-pub fn model() -> Result<TableModel, ImageError> {
-    Image::new(&TABLE)?.of_machine(MACHINE)?.model()
+pub fn model() -> Result<TableModel, jred::ImageError> {
+    jred::Image::new(&TABLE)?.of_machine(MACHINE)?.model()
 }
 
 pub static TABLE: [u32; 201] = [

@@ -14,6 +14,59 @@ fn what_goes_by_the_motion_is_refused() {
     ]);
 }
 
+/// A table too coarse for its machine is a request that cannot be met, and says how many cells meet it; the machine is sound.
+#[test]
+fn a_table_too_coarse_names_the_cells() {
+    let coarse = [
+        "--type",
+        "i16",
+        "--max-cells",
+        "4",
+        "--torque-error",
+        "50 N m",
+    ];
+    let reciprocal = [
+        "--type",
+        "i16",
+        "--reciprocal",
+        "yes",
+        "--max-cells",
+        "8",
+        "--torque-error",
+        "50 N m",
+    ];
+    for (name, asked) in [
+        ("four-bar.toml", &coarse[..]),
+        ("cam-translating.toml", &reciprocal),
+        ("geneva.toml", &reciprocal),
+        ("load-table.toml", &reciprocal),
+        ("six-link.toml", &reciprocal),
+    ] {
+        let file = press_file().with_file_name(name);
+        let run = export_of(&file, asked, None).ends(1);
+        let most = asked[if asked.len() > 6 { 5 } else { 3 }];
+        run.says(&[
+            &format!("no i16 table of up to {most} cells is usable: that is too coarse"),
+            "in the table, not in the machine",
+            "use --max-cells ",
+        ]);
+        // So many cells make a table.
+        let message = run.message();
+        let cells = message.split_once("use --max-cells ").unwrap().1;
+        let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
+        let with: Vec<&str> = asked
+            .iter()
+            .map(|word| if *word == most { cells.as_str() } else { word })
+            .collect();
+        let again = export_of(&file, &with, None);
+        assert!(
+            !again.message().contains("too coarse"),
+            "{name}: {}",
+            again.err
+        );
+    }
+}
+
 #[test]
 fn too_few_cells_name_the_load_and_the_cures() {
     let more = [

@@ -121,6 +121,8 @@ pub enum Answer<T = Candidate> {
     Misses(Box<T>),
     /// No size gives a usable table; the reason for the last one.
     Refused(Error),
+    /// No size that may be tried gives a usable table: the reason for the last one, and a larger number of cells that does.
+    TooCoarse(Error, u32),
     /// The smallest image does not fit; its bytes.
     TooLarge(usize),
 }
@@ -132,6 +134,7 @@ impl<T> Answer<T> {
             Self::Meets(_) => "",
             Self::Misses(_) => "misses",
             Self::Refused(_) => "no size is usable",
+            Self::TooCoarse(..) => "too coarse",
             Self::TooLarge(_) => "does not fit",
         }
     }
@@ -150,6 +153,7 @@ impl Answer<Made> {
                     tables.push(*made);
                 }
                 Self::Refused(error) => return Answer::Refused(error),
+                Self::TooCoarse(error, cells) => return Answer::TooCoarse(error, cells),
                 Self::TooLarge(bytes) => return Answer::TooLarge(bytes),
             }
         }

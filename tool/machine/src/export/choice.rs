@@ -48,7 +48,7 @@ pub enum LayoutName {
 crate::words! {
     /// Which layout is asked for.
     pub enum LayoutChoice default Auto {
-        /// The layout with the fewest bytes.
+        /// One of the fastest on the core; with --max-bytes that with the fewest bytes.
         Auto = "auto",
         /// Control points of a cubic B-spline: smallest table.
         Spline = "spline",

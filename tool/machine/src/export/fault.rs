@@ -73,6 +73,9 @@ impl NotReached<'_> {
             return Ok(self.none_fits(most, &own, misses.first().copied()));
         }
         let Some(best) = misses.first() else {
+            if let Some(text) = self.too_coarse() {
+                return Ok(Failure::NotReached(text));
+            }
             // Refused, every one of them.
             let refused = own.iter().find_map(|answer| match answer {
                 Answer::Refused(error) => Some(*error),
@@ -94,6 +97,37 @@ impl NotReached<'_> {
             Coordinate::Angle => "torque",
             Coordinate::Length => "force",
         }
+    }
+
+    /// Where more cells than may be tried make a table of every layout that is asked for: which of them, and how many cells.
+    fn too_coarse(&self) -> Option<String> {
+        let coarse = self.answers.iter().filter_map(|(number, layout, answer)| {
+            let asked = *number == self.task.number && self.task.layout.allows(*layout);
+            match answer {
+                Answer::TooCoarse(error, cells) if asked => Some((layout, error, *cells)),
+                _ => None,
+            }
+        });
+        let coarse: Vec<_> = coarse.collect();
+        let enough = coarse.iter().map(|(.., cells)| *cells).min()?;
+        let mut text = format!(
+            "no {} table of up to {} cells is usable: that is too coarse\n",
+            self.task.number.name(),
+            self.task.max_cells
+        );
+        for (layout, error, cells) in coarse {
+            let _ = writeln!(
+                text,
+                "  {}: {error}, in the table, not in the machine; {cells} cells are enough",
+                layout.name()
+            );
+        }
+        let _ = write!(text, "use --max-cells {enough} or more");
+        for cure in self.cures() {
+            text += ", or take ";
+            text += &cure;
+        }
+        Some(text)
     }
 
     fn not_reached(&self, misses: &[&Candidate], best: &Candidate) -> Result<String, Error> {

@@ -42,10 +42,6 @@ const TERMS: [(Set, &str); 8] = [
     (terms::COULOMB_SIN, "COULOMB_SIN"),
 ];
 
-/// Instructions of a torque on a Cortex-M4F with load and constant friction, in f32: of a slider-crank, a cubic and a spline, as
-/// docs/performance.md has them.
-const INSTRUCTIONS: [u32; 3] = [101, 48, 80];
-
 /// Bit of a term of a slider-crank, its name in Rust.
 const CRANK_TERMS: [(Set, &str); 8] = [
     (crank::INERTIA_COS, "INERTIA_COS"),
@@ -82,6 +78,20 @@ pub(super) fn rust_arguments(table: &Candidate) -> String {
     let format = table.layout.type_name(table.number);
     let set = rust_set(table.layout, table.curves());
     format!("{format}, {{ {set} }}")
+}
+
+/// The same with the crate's name before every name, for a file that imports nothing.
+pub(super) fn full_rust_arguments(table: &Candidate) -> String {
+    let mut text = format!("jred::{}", rust_arguments(table));
+    for (name, full) in [
+        ("<Q31>", "<jred::Q31>"),
+        (" curves::", " jred::curves::"),
+        (" slider_crank::", " jred::slider_crank::"),
+        (" harmonic::", " jred::harmonic::"),
+    ] {
+        text = text.replace(name, full);
+    }
+    text
 }
 
 /// Rust expression that loads the image.
@@ -178,6 +188,9 @@ impl Export {
         if let Some(left_out) = self.left_out() {
             let _ = writeln!(text, "{left_out}");
         }
+        if self.by_direction {
+            text += "loads by direction: the friction is the mean of both directions, half of their difference is in the load; at rest it is that half\n";
+        }
         let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
             format!(" of {} {effort} allowed", rounded(allowed))
         });
@@ -249,14 +262,19 @@ impl Export {
 
     /// What a closed form costs, and how to have a table.
     fn closed(&self) -> String {
-        let [crank, cubic, spline] = INSTRUCTIONS;
+        let core = self.task.core;
+        let of = |layout| core.instructions(Number::F32, layout).unwrap_or_default();
         let table = match self.task.layout {
             LayoutChoice::Auto => "; --layout spline, cubic or quadratic asks for a table",
             _ => "",
         };
         format!(
-            "no table: needs jred's feature micromath, and about {crank} instructions a torque on a Cortex-M4F \
-             (cubic {cubic}, spline {spline}){table}\n"
+            "no table: needs jred's feature micromath\n\
+             instructions at most on a {}: closed form {}, cubic {}, spline {}{table}\n",
+            core.title(),
+            of(LayoutName::SliderCrank),
+            of(LayoutName::Cubic),
+            of(LayoutName::Spline),
         )
     }
 
@@ -293,6 +311,7 @@ impl Export {
                 "type": number.name(),
                 "layout": layout.name(),
                 "meets": matches!(answer, Answer::Meets(_)),
+                "instructions": task.core.instructions(*number, *layout),
             });
             if let (Answer::Meets(c) | Answer::Misses(c), Some(map)) =
                 (answer, object.as_object_mut())
@@ -314,6 +333,9 @@ impl Export {
             "torque_error_allowed": task.torque_error,
             "max_bytes": task.max_bytes,
             "max_cells": task.max_cells,
+            "core": task.core.word(),
+            "instructions": task.core.instructions(chosen.number, chosen.layout),
+            "by_direction": self.by_direction,
             "type": chosen.number.name(),
             "layout": chosen.layout.name(),
             "rust": match self.whole() {

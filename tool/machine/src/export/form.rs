@@ -6,7 +6,7 @@ use jred::Domain;
 
 use super::Export;
 use super::candidate::Made;
-use super::figures::rust_arguments;
+use super::figures::full_rust_arguments;
 use super::name::Name;
 
 crate::words! {
@@ -56,21 +56,20 @@ impl Export {
 
     /// A table with the type of its model, which the compiler checks.
     fn rust_whole(&self, table: &Made) -> String {
-        let arguments = rust_arguments(self.chosen());
+        let arguments = full_rust_arguments(self.chosen());
         format!(
-            "use jred::*;\n\n\
-             /// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+            "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
              #[allow(dead_code)]\n\
              pub const MACHINE: u32 = 0x{:08x};\n\n\
              /// The machine.\n\
              #[allow(dead_code)]\n\
-             pub type TableModel = Model<'static, {arguments}>;\n\n\
+             pub type TableModel = jred::Model<'static, {arguments}>;\n\n\
              // A table of another type or with other curves does not compile.\n\
-             const _: () = assert!(Image::is_of::<{arguments}>(&TABLE));\n\n\
+             const _: () = assert!(jred::Image::is_of::<{arguments}>(&TABLE));\n\n\
              /// Checks the table.\n\
              #[allow(dead_code)]\n\
-             pub fn model() -> Result<TableModel, ImageError> {{\n\
-             {INDENT}Image::new(&TABLE)?.of_machine(MACHINE)?.model()\n\
+             pub fn model() -> Result<TableModel, jred::ImageError> {{\n\
+             {INDENT}jred::Image::new(&TABLE)?.of_machine(MACHINE)?.model()\n\
              }}\n\n{}",
             self.machine,
             rust_table("TABLE", &table.words)
@@ -79,25 +78,24 @@ impl Export {
 
     /// A table for each piece, and a function that puts them together.
     fn rust_pieces(&self, tables: &[Made]) -> String {
-        let arguments = rust_arguments(self.chosen());
+        let arguments = full_rust_arguments(self.chosen());
         let mut text = format!(
-            "use jred::*;\n\n\
-             /// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+            "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
              pub const MACHINE: u32 = 0x{:08x};\n\n\
              /// The machine in pieces.\n\
-             pub type PiecewiseModel = Pieces<'static, {arguments}, {}>;\n\n\
+             pub type PiecewiseModel = jred::Pieces<'static, {arguments}, {}>;\n\n\
              /// Checks the tables and puts them together.\n\
-             pub fn pieces() -> Result<PiecewiseModel, ImageError> {{\n\
-             {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, {arguments}>), ImageError> {{\n\
-             {INDENT}{INDENT}Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))\n\
+             pub fn pieces() -> Result<PiecewiseModel, jred::ImageError> {{\n\
+             {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(jred::Phase, jred::Model<'static, {arguments}>), jred::ImageError> {{\n\
+             {INDENT}{INDENT}Ok((jred::Phase::from_bits(start), jred::Image::new(words)?.of_machine(MACHINE)?.model()?))\n\
              {INDENT}}}\n\
-             {INDENT}Pieces::new({}, [\n",
+             {INDENT}jred::Pieces::new({}, [\n",
             self.machine,
             tables.len(),
             match self.domain {
-                Domain::Turn => "Domain::Turn".to_owned(),
+                Domain::Turn => "jred::Domain::Turn".to_owned(),
                 Domain::Stroke { from, to } => {
-                    format!("Domain::Stroke {{ from: {from:?}, to: {to:?} }}")
+                    format!("jred::Domain::Stroke {{ from: {from:?}, to: {to:?} }}")
                 }
             }
         );
@@ -105,7 +103,7 @@ impl Export {
             let start = self.start(table).to_bits();
             let _ = writeln!(text, "        piece(0x{start:08x}, &TABLE_{number})?,");
         }
-        text += "    ])\n    .map_err(ImageError::Table)\n}\n";
+        text += "    ])\n    .map_err(jred::ImageError::Table)\n}\n";
         for (number, table) in (1..).zip(tables) {
             let _ = write!(
                 text,

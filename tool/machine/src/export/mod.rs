@@ -4,6 +4,7 @@
 mod c_source;
 mod candidate;
 mod choice;
+mod cost;
 mod fault;
 mod figures;
 mod form;
@@ -18,10 +19,12 @@ mod search;
 mod size;
 mod slider_crank;
 mod ticks;
+mod ways;
 
 pub use c_source::plan_c_source;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
+pub use cost::Core;
 pub use form::Form;
 pub use name::Name;
 pub use plan::plan_source;
@@ -31,8 +34,7 @@ pub use ticks::Ticks;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use jred::image::identify;
-use jred::machine::Mechanism as _;
-use jred::{Domain, Error, Machine, Phase};
+use jred::{Domain, Error, Machine, Phase, Reducible as _};
 
 use crate::model::by_motion::ByMotion;
 use crate::model::coordinate::Coordinate;
@@ -42,6 +44,7 @@ use crate::number::rounding::short;
 use fault::NotReached;
 use pieces::Searches;
 use search::Goal;
+use ways::BothWays;
 
 /// The request. At least one of torque error and bytes is given; bytes only without edges.
 #[derive(Clone, Debug)]
@@ -50,6 +53,8 @@ pub struct Task {
     pub number: Number,
     /// Layout.
     pub layout: LayoutChoice,
+    /// The core that the firmware runs on: of the layouts that meet the error, one with the fewest instructions there is taken.
+    pub core: Core,
     /// Whether the firmware asks for accelerations, too.
     pub forward: bool,
     /// Whether fixed-point tables get the curve of 1/J.
@@ -101,6 +106,8 @@ pub struct Export {
     machine: u32,
     /// Branches of the drive train, whose losses and friction no table contains.
     branches: Vec<String>,
+    /// Whether loads go by the direction of travel.
+    by_direction: bool,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
     /// Which of them was chosen.
@@ -131,7 +138,7 @@ impl<E: Into<Error>> From<E> for Failure {
 
 /// Refuses what goes by the motion.
 fn check_timeless(file: &MachineFile) -> Result<(), Failure> {
-    if let Some(ByMotion { what, cure }) = file.scheduled().next() {
+    if let Some(ByMotion { what, cure }) = file.not_by_direction().next() {
         return Err(Failure::Impossible {
             message: format!(
                 "{what}: that goes by [motion], and a table is over the position of the drive link alone"
@@ -157,7 +164,7 @@ impl Export {
     /// The same; `provable` leaves out what only `auto` would take and no proof is of.
     fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
         check_timeless(file)?;
-        let machine = task.whole_machine(file)?;
+        let machine = BothWays::new(file, &task)?;
         let coordinate = file.machine.mechanism().coordinate();
         let goal = Goal {
             torque_error: task.torque_error,
@@ -166,7 +173,7 @@ impl Export {
             max_bytes: task.max_bytes.map(|most| most as usize),
             reciprocal: task.reciprocal,
         };
-        let domain = machine.mechanism().domain();
+        let domain = machine.domain();
         let pieces = pieces::between(domain, &task.edges);
         if let Some([from, to]) = pieces
             .iter()
@@ -195,7 +202,7 @@ impl Export {
             });
         }
         // A closed form is of the whole turn.
-        let crank = slider_crank::plain(&machine);
+        let crank = slider_crank::plain(machine.same());
         if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
             return Err(why.failure(file));
         }
@@ -245,9 +252,15 @@ impl Export {
             branches: (file.drive_train.branches().iter())
                 .map(|branch| branch.name.clone())
                 .collect(),
+            by_direction: machine.same().is_none(),
             answers,
             chosen,
         })
+    }
+
+    /// The core that it was chosen for.
+    pub const fn core(&self) -> Core {
+        self.task.core
     }
 
     /// The table that was chosen.
@@ -284,8 +297,23 @@ pub fn identifier(title: &str) -> u32 {
     Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(title.as_bytes())
 }
 
-/// The fewest bytes that meet the error; without a required error, the least error. Of equal ones, the more accurate.
+/// The fastest that meets the error: of those that take up to a tenth more instructions than the fastest on the core, the fewest bytes. With a
+/// limit of bytes the fewest bytes; without a required error, the least error. Of equal ones, the more accurate.
 fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
+    let own = answers.iter().enumerate().filter_map(|(k, answer)| {
+        let (number, layout, Answer::Meets(candidate)) = answer else {
+            return None;
+        };
+        let asked = *number == task.number && task.layout.allows(*layout);
+        let cost = task.core.instructions(*number, *layout);
+        asked.then(|| (k, candidate, cost.unwrap_or(u32::MAX)))
+    });
+    let own: Vec<_> = own.collect();
+    let by_cost = task.torque_error.is_some() && task.max_bytes.is_none();
+    let fastest = own.iter().map(|(.., cost)| *cost).min()?;
+    let fast = own
+        .iter()
+        .filter(|(.., cost)| !by_cost || *cost <= cost::as_fast(fastest));
     let rank = |candidate: &Candidate| {
         let bytes = match task.torque_error {
             Some(_) => candidate.bytes(),
@@ -293,13 +321,7 @@ fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize
         };
         (bytes, candidate.error())
     };
-    let own = answers.iter().enumerate().filter_map(|(k, answer)| {
-        let (number, layout, Answer::Meets(candidate)) = answer else {
-            return None;
-        };
-        let asked = *number == task.number && task.layout.allows(*layout);
-        asked.then(|| (k, rank(candidate)))
-    });
-    own.min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
-        .map(|(k, _)| k)
+    fast.map(|(k, candidate, _)| (k, rank(candidate)))
+        .min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(k, _)| *k)
 }

@@ -12,7 +12,7 @@ use super::candidate::Answer;
 use super::choice::{LayoutName, Number, PLACES};
 use super::reference::Range;
 use super::search::{Goal, Search};
-use crate::model::mechanism::AnyMechanism;
+use super::ways::BothWays;
 
 /// Edges that are closer than this part of the range are one.
 const SAME: f64 = 1e-9;
@@ -53,7 +53,7 @@ pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
 
 /// The searches of all ranges of a machine: of the whole, or of each piece.
 pub(super) struct Searches<'m> {
-    pub(super) machine: &'m Machine<AnyMechanism>,
+    pub(super) machine: &'m BothWays,
     /// The same, if it has a closed form.
     pub(super) crank: Option<Machine<SliderCrank>>,
     pub(super) goal: Goal,
@@ -67,7 +67,7 @@ impl<'m> Searches<'m> {
     /// # Errors
     /// A machine that cannot be tabulated.
     pub(super) fn new(
-        machine: &'m Machine<AnyMechanism>,
+        machine: &'m BothWays,
         crank: Option<Machine<SliderCrank>>,
         pieces: &[[f64; 2]],
         goal: Goal,

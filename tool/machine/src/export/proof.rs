@@ -96,6 +96,15 @@ impl Export {
         file: &MachineFile,
         watch: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), Error> {
+        if self.by_direction {
+            let why = "loads go by the direction of travel, and the proof is of one machine";
+            if let Some((_, _, Answer::Meets(candidate))) = self.answers.get_mut(self.chosen) {
+                for made in &mut candidate.tables {
+                    made.proof = Some(Proven::Open(Unproven::Part(why.to_owned())));
+                }
+            }
+            return Ok(());
+        }
         let machine = self.task.whole_machine(file)?;
         let (number, layout) = self.kind();
         let range = [self.task.omega, self.task.alpha];

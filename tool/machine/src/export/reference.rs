@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 use jred::machine::PoseError;
 use jred::table::CurveValues;
 use jred::tabulate::{Part, Request, edge_places, torque_between};
-use jred::{Domain, Error, Machine, Phase, Reducible, Reduction};
+use jred::{Domain, Error, Phase, Reducible, Reduction};
 
-use crate::model::mechanism::AnyMechanism;
+use super::ways::BothWays;
 
 /// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
 /// cell.
@@ -19,9 +19,9 @@ const PLACES: u32 = 16_381;
 #[derive(Clone, Copy)]
 pub(super) enum Range<'m> {
     /// The machine's whole range.
-    Whole(&'m Machine<AnyMechanism>),
+    Whole(&'m BothWays),
     /// A piece of it.
-    Part(Part<'m, Machine<AnyMechanism>>),
+    Part(Part<'m, BothWays>),
 }
 
 impl Range<'_> {

@@ -128,7 +128,11 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(Answer::Meets(Box::new(candidate)));
         }
         let Some(candidate) = self.best(most)? else {
-            return Ok(Answer::Refused(self.why_refused()));
+            let why = self.why_refused();
+            return Ok(match self.finer(most)? {
+                Some(cells) => Answer::TooCoarse(why, cells),
+                None => Answer::Refused(why),
+            });
         };
         let candidate = Box::new(candidate);
         Ok(match goal.torque_error {
@@ -167,10 +171,26 @@ impl<'s, F: Format> Attempt<'s, F> {
         Some(fitting)
     }
 
-    /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond.
+    /// The least of growing sizes beyond `most` that gives a sound table.
+    fn finer(&mut self, most: u32) -> Result<Option<u32>, Error> {
+        for cells in tabulate::growing(MAX_CELLS).filter(|cells| *cells > most) {
+            if self.look(cells, f64::INFINITY)?.is_some() {
+                return Ok(Some(cells));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond. Where an error is missed, it
+    /// only says how far the layout comes: of the small sizes growing ones do, up to three quarters of the largest.
     fn best(&mut self, most: u32) -> Result<Option<Made>, Error> {
-        let all = (MIN_CELLS as u32..=most.min(EXHAUSTIVE)).rev();
-        let beyond = tabulate::growing(most).filter(|cells| *cells > EXHAUSTIVE);
+        let largest = most.min(EXHAUSTIVE);
+        let from = match self.search.goal.torque_error {
+            Some(_) => (largest / 4 * 3).max(MIN_CELLS as u32),
+            None => MIN_CELLS as u32,
+        };
+        let all = (from..=largest).rev();
+        let beyond = tabulate::growing(most).filter(|cells| *cells > largest || *cells < from);
         let mut sizes: Vec<(f64, u32)> = Vec::new();
         let mut least = f64::INFINITY;
         for cells in beyond.chain(all) {

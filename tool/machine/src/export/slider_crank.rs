@@ -30,6 +30,8 @@ pub(super) enum Not {
     Mechanism(&'static str),
     /// A part of the turn only.
     Stroke,
+    /// Loads that go by the direction of travel.
+    ByDirection,
     /// A curve over the position.
     Curve(String),
     /// A load or a spring.
@@ -37,7 +39,8 @@ pub(super) enum Not {
 }
 
 /// The slider-crank that a machine is, with nothing that the closed form cannot hold.
-pub(super) fn plain(machine: &Machine<AnyMechanism>) -> Result<Machine<SliderCrank>, Not> {
+pub(super) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<SliderCrank>, Not> {
+    let machine = machine.ok_or(Not::ByDirection)?;
     let any = machine.mechanism();
     if any.kind() == "slider-crank" && any.domain() != Domain::Turn {
         return Err(Not::Stroke);
@@ -82,6 +85,7 @@ impl Not {
                 "the crank has a stroke, and the closed form is of the whole turn".to_owned(),
                 table,
             ),
+            Self::ByDirection => ("loads go by the direction of travel".to_owned(), table),
             Self::Curve(name) => (format!("{name:?} is a curve over the position"), table),
             Self::Part(SliderCrankError::Window(k)) => (
                 format!("{} acts in a part of the turn", load(k)),

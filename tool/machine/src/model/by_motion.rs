@@ -31,6 +31,8 @@ enum Which {
     All,
     /// What goes by the time or by rest, not by the direction alone.
     Timed,
+    /// The same, and payloads by the direction.
+    ButLoadsByDirection,
 }
 
 impl MachineFile {
@@ -65,6 +67,11 @@ impl MachineFile {
     /// What the schedule says, item by item.
     pub fn scheduled(&self) -> impl Iterator<Item = ByMotion> {
         self.by_motion(Which::All)
+    }
+
+    /// The same without the loads that go by the direction of travel alone.
+    pub fn not_by_direction(&self) -> impl Iterator<Item = ByMotion> {
+        self.by_motion(Which::ButLoadsByDirection)
     }
 
     /// The carriages, such as `carriage "trolley" moves along beam by its own motion`.
@@ -132,7 +139,7 @@ impl MachineFile {
             })
         });
         let payloads = self.schedule.payloads().iter();
-        let payloads = payloads.filter(move |p| which == Which::All || p.when.spans.is_some());
+        let payloads = payloads.filter(move |p| which != Which::Timed || p.when.spans.is_some());
         let payloads = payloads.map(|payload| ByMotion {
             what: format!("payload \"{}\" {}", payload.name, payload.words),
             cure: format!("remove the payload, {FIXED}"),

@@ -16,6 +16,7 @@ pub fn alternatives(export: &Export) -> String {
         "cells".into(),
         "bytes\nof rows".into(),
         "bytes\nof image".into(),
+        format!("instructions\non {}", export.core()),
         format!("error\n[{effort}]"),
         format!("in ticks\n[{effort}]"),
         String::new(),
@@ -27,26 +28,29 @@ pub fn alternatives(export: &Export) -> String {
             number.name().to_owned(),
             layout.name().to_owned(),
         ];
+        let cost = export.core().instructions(*number, *layout);
+        let cost = cost.map_or_else(String::new, |cost| cost.to_string());
         match answer {
             Answer::Meets(c) | Answer::Misses(c) => {
                 row.extend([
                     c.cells().to_string(),
                     c.row_bytes().to_string(),
                     c.bytes().to_string(),
+                    cost,
                     short(c.error()),
                     short(c.ticks().torque),
                     answer.remark().to_owned(),
                 ]);
             }
-            Answer::Refused(_) | Answer::TooLarge(_) => {
-                row.extend(std::iter::repeat_n(String::new(), 5));
+            Answer::Refused(_) | Answer::TooCoarse(..) | Answer::TooLarge(_) => {
+                row.extend(std::iter::repeat_n(String::new(), 6));
                 row.push(answer.remark().to_owned());
             }
         }
         table.add_row(row);
     }
     for (k, column) in table.column_iter_mut().enumerate() {
-        if (3..8).contains(&k) {
+        if (3..9).contains(&k) {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
