@@ -24,6 +24,7 @@ pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
+pub mod ruled;
 mod slivers;
 mod slowed;
 pub mod sweep;

@@ -65,7 +65,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let mut files = Files::default();
     for (path, what, text) in [
         (&options.profile, "motion", trace.profile()),
-        (&options.cam, "cam table", trace.cam(rows)),
+        (&options.cam, "cam table", trace.cam(rows, options.master)),
     ] {
         if let Some(path) = path {
             files.add(path, text.as_bytes())?;
