@@ -32,6 +32,7 @@ pub mod tool_speed;
 pub mod track;
 pub mod winding;
 
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use jred::{Domain, Reducible as _};
@@ -51,7 +52,7 @@ pub use rms::Rms;
 pub use slowed::Slowing;
 use sweep::{Obstacle, Piece};
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
-use track::{Ends, Track};
+use track::{Ends, Survey, Track};
 
 /// Cells of the first try, and the most.
 const CELLS: [usize; 2] = [128, 131_072];
@@ -198,7 +199,7 @@ pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64,
     refine(file, actuator, task, f64::INFINITY).map(|found| found.time)
 }
 
-/// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
+/// The fastest motion without limits of rates, looked at between its nodes where `within` is finite.
 fn refine(
     file: &MachineFile,
     actuator: &Actuator,
@@ -207,104 +208,138 @@ fn refine(
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
-    let field = Field { way: &way, limits };
-    let length = (task.to - task.from).abs();
-    let [first, most] = CELLS;
-    let mut count = first.max(least_cells(&field, task.from, length)?);
-    let ends = Ends {
-        from: task.from,
-        length,
-        speeds: task.speeds,
-        corners: corners::corners(&field, task.from, length)?,
-    };
-    let z = ends.speeds.map(|v| 0.5 * v * v);
-    let mut before: Option<f64> = None;
-    let mut end: Option<f64> = None;
-    let mut settled = f64::INFINITY;
-    let mut finer: Vec<f64> = Vec::new();
-    for round in 0.. {
-        let track = Track::new(&field, &ends, count, &finer)?;
-        if let Some((phi, force)) = joint_force::without_motion(&track) {
-            return Err(NoMotion::of_force(file, phi, &force));
-        }
-        let may_go_on = track.cells.len() < most && round < ROUNDS;
-        let pieces = match sweep::fastest(&field, &track, z) {
-            Ok(pieces) => pieces,
-            Err(Obstacle::StartTooFast(most) | Obstacle::EndTooFast(most))
-                if count < ENOUGH
-                    && finer.is_empty()
-                    && may_go_on
-                    && end
-                        .replace(most)
-                        .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
-            {
-                // How fast an end may be is known as well as the cells show the machine.
-                count *= 2;
+    Course::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
+}
+
+/// A way with its limits, along which motions with other speeds at their ends are made.
+struct Course<'f, 'w, 'a> {
+    survey: Survey<'f, 'w, 'a>,
+    from: f64,
+    length: f64,
+    corners: Vec<f64>,
+    /// Cells with which the next motion is tried first: half of those with which the one before was settled.
+    first: Cell<usize>,
+}
+
+impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
+    /// The way of a task.
+    ///
+    /// # Errors
+    /// It is too long, or the mechanism cannot be placed somewhere.
+    fn new(field: &'f Field<'w, 'a>, task: &Task) -> Result<Self, NoMotion> {
+        let length = (task.to - task.from).abs();
+        let [first, _] = CELLS;
+        Ok(Self {
+            survey: Survey::new(field, task.from),
+            from: task.from,
+            length,
+            corners: corners::corners(field, task.from, length)?,
+            first: Cell::new(first.max(least_cells(field, task.from, length)?)),
+        })
+    }
+
+    /// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
+    fn fastest(&self, speeds: [f64; 2], within: f64) -> Result<Fastest, NoMotion> {
+        let field = self.survey.field;
+        let (way, limits, file) = (field.way, &field.limits, field.way.file);
+        let [_, most] = CELLS;
+        let mut count = self.first.get();
+        let ends = Ends {
+            from: self.from,
+            length: self.length,
+            speeds,
+            corners: self.corners.clone(),
+        };
+        let z = ends.speeds.map(|v| 0.5 * v * v);
+        let mut before: Option<f64> = None;
+        let mut end: Option<f64> = None;
+        let mut settled = f64::INFINITY;
+        let mut finer: Vec<f64> = Vec::new();
+        for round in 0.. {
+            let track = Track::new(&self.survey, &ends, count, &finer)?;
+            if let Some((phi, force)) = joint_force::without_motion(&track) {
+                return Err(NoMotion::of_force(file, phi, &force));
+            }
+            let may_go_on = track.cells.len() < most && round < ROUNDS;
+            let pieces = match sweep::fastest(field, &track, z) {
+                Ok(pieces) => pieces,
+                Err(Obstacle::StartTooFast(most) | Obstacle::EndTooFast(most))
+                    if count < ENOUGH
+                        && finer.is_empty()
+                        && may_go_on
+                        && end
+                            .replace(most)
+                            .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
+                {
+                    // How fast an end may be is known as well as the cells show the machine.
+                    count *= 2;
+                    continue;
+                }
+                Err(obstacle) => {
+                    let eased = match obstacle {
+                        Obstacle::Stops(..) => slowed::by(field, &ends, count)?,
+                        _ => None,
+                    };
+                    return Err(NoMotion::at(field, &track, obstacle, eased));
+                }
+            };
+            if let Err(closed) = between::check(field, &ends, &track, &pieces) {
+                // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
+                if !(limits.forces.is_some() && may_go_on) {
+                    return Err(closed.why);
+                }
+                if finer.is_empty() && count < ENOUGH {
+                    count *= 2;
+                } else {
+                    finer.extend(closed.places);
+                }
                 continue;
             }
-            Err(obstacle) => {
-                let eased = match obstacle {
-                    Obstacle::Stops(..) => slowed::by(&field, &ends, count)?,
-                    _ => None,
-                };
-                return Err(NoMotion::at(&field, &track, obstacle, eased));
+            let times = sweep::times(&track, &pieces);
+            let time: f64 = times.iter().sum();
+            if settled.is_infinite() {
+                let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
+                before = Some(time);
+                if change > SETTLED * time && may_go_on {
+                    count *= 2;
+                    continue;
+                }
+                settled = change;
+                self.first.set(self.first.get().max(count / 2));
             }
-        };
-        if let Err(closed) = between::check(&field, &ends, &track, &pieces) {
-            // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
-            if !(task.limits.forces.is_some() && may_go_on) {
-                return Err(closed.why);
-            }
-            if finer.is_empty() && count < ENOUGH {
-                count *= 2;
+            let (pieces, times) = slivers::without(&track, pieces, &times);
+            let trace = trace(way, &ends, &track, &pieces, &times);
+            let (worst, places) = if within.is_finite() {
+                between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?
             } else {
-                finer.extend(closed.places);
-            }
-            continue;
-        }
-        let times = sweep::times(&track, &pieces);
-        let time: f64 = times.iter().sum();
-        if settled.is_infinite() {
-            let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
-            before = Some(time);
-            if change > SETTLED * time && may_go_on {
-                count *= 2;
+                ((0.0, self.from), Vec::new())
+            };
+            if !places.is_empty() && may_go_on {
+                finer.extend(places);
                 continue;
             }
-            settled = change;
-        }
-        let (pieces, times) = slivers::without(&track, pieces, &times);
-        let trace = trace(&way, &ends, &track, &pieces, &times);
-        let (worst, places) = if within.is_finite() {
-            between::largest_excess(&field, &ends, (&track, &pieces), &trace, within)?
-        } else {
-            ((0.0, task.from), Vec::new())
-        };
-        if !places.is_empty() && may_go_on {
-            finer.extend(places);
-            continue;
-        }
-        let (excess, phi) = worst;
-        if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
-            return Err(NoMotion::NotAccurate {
+            let (excess, phi) = worst;
+            if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
+                return Err(NoMotion::NotAccurate {
+                    excess,
+                    phi,
+                    change: settled / time,
+                    endless: false,
+                    axis: file.axis(),
+                });
+            }
+            return Ok(Fastest {
+                time,
+                error: settled / 15.0,
+                phases: phases::phases(field, &ends, &track, &pieces, &times),
+                trace,
                 excess,
-                phi,
-                change: settled / time,
-                endless: false,
-                axis: file.axis(),
+                cells: track.cells.len(),
+                bound: None,
             });
         }
-        return Ok(Fastest {
-            time,
-            error: settled / 15.0,
-            phases: phases::phases(&field, &ends, &track, &pieces, &times),
-            trace,
-            excess,
-            cells: track.cells.len(),
-            bound: None,
-        });
+        Err(NoMotion::NoWay)
     }
-    Err(NoMotion::NoWay)
 }
 
 /// The way of a task, if it can be gone at all.

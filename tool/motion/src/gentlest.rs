@@ -281,7 +281,7 @@ fn from_end_to_end(
     let mut parts = FIRST;
     while parts < MOST && change > FINE {
         parts *= 2;
-        let Some(next) = solved.task.solve(moving, parts, Some(&solved))? else {
+        let Some(next) = solved.task.solve(moving, parts, Some(&solved.start()))? else {
             break;
         };
         if !next.follows(&solved) {

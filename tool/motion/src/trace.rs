@@ -227,9 +227,12 @@ impl Trace {
         let turn = master.turn();
         let speed = turn / self.duration();
         for (t, state) in self.rows(rows) {
-            let [position, first, second] =
-                [state.phi, state.omega / speed, state.alpha / (speed * speed)]
-                    .map(|value| self.coordinate.shown(value) + 0.0);
+            let [position, first, second] = [
+                state.phi,
+                state.omega / speed,
+                state.alpha / (speed * speed),
+            ]
+            .map(|value| self.coordinate.shown(value) + 0.0);
             let _ = writeln!(
                 text,
                 "{},{position},{first},{second}",

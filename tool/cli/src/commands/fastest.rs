@@ -129,7 +129,10 @@ pub fn fastest(options: &Options) -> Result<Done> {
         files.add(path, trace.profile().as_bytes())?;
     }
     if let Some(path) = &options.cam {
-        files.add(path, trace.cam(options.rows as usize, options.master).as_bytes())?;
+        files.add(
+            path,
+            trace.cam(options.rows as usize, options.master).as_bytes(),
+        )?;
     }
     let planned = plan::write(&options.plan, (&file, &cycle.trace), &mut files)?;
     let answer = list::fastest::Answer {

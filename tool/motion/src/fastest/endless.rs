@@ -7,7 +7,7 @@
 use jred_machine::model::machine::MachineFile;
 
 use super::field::Field;
-use super::{Fastest, NoMotion, SWEEP_EXCESS, Task, refine, way};
+use super::{Course, Fastest, NoMotion, SWEEP_EXCESS, Task, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
@@ -33,15 +33,13 @@ pub(super) fn solve(
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
-    let (top, _) = Field { way: &way, limits }.top();
+    let field = Field { way: &way, limits };
+    let (top, _) = field.top();
     if !top.is_finite() {
         return Err(NoMotion::NoSpeedLimit);
     }
-    let at = |speed: f64| Task {
-        speeds: [speed; 2],
-        endless: false,
-        ..*task
-    };
+    let course = Course::new(&field, task)?;
+    let at = |speed: f64, within: f64| course.fastest([speed; 2], within);
     // A speed at which it cannot come round, above the one sought, and one at which it does, or cannot go on.
     let (mut high, mut low) = (top, 0.0);
     let mut stopped = None;
@@ -54,7 +52,7 @@ pub(super) fn solve(
         } else {
             high.midpoint(low)
         };
-        match refine(file, actuator, &at(speed), f64::INFINITY) {
+        match at(speed, f64::INFINITY) {
             Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => {
                 high = most.min(speed);
                 // The next turn is the same but for rounding.
@@ -72,13 +70,13 @@ pub(super) fn solve(
     }
     // With finer cells it may come round a little more slowly.
     let mut speed = low;
-    let mut found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
+    let mut found = at(speed, SWEEP_EXCESS);
     for share in FINER {
         let Err(NoMotion::StartTooFast { .. } | NoMotion::EndTooFast { .. }) = found else {
             break;
         };
         speed = low * (1.0 - share);
-        found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
+        found = at(speed, SWEEP_EXCESS);
     }
     let found = found.map_err(|why| match why {
         NoMotion::NotAccurate {

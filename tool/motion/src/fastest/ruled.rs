@@ -170,7 +170,9 @@ impl<'a> Judge<'a> {
 
     /// The largest use of a limit that a cap keeps.
     fn used(&self, findings: &Findings, cap: Cap, heat: bool) -> f64 {
-        let own = findings.iter().filter(|(rule, _)| Cap::of(*rule, heat) == Some(cap));
+        let own = findings
+            .iter()
+            .filter(|(rule, _)| Cap::of(*rule, heat) == Some(cap));
         let used = own.map(|(rule, finding)| self.file.rules.use_of_limit(rule, finding));
         used.fold(0.0, f64::max) / ALLOWED
     }
@@ -269,7 +271,11 @@ impl<W> Search<'_, W> {
                 Some((own, _)) => between(*own, high),
                 None => high[0] / high[1],
             };
-            let next = if next > least { next } else { least.midpoint(high[0]) };
+            let next = if next > least {
+                next
+            } else {
+                least.midpoint(high[0])
+            };
             if !next.is_finite() || next <= 0.0 || high[0] - least <= NEAR * high[0] {
                 break;
             }

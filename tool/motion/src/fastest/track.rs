@@ -1,5 +1,7 @@
 //! The way cut into cells: the machine and the largest speed at three places of each.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use jred::Error;
@@ -138,32 +140,103 @@ impl Ends {
     }
 }
 
+/// The machine at a place, whatever the speed.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// The machine.
+    pub place: Place,
+    /// The largest speed of the drive link that the tool leaves.
+    pub tool: f64,
+    /// The forces in joints that are limited.
+    pub forces: Vec<JointForce>,
+}
+
+impl Seen {
+    /// At a position.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn new(field: &Field, phi: f64) -> Result<Self, Error> {
+        Ok(Self {
+            place: field.way.place(phi)?,
+            tool: field.tool_speed(phi)?,
+            forces: field.forces(phi)?,
+        })
+    }
+}
+
+/// The machine along a way: it is worked out once at a place, for all cells that meet there and for all motions.
+#[derive(Debug)]
+pub struct Survey<'f, 'w, 'a> {
+    /// Machine, drive and limits.
+    pub field: &'f Field<'w, 'a>,
+    /// Position of the start (rad, or m).
+    from: f64,
+    /// By the distance from the start.
+    seen: RefCell<HashMap<u64, Seen>>,
+    /// The largest z, by the place and the border of its cell.
+    caps: RefCell<HashMap<[u64; 2], f64>>,
+}
+
+impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
+    /// Of a way from a position on.
+    pub fn new(field: &'f Field<'w, 'a>, from: f64) -> Self {
+        Self {
+            field,
+            from,
+            seen: RefCell::default(),
+            caps: RefCell::default(),
+        }
+    }
+
+    /// The machine at a distance from the start.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn seen(&self, x: f64) -> Result<Seen, Error> {
+        if let Some(seen) = self.seen.borrow().get(&x.to_bits()) {
+            return Ok(seen.clone());
+        }
+        let seen = Seen::new(self.field, self.from + self.field.way.direction * x)?;
+        self.seen.borrow_mut().insert(x.to_bits(), seen.clone());
+        Ok(seen)
+    }
+
+    /// The same with the largest z; the place lies inside a cell whose border is `border`.
+    fn at(&self, x: f64, border: f64) -> Result<(Place, f64, Vec<JointForce>), Error> {
+        let Seen {
+            place,
+            mut tool,
+            forces,
+        } = self.seen(x)?;
+        let key = [x, border].map(f64::to_bits);
+        if let Some(cap) = self.caps.borrow().get(&key) {
+            return Ok((place, *cap, forces));
+        }
+        if (x - border).abs() > 0.0 {
+            // What goes on beyond the border has no step there.
+            let there = self.seen(border)?.tool;
+            if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
+                tool = there;
+            }
+        }
+        let top = 0.5 * self.field.top().0.powi(2);
+        let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
+        let spot = Spot::new(place, &alone, [1.0, 0.0, 0.0]);
+        let cap = ceiling(self.field, &spot, top).min(0.5 * tool.powi(2));
+        self.caps.borrow_mut().insert(key, cap);
+        Ok((place, cap, forces))
+    }
+}
+
 impl Track {
     /// About `count` cells, finer towards an end at rest, which also meet at the distances `finer`; none across a corner of the machine.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere on the way.
-    pub fn new(field: &Field, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
+    pub fn new(survey: &Survey, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
         let (nodes, is_edge) = nodes(ends, count, finer);
-        let direction = field.way.direction;
-        let top = 0.5 * field.top().0.powi(2);
-        // `x` lies inside a cell whose border is `border`.
-        let at = |x: f64, border: f64| {
-            let place = field.way.place(ends.from + direction * x)?;
-            let mut tool = field.tool_speed(place.phi)?;
-            if (x - border).abs() > 0.0 {
-                // What goes on beyond the border has no step there.
-                let there = field.tool_speed(ends.from + direction * border)?;
-                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
-                    tool = there;
-                }
-            }
-            let tool = 0.5 * tool.powi(2);
-            let forces = field.forces(place.phi)?;
-            let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
-            let cap = ceiling(field, &Spot::new(place, &alone, [1.0, 0.0, 0.0]), top);
-            Ok::<_, Error>((place, cap.min(tool), forces))
-        };
+        let at = |x: f64, border: f64| survey.at(x, border);
         let mut end_before = None;
         let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
         for (k, pair) in nodes.windows(2).enumerate() {

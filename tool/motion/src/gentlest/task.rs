@@ -110,6 +110,27 @@ pub(super) struct Solved<'t> {
     pub(super) found: Minimum,
 }
 
+/// A solution of the same time or another, on another mesh, with which a search begins.
+#[derive(Clone)]
+pub(super) struct Start {
+    moving: f64,
+    scale: Scale,
+    mesh: Mesh,
+    x: Vec<f64>,
+}
+
+impl Solved<'_> {
+    /// It as the start of another search.
+    pub(super) fn start(&self) -> Start {
+        Start {
+            moving: self.moving,
+            scale: self.scale,
+            mesh: self.mesh.clone(),
+            x: self.found.x.clone(),
+        }
+    }
+}
+
 impl Task<'_> {
     /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted. Infinite at an
     /// end that moves: there it cannot wait.
@@ -160,7 +181,7 @@ impl Task<'_> {
             if high - found.moving <= CLOSE * high {
                 break;
             }
-            if let Some(solved) = self.solve(next, FIRST, Some(&found))?.filter(is_short) {
+            if let Some(solved) = self.solve(next, FIRST, Some(&found.start()))?.filter(is_short) {
                 found = solved;
             } else {
                 (high, is_bracketed) = (next, true);
@@ -220,7 +241,7 @@ impl Task<'_> {
         &'t self,
         moving: f64,
         parts: usize,
-        from: Option<&Solved>,
+        from: Option<&Start>,
     ) -> Result<Option<Solved<'t>>, Fault> {
         let travel = Travel {
             duration: moving,
@@ -236,7 +257,7 @@ impl Task<'_> {
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
         let mut kept = from
-            .and_then(|from| at(&goal, &refined(&from.mesh, &from.found.x, &mesh)))
+            .and_then(|from| at(&goal, &refined(&from.mesh, &from.x, &mesh)))
             .filter(|found| found.converged)
             .map(|found| (goal, found));
         // Of the peak any motion will do that is better than an even one, though the search did not come to its end.

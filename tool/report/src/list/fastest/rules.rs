@@ -14,7 +14,11 @@ impl Answer<'_> {
     pub(super) fn rules(&self, judged: &Judged, text: &mut String) {
         let kept: Vec<String> = judged
             .kept()
-            .map(|check| format!("{} {}", check.rule, check.used()).trim_end().to_owned())
+            .map(|check| {
+                format!("{} {}", check.rule, check.used())
+                    .trim_end()
+                    .to_owned()
+            })
             .collect();
         line(text, "rules kept", &kept.join(", "));
         let caps: Vec<String> = (judged.caps.iter())
@@ -24,7 +28,11 @@ impl Answer<'_> {
             line(text, "for them", &caps.join(", "));
         }
         for check in judged.violated() {
-            let says = format!("{}: `jred size` refuses the motion{}", check.sentence(), cure(judged, check));
+            let says = format!(
+                "{}: `jred size` refuses the motion{}",
+                check.sentence(),
+                cure(judged, check)
+            );
             line(text, "not kept", &says);
         }
     }
