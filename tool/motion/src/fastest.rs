@@ -67,6 +67,11 @@ const SWEEP_EXCESS: f64 = 1e-9;
 /// Rounds of finer cells.
 const ROUNDS: u32 = 24;
 
+/// Rounds in a row in which what is exceeded most does not fall below this share of the least so far: it is rounding of the machine's terms, of which finer
+/// cells have as much.
+const IDLE: u32 = 3;
+const FALLS: f64 = 0.5;
+
 /// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
 /// less accurate is none.
 const MOST_EXCESS: f64 = 1e-6;
@@ -119,7 +124,7 @@ pub struct Fastest {
 /// There is none, or none can be computed: where, and what is missing.
 pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fastest, NoMotion> {
     if task.endless {
-        return endless::solve(file, actuator, task);
+        return endless::solve(file, actuator, task, SWEEP_EXCESS);
     }
     if task.limits.has_rates() {
         return priced(file, actuator, task, Price::TIME, Start::Nothing).map(|(found, _)| found);
@@ -193,10 +198,15 @@ fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
 /// # Errors
 /// Those of [`solve`].
 pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64, NoMotion> {
-    if task.endless || task.limits.has_rates() {
-        return solve(file, actuator, task).map(|found| found.time);
-    }
-    refine(file, actuator, task, f64::INFINITY).map(|found| found.time)
+    let alone = f64::INFINITY;
+    let found = if task.endless {
+        endless::solve(file, actuator, task, alone)
+    } else if task.limits.has_rates() {
+        solve(file, actuator, task)
+    } else {
+        refine(file, actuator, task, alone)
+    };
+    found.map(|found| found.time)
 }
 
 /// The fastest motion without limits of rates, looked at between its nodes where `within` is finite.
@@ -255,6 +265,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
         let mut end: Option<f64> = None;
         let mut settled = f64::INFINITY;
         let mut finer: Vec<f64> = Vec::new();
+        let (mut lowest, mut idle) = (f64::INFINITY, 0);
         for round in 0.. {
             let track = Track::new(&self.survey, &ends, count, &finer)?;
             if let Some((phi, force)) = joint_force::without_motion(&track) {
@@ -314,7 +325,13 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
             } else {
                 ((0.0, self.from), Vec::new())
             };
-            if !places.is_empty() && may_go_on {
+            let falls = worst.0 < FALLS * lowest;
+            if falls {
+                (lowest, idle) = (worst.0, 0);
+            } else {
+                idle += 1;
+            }
+            if !places.is_empty() && may_go_on && idle < IDLE {
                 finer.extend(places);
                 continue;
             }

@@ -7,7 +7,7 @@
 use jred_machine::model::machine::MachineFile;
 
 use super::field::Field;
-use super::{Course, Fastest, NoMotion, SWEEP_EXCESS, Task, way};
+use super::{Course, Fastest, NoMotion, Task, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
@@ -22,7 +22,7 @@ const SAME: f64 = 1e-10;
 /// Shares of the speed by which finer cells may make the turn slower.
 const FINER: [f64; 4] = [1e-10, 1e-9, 1e-8, 1e-7];
 
-/// The fastest motion of a task whose end is its start.
+/// The fastest motion of a task whose end is its start, looked at between its nodes where `within` is finite.
 ///
 /// # Errors
 /// There is none: nothing limits its speed, or it comes to rest; see [`NoMotion`].
@@ -30,6 +30,7 @@ pub(super) fn solve(
     file: &MachineFile,
     actuator: &Actuator,
     task: &Task,
+    within: f64,
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
@@ -70,13 +71,13 @@ pub(super) fn solve(
     }
     // With finer cells it may come round a little more slowly.
     let mut speed = low;
-    let mut found = at(speed, SWEEP_EXCESS);
+    let mut found = at(speed, within);
     for share in FINER {
         let Err(NoMotion::StartTooFast { .. } | NoMotion::EndTooFast { .. }) = found else {
             break;
         };
         speed = low * (1.0 - share);
-        found = at(speed, SWEEP_EXCESS);
+        found = at(speed, within);
     }
     let found = found.map_err(|why| match why {
         NoMotion::NotAccurate {

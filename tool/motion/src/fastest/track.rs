@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::hash::{BuildHasherDefault, Hasher};
 
 use jred::Error;
 
@@ -165,6 +166,30 @@ impl Seen {
     }
 }
 
+/// Spreads the bits of places over a table: theirs differ in the middle of the word, and nobody chooses them to collide.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spreader(u64);
+
+type Spread = BuildHasherDefault<Spreader>;
+
+impl Hasher for Spreader {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.write_u64(u64::from(*byte));
+        }
+    }
+
+    fn write_u64(&mut self, bits: u64) {
+        // 2⁶⁴ over the golden ratio; the upper half depends on all bits.
+        let product = (self.0 ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = product ^ product >> 32;
+    }
+}
+
 /// The machine along a way: it is worked out once at a place, for all cells that meet there and for all motions.
 #[derive(Debug)]
 pub struct Survey<'f, 'w, 'a> {
@@ -173,9 +198,9 @@ pub struct Survey<'f, 'w, 'a> {
     /// Position of the start (rad, or m).
     from: f64,
     /// By the distance from the start.
-    seen: RefCell<HashMap<u64, Seen>>,
+    seen: RefCell<HashMap<u64, Seen, Spread>>,
     /// The largest z, by the place and the border of its cell.
-    caps: RefCell<HashMap<[u64; 2], f64>>,
+    caps: RefCell<HashMap<(u64, u64), f64, Spread>>,
 }
 
 impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
@@ -209,7 +234,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
             mut tool,
             forces,
         } = self.seen(x)?;
-        let key = [x, border].map(f64::to_bits);
+        let key = (x.to_bits(), border.to_bits());
         if let Some(cap) = self.caps.borrow().get(&key) {
             return Ok((place, *cap, forces));
         }

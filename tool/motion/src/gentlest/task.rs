@@ -181,7 +181,10 @@ impl Task<'_> {
             if high - found.moving <= CLOSE * high {
                 break;
             }
-            if let Some(solved) = self.solve(next, FIRST, Some(&found.start()))?.filter(is_short) {
+            if let Some(solved) = self
+                .solve(next, FIRST, Some(&found.start()))?
+                .filter(is_short)
+            {
                 found = solved;
             } else {
                 (high, is_bracketed) = (next, true);
