@@ -368,7 +368,7 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     }
     let torques = actuator.torques(0.0);
     if !torques.iter().all(|torque| torque.is_finite()) {
-        return Err(NoMotion::NoTorqueLimit);
+        return Err(NoMotion::NoTorqueLimit(obstacle::input(file)));
     }
     let [_, _, back, ..] = actuator.coefficients.0;
     if back < 0.0 {

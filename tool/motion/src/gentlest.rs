@@ -17,6 +17,8 @@
 //! - [`scale`](self): the unit of its numbers, and its largest load;
 //! - [`outcome`](self): cost, optimum and motion of what was found.
 
+use std::rc::Rc;
+
 use jred::Error;
 use jred_machine::model::motion::Phase;
 
@@ -251,6 +253,7 @@ fn from_end_to_end(
         objective,
         edges: edges(way, travel),
         ramps: [travel.ramp; 2],
+        places: Rc::default(),
     };
     let task = task.fitted(travel.duration)?;
     let rests = travel.ends().rest.contains(&true);

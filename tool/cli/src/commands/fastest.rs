@@ -134,7 +134,12 @@ pub fn fastest(options: &Options) -> Result<Done> {
             trace.cam(options.rows as usize, options.master).as_bytes(),
         )?;
     }
-    let planned = plan::write(&options.plan, (&file, &cycle.trace), &mut files)?;
+    let planned = plan::write(
+        &options.plan,
+        (&file, &cycle.trace),
+        (actuator, chosen.limits.gearbox_torque),
+        &mut files,
+    )?;
     let answer = list::fastest::Answer {
         file: &file,
         drive: &chosen.name,

@@ -25,7 +25,7 @@ jred_machine::words! {
 /// `jred retime`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 done; 1 the motion needs more torque or speed than the drive has; 2 bad input."
+    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` for the --drive, or loses a contact; 2 bad input."
 )]
 pub struct Retime {
     /// Machine file.

@@ -60,6 +60,18 @@ pub fn shown(x: f64, largest: f64) -> String {
     short(cleared(x, largest))
 }
 
+/// Share of the terms of a sum below which what is left of them is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A sum, 0 if it is only the rounding of terms as large as `terms`.
+pub fn of_terms(sum: f64, terms: f64) -> f64 {
+    if sum.abs() <= ROUNDING * terms.abs() {
+        0.0
+    } else {
+        sum
+    }
+}
+
 /// A share in per cent with one decimal, never −0.0.
 pub fn percent(share: f64) -> String {
     format!("{:.1} %", (share * 1e3).round() / 10.0 + 0.0)

@@ -209,6 +209,7 @@ impl Asked<'_> {
             phi,
             missed,
             rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
+            unit: input(self.field.way.file),
             axis: self.field.way.file.axis(),
         }
     }

@@ -1,14 +1,12 @@
 //! The way cut into cells: the machine and the largest speed at three places of each.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::hash::{BuildHasherDefault, Hasher};
 
 use jred::Error;
 
 use super::field::Field;
 use super::joint_force::{JointForce, Spot};
+use crate::memo::Memo;
 use crate::way::Place;
 
 /// Factor of z from one look to the next where nothing limits the speed, and the most of them.
@@ -166,30 +164,6 @@ impl Seen {
     }
 }
 
-/// Spreads the bits of places over a table: theirs differ in the middle of the word, and nobody chooses them to collide.
-#[derive(Clone, Copy, Debug, Default)]
-struct Spreader(u64);
-
-type Spread = BuildHasherDefault<Spreader>;
-
-impl Hasher for Spreader {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.write_u64(u64::from(*byte));
-        }
-    }
-
-    fn write_u64(&mut self, bits: u64) {
-        // 2⁶⁴ over the golden ratio; the upper half depends on all bits.
-        let product = (self.0 ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = product ^ product >> 32;
-    }
-}
-
 /// The machine along a way: it is worked out once at a place, for all cells that meet there and for all motions.
 #[derive(Debug)]
 pub struct Survey<'f, 'w, 'a> {
@@ -198,9 +172,9 @@ pub struct Survey<'f, 'w, 'a> {
     /// Position of the start (rad, or m).
     from: f64,
     /// By the distance from the start.
-    seen: RefCell<HashMap<u64, Seen, Spread>>,
+    seen: Memo<u64, Seen>,
     /// The largest z, by the place and the border of its cell.
-    caps: RefCell<HashMap<(u64, u64), f64, Spread>>,
+    caps: Memo<[u64; 2], f64>,
 }
 
 impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
@@ -209,8 +183,8 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
         Self {
             field,
             from,
-            seen: RefCell::default(),
-            caps: RefCell::default(),
+            seen: Memo::default(),
+            caps: Memo::default(),
         }
     }
 
@@ -219,12 +193,9 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn seen(&self, x: f64) -> Result<Seen, Error> {
-        if let Some(seen) = self.seen.borrow().get(&x.to_bits()) {
-            return Ok(seen.clone());
-        }
-        let seen = Seen::new(self.field, self.from + self.field.way.direction * x)?;
-        self.seen.borrow_mut().insert(x.to_bits(), seen.clone());
-        Ok(seen)
+        let position = self.from + self.field.way.direction * x;
+        self.seen
+            .of(x.to_bits(), || Seen::new(self.field, position))
     }
 
     /// The same with the largest z; the place lies inside a cell whose border is `border`.
@@ -234,22 +205,19 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
             mut tool,
             forces,
         } = self.seen(x)?;
-        let key = (x.to_bits(), border.to_bits());
-        if let Some(cap) = self.caps.borrow().get(&key) {
-            return Ok((place, *cap, forces));
-        }
-        if (x - border).abs() > 0.0 {
-            // What goes on beyond the border has no step there.
-            let there = self.seen(border)?.tool;
-            if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
-                tool = there;
+        let cap = self.caps.of([x, border].map(f64::to_bits), || {
+            if (x - border).abs() > 0.0 {
+                // What goes on beyond the border has no step there.
+                let there = self.seen(border)?.tool;
+                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
+                    tool = there;
+                }
             }
-        }
-        let top = 0.5 * self.field.top().0.powi(2);
-        let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
-        let spot = Spot::new(place, &alone, [1.0, 0.0, 0.0]);
-        let cap = ceiling(self.field, &spot, top).min(0.5 * tool.powi(2));
-        self.caps.borrow_mut().insert(key, cap);
+            let top = 0.5 * self.field.top().0.powi(2);
+            let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
+            let spot = Spot::new(place, &alone, [1.0, 0.0, 0.0]);
+            Ok::<_, Error>(ceiling(self.field, &spot, top).min(0.5 * tool.powi(2)))
+        })?;
         Ok((place, cap, forces))
     }
 }

@@ -1,5 +1,7 @@
 //! A move solved on one mesh after another, in numbers of its own.
 
+use std::rc::Rc;
+
 use jred::{Domain, Reducible as _};
 
 use super::cost::Cost;
@@ -7,7 +9,8 @@ use super::mesh::Mesh;
 use super::scale::Scale;
 use super::solve::{self, Minimum, Problem};
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
-use crate::way::Way;
+use crate::memo::Memo;
+use crate::way::{Place, Way};
 
 /// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
 const LONGEST: u32 = 60;
@@ -82,6 +85,8 @@ pub(super) struct Task<'a> {
     pub(super) edges: Vec<f64>,
     /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it begins and ends with a jump.
     pub(super) ramps: [f64; 2],
+    /// The machine where it was needed before: in another time the places are the same.
+    pub(super) places: Rc<Memo<u64, Place>>,
 }
 
 /// One of the problems that are solved one after another, the last of which is meant.
@@ -158,7 +163,9 @@ impl Task<'_> {
         let mut shorts = 0;
         for _ in 0..LONGEST {
             time *= STEP;
-            let solved = self.solve(time, FIRST, None)?;
+            // A short one is no crawling one.
+            let start = last.as_ref().map(Solved::start);
+            let solved = self.solve(time, FIRST, start.as_ref())?;
             let short = solved.filter(is_short);
             shorts = if short.is_some() { shorts + 1 } else { 0 };
             last = short.or(last);
@@ -250,7 +257,8 @@ impl Task<'_> {
             duration: moving,
             ..*self.travel
         };
-        let mesh = Mesh::new(self.way, &travel, self.ramps, (&self.edges, parts))?;
+        let place = |phi: f64| self.places.of(phi.to_bits(), || self.way.place(phi));
+        let mesh = Mesh::new(place, &travel, self.ramps, (&self.edges, parts))?;
         // All meshes for one time count in the same numbers: their costs are compared.
         let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
         let scale = match same {
