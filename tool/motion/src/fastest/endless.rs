@@ -6,8 +6,9 @@
 
 use jred_machine::model::machine::MachineFile;
 
+use super::course::Course;
 use super::field::Field;
-use super::{Course, Fastest, NoMotion, Task, way};
+use super::{Fastest, NoMotion, Task, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 

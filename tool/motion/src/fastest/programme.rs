@@ -183,7 +183,7 @@ impl Asked<'_> {
                 widen(&mut warm.margins, &each, 2 * round > WIDENED);
             }
         }
-        if worst.excess > super::MOST_EXCESS {
+        if worst.excess > super::course::MOST_EXCESS {
             return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
         let time = trace.duration();
