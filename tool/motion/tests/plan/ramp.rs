@@ -76,7 +76,7 @@ fn used(file: &MachineFile, [rest, top, end]: [f64; 3], trace: &Trace, ramp: f64
 /// The least ramp keeps the torque everywhere, one that is a hundredth shorter does not.
 #[test]
 fn the_least_ramp_is_the_least() {
-    let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n[[load]]\nname = \"seal\"\non = \"table\"\nopposing_moment = \"2 N m\"\nviscous_moment = \"0.2 N m s/rad\"\n";
+    let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n[[load]]\nname = \"seal\"\non = \"table\"\nopposing_moment = \"2 N m\"\n[[load]]\nname = \"oil\"\non = \"table\"\nviscous_moment = \"0.2 N m s/rad\"\n";
     let table = read::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
     let mut inside = false;
     let press: Vec<String> = press_text()
