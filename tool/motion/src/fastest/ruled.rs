@@ -193,7 +193,7 @@ impl Judged {
     /// The rules that were sought and are kept.
     pub fn kept(&self) -> impl Iterator<Item = &Check> {
         let sought = |check: &&Check| self.sought.contains(&check.id);
-        let held = |check: &&Check| matches!(check.verdict, Verdict::Pass | Verdict::Warn);
+        let held = |check: &&Check| check.verdict == Verdict::Pass;
         self.checks.iter().filter(sought).filter(held)
     }
 
