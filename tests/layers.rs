@@ -179,6 +179,7 @@ const TOOL: [(&str, &[&str]); 6] = [
     (
         "motion",
         &[
+            "memo",
             "skyline",
             "balance",
             "way",

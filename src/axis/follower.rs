@@ -82,7 +82,7 @@ pub struct Planned<N: Number> {
 ///
 /// The rate goes to the commanded one in a straight line, so that the speed has no steps; the acceleration has that of the ramp. At a constant rate r the torque
 /// of a machine without viscous friction lies between those of the plan and of standstill, where the load is that of the position alone. A change of the rate takes J·ω·dr/dt more: a drive that
-/// the plan uses fully has that only where the rate falls while the plan drives, or rises while it brakes.
+/// the plan uses fully has that only where the rate falls while the plan drives, or rises while it brakes. [`Plan::least_ramp`] is the shortest ramp for which the drive has it everywhere.
 ///
 /// Accuracy: the period counts as a whole number of 2⁻⁴⁰ s, which one of 8 µs and more in single precision is, and no fraction of the plan's time is lost from tick to tick
 /// (test `a_follower_is_on_time`). The rate is summed up in units of 2⁻⁵⁶ and used in units of 2⁻³¹: a change of the rate takes its time to a tick and 2⁻²² of it, however
@@ -119,8 +119,8 @@ impl<'a, N: Number> Follower<'a, N> {
     /// At the start of a plan, with a tick of `period` seconds; `ramp` is the time (s) that the rate takes from 0 to 100 %. The plan must be for the same model.
     ///
     /// # Errors
-    /// A period less than a microsecond, of a quarter of a second or more, or as long as the plan or longer; a ramp that is negative, not finite or longer than 1000 s; one whose acceleration is
-    /// beyond what single precision, or in fixed point a factor, holds.
+    /// A period less than a microsecond, of a quarter of a second or more, or as long as the plan or longer; a ramp that is negative, not finite or longer than 1000 s, or shorter than the
+    /// plan's own [`least_ramp`](Plan::least_ramp), if that is finite; one whose acceleration is beyond what single precision, or in fixed point a factor, holds.
     pub fn new(
         plan: Plan<'a, N>,
         period: f32,
@@ -133,6 +133,10 @@ impl<'a, N: Number> Follower<'a, N> {
         within("the period", period, (1e-6..most).contains(&period), range)?;
         let holds = (0.0..=1000.0).contains(&ramp);
         within("the ramp of the rate", ramp, holds, "from 0 to 1000")?;
+        let least = plan.least_ramp();
+        let keeps = ramp >= least || least.is_infinite();
+        let range = "at least the shortest ramp with which the plan keeps the torque of its drive (Plan::least_ramp)";
+        within("the ramp of the rate", ramp, keeps, range)?;
         // Of no ramp all at once.
         let change = ((period / ramp).min(1.0) * WHOLE) as u64;
         let bits = 64 - change.leading_zeros().cast_signed();

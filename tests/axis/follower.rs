@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::plan::{Knot, Place, PlanError};
+use jred::axis::plan::{Knot, Place, PlanError, with_ramp};
 use jred::axis::{Follower, Plan, Rate, Stage};
 use jred::number::{Number, Quantity as _};
 use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
@@ -150,6 +150,34 @@ fn a_closed_plan_is_repeated() {
             Err(PlanError::Axis(_))
         ));
     }
+}
+
+/// A plan that states its shortest ramp is followed with no shorter one; one for which the drive leaves none at any ramp, or is not known, with any.
+#[test]
+fn a_ramp_that_is_too_short_is_refused() {
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let mut words = image(&trapezoid(), Domain::Turn);
+    assert_eq!(Plan::new(&words, &model).unwrap().least_ramp(), 0.0);
+    for (least, ramp, follows) in [
+        (0.2_f32, 0.2_f32, true),
+        (0.2, 0.199_99, false),
+        (0.2, 0.0, false),
+        (0.0, 0.0, true),
+        (f32::INFINITY, 0.1, true),
+    ] {
+        with_ramp(&mut words, least).unwrap();
+        let plan = Plan::new(&words, &model).unwrap();
+        assert_eq!(plan.least_ramp().to_bits(), least.to_bits());
+        let made = Follower::new(plan, 0.001, ramp, &model);
+        assert_eq!(made.is_ok(), follows, "{least} {ramp}");
+        if let Err(error) = made {
+            assert!(error.to_string().contains("the shortest ramp"), "{error}");
+        }
+    }
+    for wrong in [-1.0, f32::NAN] {
+        assert!(with_ramp(&mut words, wrong).is_err());
+    }
+    assert!(with_ramp(&mut [1; 40], 0.1).is_err());
 }
 
 /// A ramp of minutes at ticks of microseconds, of which each changes the rate by less than a 2²⁵th, is neither faster nor slower than it is asked for: its speed, its acceleration

@@ -26,6 +26,29 @@ pub const fn image_len(knots: usize) -> usize {
     HEADER_WORDS + knots * ROW_WORDS + 1
 }
 
+/// Writes into the image of a plan the shortest ramp of the rate (s) with which it keeps the torque of its drive: 0 if that is not known, infinite if no ramp does.
+///
+/// # Errors
+/// No image of a plan; a ramp that is negative or NaN.
+pub fn with_ramp(image: &mut [u32], ramp: f32) -> Result<(), PlanError> {
+    if image.len() < image_len(2) || image.first() != Some(&MAGIC) {
+        return Err(PlanError::NotAPlan(
+            image.first().copied().unwrap_or_default(),
+        ));
+    }
+    if !(0.0..=f32::INFINITY).contains(&ramp) {
+        return Err(PlanError::Image(ImageError::Header(RAMP as u8)));
+    }
+    if let Some(word) = image.get_mut(RAMP) {
+        *word = ramp.to_bits();
+    }
+    seal(image);
+    Ok(())
+}
+
+/// Word of the ramp.
+const RAMP: usize = 13;
+
 /// 2³²
 const RANGE: f64 = 4_294_967_296.0;
 

@@ -35,6 +35,8 @@ pub(super) struct Header {
     /// Greatest speed and acceleration (SI).
     pub(super) most: [f32; 2],
     pub(super) errors: Errors,
+    /// The shortest ramp of the rate (s).
+    pub(super) ramp: f32,
     /// When it ends.
     pub(super) last: u32,
     /// The first step of a bisection of the rows.
@@ -70,6 +72,7 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
         in_position,
         in_speed,
         in_acceleration,
+        ramp,
         reserved @ ..,
     ] = header;
     if (version >> 16) as usize != HEADER_WORDS {
@@ -96,8 +99,12 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
     if !figures.iter().all(|x| x.is_finite() && *x >= 0.0) {
         return Err(refused(8));
     }
-    if reserved != [0; 3] {
+    let ramp = f32::from_bits(ramp);
+    if !(0.0..=f32::INFINITY).contains(&ramp) {
         return Err(refused(13));
+    }
+    if reserved != [0; 2] {
+        return Err(refused(14));
     }
     let rows: &[Words] = bytemuck::try_cast_slice(rows).map_err(|_| refused(4))?;
     if rows.len() != count as usize || !(2..=MOST_ROWS).contains(&rows.len()) {
@@ -120,6 +127,7 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
             speed: in_speed,
             acceleration: in_acceleration,
         },
+        ramp,
         last,
         half: rows.len().next_power_of_two() / 2,
     };

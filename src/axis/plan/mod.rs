@@ -11,7 +11,7 @@ mod row;
 
 use core::marker::PhantomData;
 
-pub use encode::{Knot, encode, image_len};
+pub use encode::{Knot, encode, image_len, with_ramp};
 pub use error::PlanError;
 pub use image::{HEADER_WORDS, VERSION};
 
@@ -185,6 +185,13 @@ impl<'a, N: Number> Plan<'a, N> {
                 expected: machine,
             }))
         }
+    }
+
+    /// The shortest ramp of the rate (s), from 0 to 100 %, with which the plan keeps the torque of its drive at every place and rate; 0 if its writer did not know the
+    /// drive. Infinite: it uses all of that torque, and no change of the rate keeps it.
+    #[must_use]
+    pub const fn least_ramp(&self) -> f32 {
+        self.header.ramp
     }
 
     /// The identifier of the machine; 0 if it has none.

@@ -8,7 +8,7 @@ use jred_machine::read;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::sweep;
-use jred_motion::fastest::track::{Ends, Track};
+use jred_motion::fastest::track::{Ends, Survey, Track};
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
@@ -35,7 +35,8 @@ fn main() {
         corners: Vec::new(),
     };
     for count in [100, 1_000, 10_000, 100_000, 1_000_000] {
-        let track = Track::new(&field, &ends, count, &[]).expect("the press turns");
+        let track = Track::new(&Survey::new(&field, ends.from), &ends, count, &[])
+            .expect("the press turns");
         let mut best = Duration::MAX;
         for _ in 0..(2_000_000 / count).clamp(3, 500) {
             let begin = Instant::now();

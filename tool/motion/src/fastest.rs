@@ -10,6 +10,7 @@
 mod between;
 pub mod corners;
 mod costs;
+mod course;
 pub mod cycle;
 mod endless;
 pub mod field;
@@ -24,6 +25,7 @@ pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
+pub mod ruled;
 mod slivers;
 mod slowed;
 pub mod sweep;
@@ -36,42 +38,20 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use jred::{Domain, Reducible as _};
 use jred_machine::model::machine::MachineFile;
 
-use crate::trace::{Node, Trace};
+use crate::trace::Trace;
 use crate::way::{Actuator, Way};
+use course::{CELLS, Course, SWEEP_EXCESS};
+use field::Field;
 pub use field::{Binding, Limits, Reserve};
-use field::{Field, speed};
 pub use joint_force::JointForces;
 pub use kept::KeptPart;
-use leg::Step;
 pub use obstacle::NoMotion;
 pub use phases::Phase;
 pub use programme::{Price, Start, Warm};
 pub use rms::Rms;
 pub use slowed::Slowing;
-use sweep::{Obstacle, Piece};
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
-use track::{Ends, Track};
-
-/// Cells of the first try, and the most.
-const CELLS: [usize; 2] = [128, 131_072];
-
-/// Change of the time from one number of cells to twice as many, as a share, at which it is taken: with a method of order 4 a fifteenth
-/// of it is left.
-const SETTLED: f64 = 1e-9;
-
-/// Share by which a torque, speed or acceleration may exceed its limit between the nodes of the motion.
-const SWEEP_EXCESS: f64 = 1e-9;
-
-/// Rounds of finer cells.
-const ROUNDS: u32 = 24;
-
-/// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
-/// less accurate is none.
-const MOST_EXCESS: f64 = 1e-6;
-const MOST_CHANGE: f64 = 1e-6;
-
-/// Cells with which limits that contradict each other are taken as such.
-const ENOUGH: usize = 4096;
+use track::Ends;
 
 /// Cells in a turn of a machine that changes within it, about the middle of the way where they are longest.
 const PER_TURN: f64 = 16.0;
@@ -117,7 +97,7 @@ pub struct Fastest {
 /// There is none, or none can be computed: where, and what is missing.
 pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fastest, NoMotion> {
     if task.endless {
-        return endless::solve(file, actuator, task);
+        return endless::solve(file, actuator, task, SWEEP_EXCESS);
     }
     if task.limits.has_rates() {
         return priced(file, actuator, task, Price::TIME, Start::Nothing).map(|(found, _)| found);
@@ -191,13 +171,18 @@ fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
 /// # Errors
 /// Those of [`solve`].
 pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64, NoMotion> {
-    if task.endless || task.limits.has_rates() {
-        return solve(file, actuator, task).map(|found| found.time);
-    }
-    refine(file, actuator, task, f64::INFINITY).map(|found| found.time)
+    let alone = f64::INFINITY;
+    let found = if task.endless {
+        endless::solve(file, actuator, task, alone)
+    } else if task.limits.has_rates() {
+        solve(file, actuator, task)
+    } else {
+        refine(file, actuator, task, alone)
+    };
+    found.map(|found| found.time)
 }
 
-/// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
+/// The fastest motion without limits of rates, looked at between its nodes where `within` is finite.
 fn refine(
     file: &MachineFile,
     actuator: &Actuator,
@@ -206,104 +191,7 @@ fn refine(
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
-    let field = Field { way: &way, limits };
-    let length = (task.to - task.from).abs();
-    let [first, most] = CELLS;
-    let mut count = first.max(least_cells(&field, task.from, length)?);
-    let ends = Ends {
-        from: task.from,
-        length,
-        speeds: task.speeds,
-        corners: corners::corners(&field, task.from, length)?,
-    };
-    let z = ends.speeds.map(|v| 0.5 * v * v);
-    let mut before: Option<f64> = None;
-    let mut end: Option<f64> = None;
-    let mut settled = f64::INFINITY;
-    let mut finer: Vec<f64> = Vec::new();
-    for round in 0.. {
-        let track = Track::new(&field, &ends, count, &finer)?;
-        if let Some((phi, force)) = joint_force::without_motion(&track) {
-            return Err(NoMotion::of_force(file, phi, &force));
-        }
-        let may_go_on = track.cells.len() < most && round < ROUNDS;
-        let pieces = match sweep::fastest(&field, &track, z) {
-            Ok(pieces) => pieces,
-            Err(Obstacle::StartTooFast(most) | Obstacle::EndTooFast(most))
-                if count < ENOUGH
-                    && finer.is_empty()
-                    && may_go_on
-                    && end
-                        .replace(most)
-                        .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
-            {
-                // How fast an end may be is known as well as the cells show the machine.
-                count *= 2;
-                continue;
-            }
-            Err(obstacle) => {
-                let eased = match obstacle {
-                    Obstacle::Stops(..) => slowed::by(&field, &ends, count)?,
-                    _ => None,
-                };
-                return Err(NoMotion::at(&field, &track, obstacle, eased));
-            }
-        };
-        if let Err(closed) = between::check(&field, &ends, &track, &pieces) {
-            // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
-            if !(task.limits.forces.is_some() && may_go_on) {
-                return Err(closed.why);
-            }
-            if finer.is_empty() && count < ENOUGH {
-                count *= 2;
-            } else {
-                finer.extend(closed.places);
-            }
-            continue;
-        }
-        let times = sweep::times(&track, &pieces);
-        let time: f64 = times.iter().sum();
-        if settled.is_infinite() {
-            let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
-            before = Some(time);
-            if change > SETTLED * time && may_go_on {
-                count *= 2;
-                continue;
-            }
-            settled = change;
-        }
-        let (pieces, times) = slivers::without(&track, pieces, &times);
-        let trace = trace(&way, &ends, &track, &pieces, &times);
-        let (worst, places) = if within.is_finite() {
-            between::largest_excess(&field, &ends, (&track, &pieces), &trace, within)?
-        } else {
-            ((0.0, task.from), Vec::new())
-        };
-        if !places.is_empty() && may_go_on {
-            finer.extend(places);
-            continue;
-        }
-        let (excess, phi) = worst;
-        if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
-            return Err(NoMotion::NotAccurate {
-                excess,
-                phi,
-                change: settled / time,
-                endless: false,
-                axis: file.axis(),
-            });
-        }
-        return Ok(Fastest {
-            time,
-            error: settled / 15.0,
-            phases: phases::phases(&field, &ends, &track, &pieces, &times),
-            trace,
-            excess,
-            cells: track.cells.len(),
-            bound: None,
-        });
-    }
-    Err(NoMotion::NoWay)
+    Course::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
 }
 
 /// The way of a task, if it can be gone at all.
@@ -315,7 +203,7 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     }
     let torques = actuator.torques(0.0);
     if !torques.iter().all(|torque| torque.is_finite()) {
-        return Err(NoMotion::NoTorqueLimit);
+        return Err(NoMotion::NoTorqueLimit(obstacle::input(file)));
     }
     let [_, _, back, ..] = actuator.coefficients.0;
     if back < 0.0 {
@@ -345,36 +233,4 @@ fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion>
         });
     }
     Ok((PER_TURN * FRAC_PI_2 * turns).ceil() as usize)
-}
-
-/// The motion over the time.
-fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
-    let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
-    let mut t = 0.0;
-    let mut push = |t: f64, step: f64, piece: &Piece, end: usize| {
-        let Step { u, z, a, .. } = &piece.step;
-        let cell = &track.cells[piece.cell];
-        let alpha = a[end] * way.direction;
-        if let Some(node) = nodes.last_mut().filter(|_| end == 0) {
-            node.alpha[1] = alpha;
-            return;
-        }
-        nodes.push(Node {
-            t,
-            step,
-            phi: ends.from + way.direction * (cell.x + u[end] * cell.length),
-            omega: speed(z[end]) * way.direction,
-            alpha: [if t == 0.0 { 0.0 } else { alpha }, alpha],
-        });
-    };
-    for (piece, time) in pieces.iter().zip(times) {
-        push(t, 0.0, piece, 0);
-        t += time;
-        push(t, *time, piece, 1);
-    }
-    if let Some(last) = nodes.last_mut() {
-        last.alpha[1] = 0.0;
-        last.phi = ends.from + way.direction * ends.length;
-    }
-    Trace::new(way.coordinate(), nodes)
 }

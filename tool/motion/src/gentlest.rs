@@ -17,6 +17,8 @@
 //! - [`scale`](self): the unit of its numbers, and its largest load;
 //! - [`outcome`](self): cost, optimum and motion of what was found.
 
+use std::rc::Rc;
+
 use jred::Error;
 use jred_machine::model::motion::Phase;
 
@@ -251,6 +253,7 @@ fn from_end_to_end(
         objective,
         edges: edges(way, travel),
         ramps: [travel.ramp; 2],
+        places: Rc::default(),
     };
     let task = task.fitted(travel.duration)?;
     let rests = travel.ends().rest.contains(&true);
@@ -281,7 +284,7 @@ fn from_end_to_end(
     let mut parts = FIRST;
     while parts < MOST && change > FINE {
         parts *= 2;
-        let Some(next) = solved.task.solve(moving, parts, Some(&solved))? else {
+        let Some(next) = solved.task.solve(moving, parts, Some(&solved.start()))? else {
             break;
         };
         if !next.follows(&solved) {

@@ -21,6 +21,7 @@ pub mod contact;
 pub mod driven;
 pub mod fastest;
 pub mod gentlest;
+mod memo;
 pub mod moves;
 pub mod plan;
 pub mod retime;

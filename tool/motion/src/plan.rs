@@ -2,10 +2,11 @@
 
 mod course;
 mod polynomial;
+pub mod ramp;
 mod rows;
 
 use jred::Domain;
-use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len};
+use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len, with_ramp};
 
 use crate::trace::Trace;
 use course::Course;
@@ -31,6 +32,8 @@ pub struct Plan {
     pub errors: Errors,
     /// The greatest speed and acceleration.
     pub most: [f32; 2],
+    /// The shortest ramp of the rate (s) with which it keeps the torque of its drive, infinite if none does; `None`: the drive is not known.
+    pub ramp: Option<f64>,
     /// Where it is off by more than was asked, if it is: position, speed and acceleration of the motion contradict each other between two nodes.
     pub excess: Option<Excess>,
 }
@@ -108,8 +111,27 @@ impl Plan {
             most: course::greatest(&draft),
             words: write(&knots, errors)?,
             errors,
+            ramp: None,
             excess: first_excess(worst, asked.bounds.asked),
         })
+    }
+
+    /// The same with the shortest ramp of the rate (s), which its image states rounded up.
+    ///
+    /// # Errors
+    /// A ramp that is negative or NaN.
+    pub fn with_ramp(mut self, ramp: Option<f64>) -> Result<Self, PlanError> {
+        if let Some(ramp) = ramp {
+            let least = ramp as f32;
+            let up = if f64::from(least) < ramp {
+                least.next_up()
+            } else {
+                least
+            };
+            with_ramp(&mut self.words, up)?;
+        }
+        self.ramp = ramp;
+        Ok(self)
     }
 
     /// Its image, byte by byte.

@@ -10,6 +10,29 @@ use jred_machine::model::motion::step_at;
 
 pub use jred_machine::model::motion::Node;
 
+jred_machine::words! {
+    /// The unit in which an electronic cam's master is counted.
+    pub enum Master default Degree {
+        /// A turn is 360.
+        Degree = "deg",
+        /// A turn is 2π.
+        Radian = "rad",
+        /// A turn is 1.
+        Turn = "turn",
+    }
+}
+
+impl Master {
+    /// A turn in this unit.
+    const fn turn(self) -> f64 {
+        match self {
+            Self::Degree => 360.0,
+            Self::Radian => TAU,
+            Self::Turn => 1.0,
+        }
+    }
+}
+
 /// A motion through nodes: between two of them the speed is the cubic through both speeds and accelerations, the position the quintic
 /// that has positions as well.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,33 +215,28 @@ impl Trace {
         text
     }
 
-    /// An electronic cam's table: positions over a master that turns once, evenly, in the length of the motion; with the first and second
-    /// derivative by the master's angle (rad).
-    pub fn cam(&self, rows: usize) -> String {
+    /// An electronic cam's table: positions over a master that turns once, evenly, in the length of the motion, with the first and second derivative by the
+    /// master. Every column is in the unit of its head: a derivative is what the differences of the first two columns tend to.
+    pub fn cam(&self, rows: usize, master: Master) -> String {
         let symbol = self.coordinate.symbol();
         let symbol = if symbol == "φ" { "phi" } else { symbol };
-        let unit = self.coordinate.unit();
-        let per = match self.coordinate {
-            Coordinate::Angle => ["1", "1/rad"],
-            Coordinate::Length => ["mm/rad", "mm/rad^2"],
-        };
+        let (unit, by) = (self.coordinate.unit(), master.word());
         let mut text = format!(
-            "master [deg],{symbol} [{unit}],{symbol}' [{}],{symbol}'' [{}]\n",
-            per[0], per[1]
+            "master [{by}],{symbol} [{unit}],{symbol}' [{unit}/{by}],{symbol}'' [{unit}/{by}^2]\n"
         );
-        let speed = TAU / self.duration();
-        let shown = |value: f64| match self.coordinate {
-            Coordinate::Angle => value,
-            Coordinate::Length => value * 1e3,
-        };
+        let turn = master.turn();
+        let speed = turn / self.duration();
         for (t, state) in self.rows(rows) {
+            let [position, first, second] = [
+                state.phi,
+                state.omega / speed,
+                state.alpha / (speed * speed),
+            ]
+            .map(|value| self.coordinate.shown(value) + 0.0);
             let _ = writeln!(
                 text,
-                "{},{},{},{}",
-                (t * speed).to_degrees(),
-                self.coordinate.shown(state.phi),
-                shown(state.omega / speed),
-                shown(state.alpha / (speed * speed))
+                "{},{position},{first},{second}",
+                turn * (t / self.duration())
             );
         }
         text

@@ -10,6 +10,7 @@ mod nodes;
 mod programme;
 mod refusals;
 mod rms;
+mod ruled;
 mod scales;
 mod tool_speed;
 mod torque_rate;

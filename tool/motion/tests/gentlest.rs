@@ -222,6 +222,12 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
             .is_empty()
     );
 }
+/// What a table of loads acts on is no link of the machine: none of it stands still while the drive turns.
+#[test]
+fn a_load_is_no_link_that_stands_still() {
+    let found = retimed(&example("load-table", &[]), Goal::Rms, 0.0);
+    assert!(found.standing.is_empty(), "{:?}", found.standing);
+}
 /// A large gearbox with losses, at whose output the torque bends twice within the roundings of the far lines between which its bends are sought: the
 /// lower bound is found, and close.
 #[test]

@@ -2,6 +2,7 @@
 
 mod bound;
 mod kept;
+mod ramp;
 mod rows;
 
 use std::f64::consts::TAU;

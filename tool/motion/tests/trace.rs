@@ -13,7 +13,7 @@ use jred_motion::fastest::cycle::cycle;
 use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{self, Move, Part};
 use jred_motion::retime::{Goal, Request, retime};
-use jred_motion::trace::{Node, Trace};
+use jred_motion::trace::{Master, Node, Trace};
 use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::Cycle;
@@ -179,31 +179,57 @@ fn a_recorded_pause_is_followed_by_one_start() {
     assert_eq!(features.starts, 2);
 }
 
-/// The master of a cam table turns once; derivatives are by its angle.
+/// A cam table is read by programs that know its own columns alone: the differences of the positions over those of the master are the derivatives that
+/// stand beside them, whatever the units are. Of a parabola central differences are exact.
 #[test]
-fn a_cam_table_has_derivatives_by_the_master() {
-    let node = |t: f64| Node {
-        t,
-        step: t,
-        phi: t * t,
-        omega: 2.0 * t,
-        alpha: [2.0; 2],
-    };
-    let trace = Trace::new(Coordinate::Angle, vec![node(0.0), node(2.0)]);
-    let table = trace.cam(3);
-    let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines[0], "master [deg],phi [deg],phi' [1],phi'' [1/rad]");
-    let numbers: Vec<f64> = lines[2]
-        .split(',')
-        .map(|cell| cell.parse().unwrap())
-        .collect();
-    let speed = std::f64::consts::PI;
-    let expected = [180.0, 1f64.to_degrees(), 2.0 / speed, 2.0 / (speed * speed)];
-    for (found, expected) in numbers.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() < 1e-13 * expected,
-            "{found} {expected}"
-        );
+fn derivatives_of_a_cam_table_are_by_its_own_columns() {
+    for coordinate in [Coordinate::Angle, Coordinate::Length] {
+        for master in [Master::Degree, Master::Radian, Master::Turn] {
+            let node = |t: f64| Node {
+                t,
+                step: t,
+                phi: 0.3 + 0.5 * t + 0.7 * t * t,
+                omega: 0.5 + 1.4 * t,
+                alpha: [1.4; 2],
+            };
+            let trace = Trace::new(coordinate, vec![node(0.0), node(2.5)]);
+            let table = trace.cam(101, master);
+            let head = table.lines().next().unwrap();
+            let (symbol, unit) = match coordinate {
+                Coordinate::Angle => ("phi", "deg"),
+                Coordinate::Length => ("s", "mm"),
+            };
+            let (by, turn) = match master {
+                Master::Degree => ("deg", 360.0),
+                Master::Radian => ("rad", std::f64::consts::TAU),
+                Master::Turn => ("turn", 1.0),
+            };
+            assert_eq!(
+                head,
+                format!(
+                    "master [{by}],{symbol} [{unit}],{symbol}' [{unit}/{by}],{symbol}'' [{unit}/{by}^2]"
+                )
+            );
+            let rows: Vec<Vec<f64>> = (table.lines().skip(1))
+                .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+                .collect();
+            assert_eq!(rows.len(), 101);
+            let (first, last) = (&rows[0], &rows[100]);
+            assert!((last[0] - first[0] - turn).abs() < 1e-12 * turn);
+            let way = last[1] - first[1];
+            for three in rows.windows(3) {
+                let [before, here, after] = [&three[0], &three[1], &three[2]];
+                let step = here[0] - before[0];
+                let slope = (after[1] - before[1]) / (2.0 * step);
+                let bend = (after[1] - 2.0 * here[1] + before[1]) / (step * step);
+                // Positions have sixteen digits, a difference of two neighbours twelve or eleven.
+                assert!((slope - here[2]).abs() < 1e-11 * way / turn, "{by} {unit}");
+                assert!(
+                    (bend - here[3]).abs() < 1e-8 * way / (turn * turn),
+                    "{by} {unit}"
+                );
+            }
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `jred fastest`: moves in minimum time.
 
 mod limits;
+mod motion;
 mod winding;
 
 use std::f64::consts::PI;
@@ -22,12 +23,11 @@ use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::contact::broken;
-use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
+use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
-use jred_motion::moves::{Chain, NoMoves, Part, chain};
 use jred_motion::way::{Actuator, Way};
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
@@ -39,6 +39,7 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
+use motion::{Motion, of_motion};
 
 /// Share by which a speed may exceed the largest one: rounding of its unit.
 const ROUNDING: f64 = 1e-9;
@@ -48,6 +49,8 @@ struct Chosen {
     name: String,
     actuator: Actuator,
     limits: Limits,
+    /// The drive of a catalogue.
+    drive: Option<ChosenDrive>,
     /// What gets warm in it; of a drive.
     winding: Option<Winding>,
 }
@@ -86,10 +89,13 @@ pub fn fastest(options: &Options) -> Result<Done> {
         }
         None => of_motion(&file, &limits, rms)?,
     };
-    let at = |rms: Option<Rms>| parts.fastest(&file, &chosen.actuator, rms);
-    let made = match warmth {
-        None => at(rms).map(|cycle| (cycle, None)),
-        Some(limit) => cooled(limit, (&file, &chosen.actuator), rms, at).map(|found| {
+    let actuator = &chosen.actuator;
+    let make = |limits: &Limits, rms: Option<Rms>| {
+        let at = |rms: Option<Rms>| parts.fastest(&file, actuator, limits, rms);
+        let Some(limit) = warmth else {
+            return at(rms).map(|cycle| (cycle, None));
+        };
+        cooled(limit, (&file, actuator), rms, at).map(|found| {
             let warmth = Warmth {
                 ambient: limit.0.ambient(),
                 temperatures: found.temperatures,
@@ -97,9 +103,20 @@ pub fn fastest(options: &Options) -> Result<Done> {
                 bound: found.bound,
             };
             (found.cycle, Some(warmth))
-        }),
+        })
     };
-    let (cycle, warmth) = made.map_err(|(number, why)| no_motion(&why, number))?;
+    let by_rules = options.reserve == Some(Asked::Rules);
+    let made = match chosen.drive.as_ref().filter(|_| by_rules) {
+        None => make(&limits, rms).map(|(cycle, warmth)| (cycle, warmth, None)),
+        Some(drive) => {
+            let judge = Judge::new(&file, drive.drive(), options.supply.steps());
+            let heat = rms.is_some() || warmth.is_some();
+            let found = ruled(&judge, (&limits, rms), heat, make);
+            found.map(|(cycle, warmth, judged)| (cycle, warmth, Some(judged)))
+        }
+    };
+    let (cycle, warmth, judged) = made.map_err(|(number, why)| no_motion(&why, number))?;
+    let cycle = cycle.with_costs(&file, actuator);
     let forces = reached(&file, &limits.forces, &cycle.trace).map_err(core_report)?;
     for force in &forces {
         let kept = force.kept_at_rest(&file);
@@ -112,9 +129,17 @@ pub fn fastest(options: &Options) -> Result<Done> {
         files.add(path, trace.profile().as_bytes())?;
     }
     if let Some(path) = &options.cam {
-        files.add(path, trace.cam(options.rows as usize).as_bytes())?;
+        files.add(
+            path,
+            trace.cam(options.rows as usize, options.master).as_bytes(),
+        )?;
     }
-    let planned = plan::write(&options.plan, (&file, &cycle.trace), &mut files)?;
+    let planned = plan::write(
+        &options.plan,
+        (&file, &cycle.trace),
+        (actuator, chosen.limits.gearbox_torque),
+        &mut files,
+    )?;
     let answer = list::fastest::Answer {
         file: &file,
         drive: &chosen.name,
@@ -126,6 +151,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         forces: &forces,
         broken: broken.as_ref(),
         reserve,
+        judged: judged.as_ref(),
         of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
     };
@@ -148,86 +174,12 @@ pub fn fastest(options: &Options) -> Result<Done> {
         print(&planned)?;
     }
     let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
-    Ok(if broken.is_some() || exceeds {
+    let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
+    Ok(if broken.is_some() || exceeds || violated {
         Done::Violated
     } else {
         Done::Holds
     })
-}
-
-/// What is made as fast as possible.
-enum Motion {
-    /// One move.
-    Move(Task),
-    /// That of the file.
-    Chain(Limits, Chain),
-}
-
-impl Motion {
-    /// What the motion of the file is made of.
-    const fn chain(&self) -> Option<&Chain> {
-        match self {
-            Self::Move(_) => None,
-            Self::Chain(_, chain) => Some(chain),
-        }
-    }
-
-    /// It as fast as possible; or why it cannot be made, with the number of the move.
-    fn fastest(
-        &self,
-        file: &MachineFile,
-        actuator: &Actuator,
-        rms: Option<Rms>,
-    ) -> Result<Cycle, (Option<usize>, NoMotion)> {
-        match self {
-            Self::Move(task) => single(file, actuator, *task, rms).map_err(|why| (None, why)),
-            Self::Chain(limits, chain) => {
-                let mut moves = chain.parts.iter().filter_map(Part::step);
-                if let Some((step, _)) = moves.next().filter(|_| chain.endless) {
-                    return endless(file, actuator, *limits, &step).map_err(|why| (None, why));
-                }
-                let several = moves.next().is_some();
-                cycle(file, actuator, *limits, rms, &chain.parts)
-                    .map_err(|(index, why)| (several.then_some(index + 1), why))
-            }
-        }
-    }
-}
-
-/// The moves of the file's motion.
-fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
-    let motion = file.motion_or("give --from and --to, or ")?;
-    let chain = chain(motion, &file.process()).map_err(|why| match why {
-        NoMoves::Still => miette!(
-            help = "give --from and --to, or a [motion] with a move",
-            "nothing moves in the motion of {}",
-            file.name
-        ),
-        NoMoves::NotAtRest { speed, at_end } => {
-            let end = if at_end { "ends" } else { "begins" };
-            let axis = file.axis();
-            let unit = axis.coordinate.speed_unit();
-            miette!(
-                help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
-                "the motion of {} {end} with {} {unit}, so its moves are not known",
-                file.name,
-                short(axis.rate(speed.abs()))
-            )
-        }
-        NoMoves::AllKept => miette!(
-            help = "give --from and --to, or a [motion] with moves beside the constant speed",
-            "the motion of {} is nothing but constant speed, which is kept",
-            file.name
-        ),
-    })?;
-    if chain.endless && (limits.has_rates() || rms.is_some()) {
-        return Err(miette!(
-            help = "leave them out, or give one move with --from and --to",
-            "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
-            file.name
-        ));
-    }
-    Ok(Motion::Chain(*limits, chain))
 }
 
 fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {
@@ -352,21 +304,22 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
         )?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };
-    let drive = drive.drive();
-    let envelope = envelope(&drive, file);
+    let own = drive.drive();
+    let envelope = envelope(&own, file);
     Ok(Chosen {
-        name: drive.name(),
-        actuator: Actuator::new(&drive, envelope),
+        name: own.name(),
+        actuator: Actuator::new(&own, envelope),
         limits: Limits {
-            gearbox_torque: drive.gearbox.and_then(|gearbox| gearbox.peak_torque),
-            gearbox_speed: drive.gearbox.and_then(|gearbox| gearbox.max_speed),
+            gearbox_torque: own.gearbox.and_then(|gearbox| gearbox.peak_torque),
+            gearbox_speed: own.gearbox.and_then(|gearbox| gearbox.max_speed),
             ..Limits::default()
         },
-        winding: Some(Winding::new(&drive, file)),
+        winding: Some(Winding::new(&own, file)),
+        drive: Some(drive),
     })
 }
 
-/// A motor with the same torque at every speed.
+/// A motor with the same torque at every speed, up to a largest one if it is given.
 fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
     let kind = fit::input_kind(file);
     let coordinate = motor_coordinate(file);
@@ -395,11 +348,15 @@ fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Ch
         gearbox: None,
         amplifier: None,
     };
-    let speed = options.motor_speed.as_deref().unwrap_or_default();
+    let name = match &options.motor_speed {
+        Some(speed) => format!("{torque} up to {speed}"),
+        None => format!("{torque} at every speed"),
+    };
     Ok(Chosen {
-        name: format!("{torque} up to {speed}"),
+        name,
         actuator: Actuator::new(&drive, Envelope::of(&motor)),
         limits: Limits::default(),
+        drive: None,
         winding: None,
     })
 }

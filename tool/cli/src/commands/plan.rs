@@ -2,6 +2,7 @@
 
 use miette::{Result, miette};
 
+use crate::commands::core_error::core_report;
 use crate::options::plan::{Form, PlanFile};
 use crate::output::{self, Files};
 use jred::Reducible as _;
@@ -9,23 +10,28 @@ use jred_machine::export::{plan_c_source, plan_source};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::plain;
 use jred_motion::plan::Plan;
+use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
+use jred_motion::way::Actuator;
 use jred_report::list;
 
-/// Writes it, if it is asked for; a line that says so.
+/// Writes it, if it is asked for; a line that says so. `gearbox` is the largest torque at the output of the drive's (N·m).
 ///
 /// # Errors
 /// A motion that no plan holds, or a file that cannot be written.
 pub(super) fn write(
     options: &PlanFile,
     (file, trace): (&MachineFile, &Trace),
+    (actuator, gearbox): (&Actuator, Option<f64>),
     files: &mut Files,
 ) -> Result<String> {
     let Some(path) = &options.plan else {
         return Ok(String::new());
     };
     let machine = jred_machine::export::identifier(&file.title);
+    let ramp = least_ramp(file, actuator, gearbox, trace).map_err(core_report)?;
     let plan = Plan::new(trace, file.machine.domain(), machine, options.plan_error)
+        .and_then(|plan| plan.with_ramp(ramp))
         .map_err(|error| miette!(help = format!("{}", error.cure()), "{error}"))?;
     if let Some(warning) = list::plan::warning(&plan, trace) {
         output::say(&format!("warning: {warning}"));

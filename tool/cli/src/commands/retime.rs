@@ -11,11 +11,13 @@ use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
 use jred_machine::model::drive_train;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rules::Verdict;
 use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
 use jred_machine::plain;
 use jred_machine::read;
 use jred_motion::contact::broken;
+use jred_motion::fastest::ruled::Judge;
 use jred_motion::gentlest::{Fault, without_drive};
 use jred_motion::moves::{Move, NoMoves};
 use jred_motion::retime::{self, Obstacle, Request};
@@ -65,14 +67,26 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let mut files = Files::default();
     for (path, what, text) in [
         (&options.profile, "motion", trace.profile()),
-        (&options.cam, "cam table", trace.cam(rows)),
+        (&options.cam, "cam table", trace.cam(rows, options.master)),
     ] {
         if let Some(path) = path {
             files.add(path, text.as_bytes())?;
             written += &[what, " written to ", &plain::path(path), "\n"].concat();
         }
     }
-    written += &plan::write(&options.plan, (&file, &retimed.trace), &mut files)?;
+    let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
+    written += &plan::write(
+        &options.plan,
+        (&file, &retimed.trace),
+        (&request.actuator, gearbox),
+        &mut files,
+    )?;
+    let checks = match drive {
+        None => Vec::new(),
+        Some(drive) => Judge::new(&file, drive, request.steps)
+            .checks(&retimed.trace)
+            .map_err(core_report)?,
+    };
     let broken = broken(&file, &retimed.trace).map_err(core_report)?;
     let mut shown = list::retime::Shown {
         file: &file,
@@ -80,6 +94,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
         request: &request,
         retimed: &retimed,
         broken: broken.as_ref(),
+        checks: &checks,
         written: String::new(),
     };
     if let Some(path) = &options.report {
@@ -90,8 +105,10 @@ pub fn retime(options: &Retime) -> Result<Done> {
     files.finish()?;
     shown.written = written;
     print_parts([list::retime::write(&shown, options.format)])?;
-    let best = &retimed.best;
-    let exceeds = best.used.max(best.rms_used) > 1.0 || broken.is_some();
+    let mut violated = checks
+        .iter()
+        .filter(|check| check.verdict == Verdict::Fail && check.id.follows_motion());
+    let exceeds = violated.next().is_some() || broken.is_some();
     Ok(if exceeds { Done::Violated } else { Done::Holds })
 }
 

@@ -9,6 +9,7 @@ use super::retime::Ends;
 use super::search::SizingOptions;
 use super::word::word;
 use jred_machine::read;
+use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
 /// The reserve that is asked for.
@@ -30,7 +31,7 @@ fn asked(text: &str) -> Result<Asked, String> {
 /// `jred fastest`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 done; 2 bad input, or there is no motion within the limits.\ndocs/motion-synthesis.md says what is found, and why it is the fastest."
+    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` (with --reserve rules), loses a contact, or keeps a part of the file that is beyond a limit; 2 bad input, or there is no motion within the limits.\ndocs/motion-synthesis.md says what is found, and why it is the fastest."
 )]
 pub struct Fastest {
     /// Machine file. The moves are those of its `[motion]`, whose pauses are kept, unless --from and --to are given.
@@ -63,12 +64,11 @@ pub struct Fastest {
     /// Instead of a drive: largest torque at the input of the drive train, e.g. "20 N m" ("500 N" for a linear motor).
     #[arg(
         long,
-        requires = "motor_speed",
         conflicts_with_all = ["catalogue", "motors", "gearboxes"],
         allow_hyphen_values = true
     )]
     pub torque: Option<String>,
-    /// Largest speed of that motor, e.g. "3000 rpm" ("2 m/s").
+    /// Largest speed of that motor, e.g. "3000 rpm" ("2 m/s"); without a limit if not given.
     #[arg(
         long,
         value_name = "SPEED",
@@ -79,8 +79,8 @@ pub struct Fastest {
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
     #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
-    /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": what the rules of `jred size` ask for
-    /// (`[rules]` of the file); nothing if not given.
+    /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": the motion keeps what the rules of `jred size` ask of motor,
+    /// gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; nothing if not given.
     #[arg(long, value_name = "SHARE|rules", value_parser = asked, allow_hyphen_values = true)]
     pub reserve: Option<Asked>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
@@ -125,6 +125,9 @@ pub struct Fastest {
     /// Number of rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
     pub rows: u32,
+    /// Unit in which the cam table counts its master, which turns once in the length of the motion; the derivatives are by that unit.
+    #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
+    pub master: Master,
     /// Write a report as one self-contained HTML page: phase plane with the limit that binds, motion and torque over the time.
     #[arg(long, value_name = "HTML", value_parser = super::output_file())]
     pub report: Option<PathBuf>,

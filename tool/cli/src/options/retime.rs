@@ -9,6 +9,7 @@ use super::plan::PlanFile;
 use super::word::word;
 use super::{MOST_STEPS, output_file};
 use jred_motion::retime::Goal;
+use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
 jred_machine::words! {
@@ -24,7 +25,7 @@ jred_machine::words! {
 /// `jred retime`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 done; 1 the motion needs more torque or speed than the drive has; 2 bad input."
+    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` for the --drive, or loses a contact; 2 bad input."
 )]
 pub struct Retime {
     /// Machine file.
@@ -47,6 +48,9 @@ pub struct Retime {
     /// Rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub rows: u32,
+    /// Unit in which the cam table counts its master, which turns once in the length of the motion; the derivatives are by that unit.
+    #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
+    pub master: Master,
     /// Write a report as one self-contained HTML page: the motion and its torque beside that of the file and the best laws.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,

@@ -205,3 +205,95 @@ fn the_motion_is_that_of_the_first_drive() {
         "{name} {named}"
     );
 }
+
+/// A table that indexes 3,900 times an hour: with --reserve rules the motion keeps T2B at the shock factor of its own rate, T2N as cubic mean and the S1 torque, and `jred size` accepts
+/// it with the same drive. What is not asked for is named, with what keeps it.
+#[test]
+fn size_accepts_a_gearbox_with_shock_factors() {
+    let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../support/engineer");
+    let catalogue = home.join("cat");
+    let catalogue = catalogue.to_str().unwrap();
+    let text = std::fs::read_to_string(home.join("table.toml")).unwrap();
+    let folder = Folder::new();
+    let table = folder.file("table.toml", &text);
+    let table = table.to_str().unwrap();
+    let profile = folder.path("fast.csv");
+    let profile = profile.to_str().unwrap();
+    let drive = ["--catalogue", catalogue, "--drive", "sm100bb+g115-16 on a6"];
+    let asked = [
+        "--reserve",
+        "rules",
+        "--max-rms",
+        "s1",
+        "--profile",
+        profile,
+    ];
+    let made = run(&[
+        &["fastest", table][..],
+        &drive,
+        &asked,
+        &["--format", "json"],
+    ]
+    .concat());
+    let made = made.ends(0).json();
+    let kept: Vec<&str> = made["rules"]["kept"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|check| check["rule"].as_str().unwrap())
+        .collect();
+    for rule in [
+        "RMS torque",
+        "peak torque",
+        "gearbox peak torque",
+        "gearbox cubic-mean torque",
+        "gearbox mean speed",
+        "RMS current",
+        "peak current",
+    ] {
+        assert!(kept.contains(&rule), "{rule}: {kept:?}");
+    }
+    assert_eq!(made["rules"]["not_kept"].as_array().unwrap().len(), 0);
+    let begin = text.find("[motion]").unwrap();
+    let end = text.find("[supply]").unwrap();
+    let motion = "[motion]\ntype = \"profile\"\nfile = \"fast.csv\"\n\n";
+    let judged = folder.file("judged.toml", edited(&text, &text[begin..end], motion));
+    let sized = run(&[&["size", judged.to_str().unwrap()][..], &drive].concat());
+    sized.ends(0);
+    // A lift of the same torque all day: without --max-rms the RMS torque is named.
+    let busy = folder.file(
+        "busy.toml",
+        edited(&text, "dwell = \"0.6 s\"", "dwell = \"0.01 s\""),
+    );
+    let weak = ["--catalogue", catalogue, "--drive", "sm100ab+g90-10 on a6"];
+    let listed = run(&[
+        &["fastest", busy.to_str().unwrap(), "--reserve", "rules"][..],
+        &weak,
+    ]
+    .concat());
+    if listed.code == 1 {
+        assert!(listed.out.contains("not kept"), "{}", listed.out);
+    }
+}
+
+/// Without a largest speed the torque alone limits a move from rest to rest; a motion that turns for ever needs one.
+#[test]
+fn a_torque_without_a_speed() {
+    let folder = Folder::new();
+    let table = "title = \"t\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"2 kg m^2\"\n[motion]\ntype = \"constant-speed\"\nspeed = \"60 rpm\"\n";
+    let file = folder.file("t.toml", table);
+    let file = file.to_str().unwrap();
+    let plain = ["fastest", file, "--torque", "20 N m"];
+    let made = run(&[
+        &plain[..],
+        &["--from", "0 deg", "--to", "360 deg", "--format", "json"],
+    ]
+    .concat());
+    // 10 rad/s^2 over half of the way and back.
+    let time = made.ends(0).json()["duration"].as_f64().unwrap();
+    let expected = 2.0 * (std::f64::consts::TAU / 10.0).sqrt();
+    assert!((time / expected - 1.0).abs() < 1e-9, "{time} {expected}");
+    run(&plain)
+        .ends(2)
+        .says(&["nothing limits the speed", "--max-speed", "--motor-speed"]);
+}

@@ -141,6 +141,21 @@ impl Rule {
         matches!(self, Self::InertiaRatio | Self::NaturalFrequency)
     }
 
+    /// Whether another motion of the same moves may keep it; the others are rules of machine and drive alone.
+    pub const fn follows_motion(self) -> bool {
+        !matches!(
+            self,
+            Self::HoldingTorque
+                | Self::BrakeTorque
+                | Self::InertiaRatio
+                | Self::GearboxEmergency
+                | Self::MotorVoltage
+                | Self::AmplifierVoltage
+                | Self::BrakeResistance
+                | Self::Backlash
+        )
+    }
+
     /// Whether it says that a part is made for the voltage of the supply, without which nobody can buy it.
     pub const fn is_of_voltage(self) -> bool {
         matches!(self, Self::MotorVoltage | Self::AmplifierVoltage)

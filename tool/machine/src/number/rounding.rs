@@ -60,6 +60,18 @@ pub fn shown(x: f64, largest: f64) -> String {
     short(cleared(x, largest))
 }
 
+/// Share of the terms of a sum below which what is left of them is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A sum, 0 if it is only the rounding of terms as large as `terms`.
+pub fn of_terms(sum: f64, terms: f64) -> f64 {
+    if sum.abs() <= ROUNDING * terms.abs() {
+        0.0
+    } else {
+        sum
+    }
+}
+
 /// A share in per cent with one decimal, never −0.0.
 pub fn percent(share: f64) -> String {
     format!("{:.1} %", (share * 1e3).round() / 10.0 + 0.0)
@@ -114,7 +126,16 @@ pub fn figure(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::told_apart;
+    use super::{of_terms, told_apart};
+
+    #[test]
+    fn what_is_left_of_large_terms_is_nothing() {
+        // 0.1 + 0.2 − 0.3 is 5.6e-17.
+        let left = 0.1_f64 + 0.2 - 0.3;
+        assert!(left != 0.0 && of_terms(left, 0.3) == 0.0);
+        assert_eq!(of_terms(-1e-11, 1.0), -1e-11);
+        assert_eq!(of_terms(0.0, 0.0), 0.0);
+    }
 
     #[test]
     fn as_many_digits_as_tell_apart() {

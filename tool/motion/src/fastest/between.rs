@@ -5,7 +5,7 @@ use jred::machine::motion::State;
 use super::NoMotion;
 use super::field::Field;
 use super::sweep::Piece;
-use super::track::{Ends, Track};
+use super::track::{Ends, Survey, Track};
 use crate::trace::{Node, Trace};
 
 /// Most parts of a cell in the next round.
@@ -17,6 +17,15 @@ pub(super) const BETWEEN_NODES: [f64; 3] = [0.21, 0.5, 0.79];
 /// Those of a motion that was made by sweeps: with the nodes, where it leaves a limit of the speed by what is known of the machine there; what an excess does between
 /// them, with its slopes at the ends, rises less than a third above what it is at the nearest of them.
 const BETWEEN_SWEPT_NODES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
+
+/// Parts of a cell at whose borders a motion is looked at, at those that are next to the places above: there the machine is known from the round before.
+const GRID: f64 = 1024.0;
+
+/// Share of a cell within which two places are one.
+const SAME: f64 = 1e-12;
+
+/// Newton's steps to a place.
+const MOST_TRIALS: u32 = 6;
 
 /// Share of what a limit may be exceeded by that is kept to at these places.
 const KEPT: f64 = 0.75;
@@ -49,6 +58,27 @@ pub(super) struct Closed {
     pub(super) why: NoMotion,
     /// Distances at which cells must meet so that the machine is better known there.
     pub(super) places: Vec<f64>,
+}
+
+/// The share of a step, next to one, at which a function of it, with its slope, vanishes; the end of the step where it does beyond.
+fn passes(near: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let mut share = near;
+    for _ in 0..MOST_TRIALS {
+        let [value, slope] = f(share);
+        if slope <= 0.0 {
+            return near;
+        }
+        let next = (share - value / slope).clamp(0.0, 1.0);
+        if (next - share).abs() <= f64::EPSILON {
+            break;
+        }
+        share = next;
+    }
+    share
+}
+
+fn is_near(x: f64, other: f64, length: f64) -> bool {
+    (x - other).abs() <= SAME * length
 }
 
 /// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
@@ -99,36 +129,48 @@ pub(super) fn check(
 /// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
 /// which cells must meet so that it is no more than `within`. Each step is looked at in its own time, however short it is.
 pub(super) fn largest_excess(
-    field: &Field,
+    survey: &Survey,
     ends: &Ends,
     (track, pieces): (&Track, &[Piece]),
     trace: &Trace,
     within: f64,
 ) -> Result<((f64, f64), Vec<f64>), NoMotion> {
-    let way = field.way;
-    let direction = way.direction;
+    let field = survey.field;
+    let direction = field.way.direction;
     let mut largest = (0.0_f64, ends.from);
     let mut places = Vec::new();
     for (pair, piece) in trace.nodes().windows(2).zip(pieces) {
         let [a, b] = [&pair[0], &pair[1]];
         let cell = &track.cells[piece.cell];
+        // A place at a corner has the values of its own side.
         let inside = ends.inside(cell.length);
+        let within_cell = |x: f64| x.clamp(cell.x + inside, cell.x + cell.length - inside);
+        let distance = |state: &State<f64>| (state.phi - ends.from) * direction;
         // What is exceeded, and what finer cells can do about it.
         let (mut most, mut curable) = (0.0_f64, 0.0_f64);
         for share in BETWEEN_SWEPT_NODES {
+            let x = distance(&b.after(a, share));
+            let grid = ((x - cell.x) / cell.length * GRID).round() / GRID;
+            let x = within_cell(cell.x + grid * cell.length);
+            // The share of the step at which it passes there; a place outside the step is none of its own.
+            let share = passes(share, |share| {
+                let state = b.after(a, share);
+                [distance(&state) - x, state.omega * direction * b.step]
+            });
             let state = b.after(a, share);
-            // A place at a corner has the values of its own side.
-            let x = (state.phi - ends.from) * direction;
-            let x = x.clamp(cell.x + inside, cell.x + cell.length - inside);
-            let place = way.place(ends.from + direction * x)?;
-            let excess = |alpha: f64| -> Result<f64, NoMotion> {
+            let seen = survey.seen(within_cell(if is_near(distance(&state), x, cell.length) {
+                x
+            } else {
+                distance(&state)
+            }))?;
+            let excess = |alpha: f64| {
                 let (v, alpha) = (state.omega * direction, alpha * direction);
-                Ok(field.excess_by(&place, v, alpha)?.0)
+                field.excess_by(&seen, v, alpha).0
             };
-            let own = excess(state.alpha)?;
+            let own = excess(state.alpha);
             most = most.max(own);
             if own > KEPT * within {
-                curable = curable.max(excess(felt(a, b, share, MADE).alpha)?);
+                curable = curable.max(excess(felt(a, b, share, MADE).alpha));
             }
         }
         if most > largest.0 {

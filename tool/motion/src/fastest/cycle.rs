@@ -43,9 +43,29 @@ pub struct Cycle {
     pub kept: Vec<KeptPart>,
     /// What the motor does.
     pub load: MotorLoad,
+    /// Whether a limit of the RMS torque takes time.
+    pub priced: bool,
 }
 
-/// Makes every move of a motion as fast as possible.
+impl Cycle {
+    /// With what the limits cost each move.
+    #[must_use]
+    pub fn with_costs(mut self, file: &MachineFile, actuator: &Actuator) -> Self {
+        for made in &mut self.moves {
+            let mut all = costs(file, actuator, made, self.priced);
+            all.append(&mut made.costs);
+            made.costs = all;
+        }
+        self
+    }
+
+    /// The same, and whether a limit of the RMS torque takes time.
+    fn priced((cycle, priced): (Self, bool)) -> Self {
+        Self { priced, ..cycle }
+    }
+}
+
+/// Makes every move of a motion as fast as possible; what its limits cost is not known yet.
 ///
 /// # Errors
 /// A move, counted from 0, that cannot be made.
@@ -64,7 +84,7 @@ pub fn cycle(
         Refused::Move(why) => why,
         Refused::Limit(why) => (0, why),
     });
-    found.map(|found| with_costs(file, actuator, found))
+    found.map(Cycle::priced)
 }
 
 fn at_price(
@@ -123,6 +143,7 @@ fn at_price(
         dwells,
         kept,
         load,
+        priced: false,
     })
 }
 
@@ -146,13 +167,14 @@ pub fn single(
             before: None,
             dwells: 0.0,
             kept: Vec::new(),
+            priced: false,
         })
     };
     let slow = slowest(file, actuator, [[task.from, task.to]])?;
     let found = within(rms, slow, input(file), at).map_err(|why| match why {
         Refused::Move(why) | Refused::Limit(why) => why,
     });
-    found.map(|found| with_costs(file, actuator, found))
+    found.map(Cycle::priced)
 }
 
 /// A motion that turns for ever, of the given period, as fast as possible; without limits of rates and of the RMS torque.
@@ -182,8 +204,6 @@ pub fn endless(
     )?;
     let trace = made.fastest.trace.clone();
     let speed = trace.nodes().first().map_or(0.0, |node| node.omega.abs());
-    let priced = false;
-    made.costs = costs(file, actuator, &made, priced);
     made.task.speeds = [speed; 2];
     Ok(Cycle {
         load: load(file, actuator, &trace, &limits.reserve)?,
@@ -192,6 +212,7 @@ pub fn endless(
         before: Some(step.duration),
         dwells: 0.0,
         kept: Vec::new(),
+        priced: false,
     })
 }
 
@@ -218,16 +239,4 @@ fn make(
         before,
         fastest,
     })
-}
-
-/// With what the limits cost each move.
-fn with_costs(
-    file: &MachineFile,
-    actuator: &Actuator,
-    (mut cycle, priced): (Cycle, bool),
-) -> Cycle {
-    for made in &mut cycle.moves {
-        made.costs = costs(file, actuator, made, priced);
-    }
-    cycle
 }

@@ -6,8 +6,9 @@
 
 use jred_machine::model::machine::MachineFile;
 
+use super::course::Course;
 use super::field::Field;
-use super::{Fastest, NoMotion, SWEEP_EXCESS, Task, refine, way};
+use super::{Fastest, NoMotion, Task, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
@@ -22,7 +23,7 @@ const SAME: f64 = 1e-10;
 /// Shares of the speed by which finer cells may make the turn slower.
 const FINER: [f64; 4] = [1e-10, 1e-9, 1e-8, 1e-7];
 
-/// The fastest motion of a task whose end is its start.
+/// The fastest motion of a task whose end is its start, looked at between its nodes where `within` is finite.
 ///
 /// # Errors
 /// There is none: nothing limits its speed, or it comes to rest; see [`NoMotion`].
@@ -30,18 +31,17 @@ pub(super) fn solve(
     file: &MachineFile,
     actuator: &Actuator,
     task: &Task,
+    within: f64,
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
-    let (top, _) = Field { way: &way, limits }.top();
+    let field = Field { way: &way, limits };
+    let (top, _) = field.top();
     if !top.is_finite() {
         return Err(NoMotion::NoSpeedLimit);
     }
-    let at = |speed: f64| Task {
-        speeds: [speed; 2],
-        endless: false,
-        ..*task
-    };
+    let course = Course::new(&field, task)?;
+    let at = |speed: f64, within: f64| course.fastest([speed; 2], within);
     // A speed at which it cannot come round, above the one sought, and one at which it does, or cannot go on.
     let (mut high, mut low) = (top, 0.0);
     let mut stopped = None;
@@ -54,7 +54,7 @@ pub(super) fn solve(
         } else {
             high.midpoint(low)
         };
-        match refine(file, actuator, &at(speed), f64::INFINITY) {
+        match at(speed, f64::INFINITY) {
             Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => {
                 high = most.min(speed);
                 // The next turn is the same but for rounding.
@@ -72,13 +72,13 @@ pub(super) fn solve(
     }
     // With finer cells it may come round a little more slowly.
     let mut speed = low;
-    let mut found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
+    let mut found = at(speed, within);
     for share in FINER {
         let Err(NoMotion::StartTooFast { .. } | NoMotion::EndTooFast { .. }) = found else {
             break;
         };
         speed = low * (1.0 - share);
-        found = refine(file, actuator, &at(speed), SWEEP_EXCESS);
+        found = at(speed, within);
     }
     let found = found.map_err(|why| match why {
         NoMotion::NotAccurate {

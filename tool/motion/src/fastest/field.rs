@@ -10,6 +10,7 @@ use super::joint_force::{JointForces, Spot};
 pub use super::reserve::Reserve;
 use super::sweep::Side;
 use super::tool_speed::ToolSpeeds;
+use super::track::Seen;
 use crate::way::{Place, Way};
 
 /// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
@@ -297,16 +298,9 @@ impl Field<'_, '_> {
 
     /// The largest share by which a state (speed and acceleration along the way) exceeds a limit, and which; negative: none. A torque at its
     /// limit is measured by that of the motor at rest: the limit itself may be nothing.
-    ///
-    /// # Errors
-    /// The mechanism cannot be placed there.
-    pub fn excess_by(
-        &self,
-        place: &Place,
-        v: f64,
-        acceleration: f64,
-    ) -> Result<(f64, Binding), Error> {
+    pub fn excess_by(&self, seen: &Seen, v: f64, acceleration: f64) -> (f64, Binding) {
         let way = self.way;
+        let place = &seen.place;
         let limits = self.motor_torques(v);
         let scale = self.motor_torques(0.0).map(f64::abs);
         let torque = way.demand(place, v, acceleration).torque;
@@ -330,17 +324,17 @@ impl Field<'_, '_> {
             ((torque - limits[1]) / scale[1], Binding::Driving),
             ((limits[0] - torque) / scale[0], Binding::Braking),
             (v / top - 1.0, which),
-            (v / self.tool_speed(place.phi)? - 1.0, Binding::ToolSpeed),
+            (v / seen.tool - 1.0, Binding::ToolSpeed),
             (gearbox, Binding::GearboxTorque),
             (share(acceleration, most), Binding::Acceleration),
             (share(-acceleration, deceleration), Binding::Deceleration),
         ];
-        let forces = self.forces(place.phi)?.into_iter().map(|force| {
+        let forces = seen.forces.iter().map(|force| {
             let share = force.at(v, acceleration) / force.limit - 1.0;
             (share, Binding::JointForce(force.joint))
         });
         let first = (f64::NEG_INFINITY, Binding::Driving);
-        Ok(all.into_iter().chain(forces).fold(first, higher))
+        all.into_iter().chain(forces).fold(first, higher)
     }
 
     fn part(&self, place: &Place, z: f64, a: f64, limit: Binding) -> u32 {

@@ -4,6 +4,7 @@ use jred::Error;
 use jred_machine::model::machine::MachineFile;
 
 use super::field::{Binding, Field, Limits};
+use super::track::Seen;
 use crate::moves::Kept;
 use crate::way::{Actuator, Way};
 
@@ -42,7 +43,7 @@ impl KeptPart {
             for share in STEP_SHARES {
                 let state = b.after(a, share);
                 let (v, alpha) = (state.omega.abs(), state.alpha * way.direction);
-                let own = field.excess_by(&way.place(state.phi)?, v, alpha)?;
+                let own = field.excess_by(&Seen::new(&field, state.phi)?, v, alpha);
                 if own.0 > excess.0 {
                     excess = own;
                 }

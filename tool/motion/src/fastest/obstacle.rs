@@ -24,8 +24,8 @@ pub enum NoMotion {
     Machine(Error),
     /// Start and end are one, or not numbers.
     NoWay,
-    /// The motor's peak torque is not known.
-    NoTorqueLimit,
+    /// The motor's peak torque is not known; its unit is N of a motor that slides.
+    NoTorqueLimit(Coordinate),
     /// Nothing limits the speed of a motion that goes on for ever.
     NoSpeedLimit,
     /// The gearbox does not turn when its output drives.
@@ -156,6 +156,8 @@ pub enum NoMotion {
         missed: f64,
         /// Whether jerk and torque rate are limited.
         rates: [bool; 2],
+        /// Unit of the torque: N of a motor that slides.
+        unit: Coordinate,
         /// In whose words it is said.
         axis: Axis,
     },

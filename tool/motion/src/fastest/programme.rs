@@ -183,7 +183,7 @@ impl Asked<'_> {
                 widen(&mut warm.margins, &each, 2 * round > WIDENED);
             }
         }
-        if worst.excess > super::MOST_EXCESS {
+        if worst.excess > super::course::MOST_EXCESS {
             return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
         let time = trace.duration();
@@ -209,6 +209,7 @@ impl Asked<'_> {
             phi,
             missed,
             rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
+            unit: input(self.field.way.file),
             axis: self.field.way.file.axis(),
         }
     }

@@ -28,6 +28,8 @@ pub enum Rms {
     Continuous,
     /// A torque (N·m).
     Torque(f64),
+    /// The lower one of both.
+    Both(f64),
 }
 
 impl Rms {
@@ -35,6 +37,18 @@ impl Rms {
         match self {
             Self::Continuous => load.allowed,
             Self::Torque(torque) => torque,
+            Self::Both(torque) => load.allowed.min(torque),
+        }
+    }
+
+    /// A limit, if there is one, and a torque (N·m) besides.
+    #[must_use]
+    pub fn and(limit: Option<Self>, torque: f64) -> Self {
+        match limit {
+            None => Self::Torque(torque),
+            Some(Self::Torque(other)) => Self::Torque(torque.min(other)),
+            Some(Self::Continuous) => Self::Both(torque),
+            Some(Self::Both(other)) => Self::Both(torque.min(other)),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::NoMotion;
 use super::field::{Binding, Field, Limits};
 use super::sweep::{self, Obstacle};
 use super::tool_speed::ToolSpeeds;
-use super::track::{Ends, Track};
+use super::track::{Ends, Survey, Track};
 
 /// A limit that an option asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ pub(super) fn by(field: &Field, ends: &Ends, count: usize) -> Result<Option<Slow
                 ..limits
             },
         };
-        let track = Track::new(&field, ends, count, &[])?;
+        let track = Track::new(&Survey::new(&field, ends.from), ends, count, &[])?;
         let found = sweep::fastest(&field, &track, ends.speeds.map(|v| 0.5 * v * v));
         Ok::<_, NoMotion>(!matches!(found, Err(Obstacle::Stops(..))))
     };

@@ -6,6 +6,7 @@ use jred::Error;
 
 use super::field::Field;
 use super::joint_force::{JointForce, Spot};
+use crate::memo::Memo;
 use crate::way::Place;
 
 /// Factor of z from one look to the next where nothing limits the speed, and the most of them.
@@ -138,32 +139,97 @@ impl Ends {
     }
 }
 
+/// The machine at a place, whatever the speed.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// The machine.
+    pub place: Place,
+    /// The largest speed of the drive link that the tool leaves.
+    pub tool: f64,
+    /// The forces in joints that are limited.
+    pub forces: Vec<JointForce>,
+}
+
+impl Seen {
+    /// At a position.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn new(field: &Field, phi: f64) -> Result<Self, Error> {
+        Ok(Self {
+            place: field.way.place(phi)?,
+            tool: field.tool_speed(phi)?,
+            forces: field.forces(phi)?,
+        })
+    }
+}
+
+/// The machine along a way: it is worked out once at a place, for all cells that meet there and for all motions.
+#[derive(Debug)]
+pub struct Survey<'f, 'w, 'a> {
+    /// Machine, drive and limits.
+    pub field: &'f Field<'w, 'a>,
+    /// Position of the start (rad, or m).
+    from: f64,
+    /// By the distance from the start.
+    seen: Memo<u64, Seen>,
+    /// The largest z, by the place and the border of its cell.
+    caps: Memo<[u64; 2], f64>,
+}
+
+impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
+    /// Of a way from a position on.
+    pub fn new(field: &'f Field<'w, 'a>, from: f64) -> Self {
+        Self {
+            field,
+            from,
+            seen: Memo::default(),
+            caps: Memo::default(),
+        }
+    }
+
+    /// The machine at a distance from the start.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn seen(&self, x: f64) -> Result<Seen, Error> {
+        let position = self.from + self.field.way.direction * x;
+        self.seen
+            .of(x.to_bits(), || Seen::new(self.field, position))
+    }
+
+    /// The same with the largest z; the place lies inside a cell whose border is `border`.
+    fn at(&self, x: f64, border: f64) -> Result<(Place, f64, Vec<JointForce>), Error> {
+        let Seen {
+            place,
+            mut tool,
+            forces,
+        } = self.seen(x)?;
+        let cap = self.caps.of([x, border].map(f64::to_bits), || {
+            if (x - border).abs() > 0.0 {
+                // What goes on beyond the border has no step there.
+                let there = self.seen(border)?.tool;
+                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
+                    tool = there;
+                }
+            }
+            let top = 0.5 * self.field.top().0.powi(2);
+            let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
+            let spot = Spot::new(place, &alone, [1.0, 0.0, 0.0]);
+            Ok::<_, Error>(ceiling(self.field, &spot, top).min(0.5 * tool.powi(2)))
+        })?;
+        Ok((place, cap, forces))
+    }
+}
+
 impl Track {
     /// About `count` cells, finer towards an end at rest, which also meet at the distances `finer`; none across a corner of the machine.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere on the way.
-    pub fn new(field: &Field, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
+    pub fn new(survey: &Survey, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
         let (nodes, is_edge) = nodes(ends, count, finer);
-        let direction = field.way.direction;
-        let top = 0.5 * field.top().0.powi(2);
-        // `x` lies inside a cell whose border is `border`.
-        let at = |x: f64, border: f64| {
-            let place = field.way.place(ends.from + direction * x)?;
-            let mut tool = field.tool_speed(place.phi)?;
-            if (x - border).abs() > 0.0 {
-                // What goes on beyond the border has no step there.
-                let there = field.tool_speed(ends.from + direction * border)?;
-                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
-                    tool = there;
-                }
-            }
-            let tool = 0.5 * tool.powi(2);
-            let forces = field.forces(place.phi)?;
-            let alone: Vec<_> = forces.iter().map(|force| [*force; 3]).collect();
-            let cap = ceiling(field, &Spot::new(place, &alone, [1.0, 0.0, 0.0]), top);
-            Ok::<_, Error>((place, cap.min(tool), forces))
-        };
+        let at = |x: f64, border: f64| survey.at(x, border);
         let mut end_before = None;
         let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
         for (k, pair) in nodes.windows(2).enumerate() {

@@ -353,8 +353,6 @@ pub fn cooled(
                 phase.limit = Binding::WindingTemperature;
             }
         }
-        // What the other limits cost stays.
-        made.costs.retain(|cost| cost.limit != Binding::RmsTorque);
         made.costs.push(Cost {
             limit: Binding::WindingTemperature,
             time: before.fastest.time,

@@ -11,7 +11,7 @@ use super::{Ends, Travel};
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Shape;
 use crate::skyline::Skyline;
-use crate::way::{Place, Way};
+use crate::way::Place;
 
 /// A piece of the path: w, w′ at its start, w, w′ at its end.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +83,7 @@ impl Mesh {
     /// About `parts` elements for a move, or, where the acceleration is continuous, so many cells of the quadrature; `edges` are the
     /// shares of the way at which a load begins or ends.
     pub(super) fn new(
-        way: &Way,
+        place: impl Fn(f64) -> Result<Place, Error>,
         travel: &Travel,
         ramps: [f64; 2],
         (edges, parts): (&[f64], usize),
@@ -118,7 +118,7 @@ impl Mesh {
                     element,
                     u,
                     weight: weight * h,
-                    place: way.place(travel.start + travel.distance * g)?,
+                    place: place(travel.start + travel.distance * g)?,
                     path: [slope, bend].map(|derivative| derivative * way_length),
                     basis: [value, change],
                 });

@@ -6,7 +6,7 @@
 
 use jred_machine::number::quadrature::GAUSS_5;
 
-use super::task::{Solved, Task};
+use super::task::{Solved, Start, Task};
 use super::{FIRST, Fault, solve};
 
 /// Lengths of the pieces: the longest, and how often that of an end that moves is corrected.
@@ -52,7 +52,9 @@ impl<'a> Task<'a> {
     /// With lengths of the pieces at rest, each changed by smaller and smaller factors as long as that costs less.
     fn highest(self, moving: f64, rest: [bool; 2]) -> Result<Task<'a>, Fault> {
         let mut best = (f64::INFINITY, self.ramps);
-        let at = |ramps: [f64; 2]| -> Result<f64, Fault> {
+        // Each search begins with the solution before: neighbours differ little.
+        let mut start: Option<Start> = None;
+        let mut at = |ramps: [f64; 2]| -> Result<f64, Fault> {
             if ramps.iter().any(|ramp| *ramp > LONGEST) {
                 return Ok(f64::INFINITY);
             }
@@ -60,14 +62,22 @@ impl<'a> Task<'a> {
                 ramps,
                 ..self.clone()
             };
-            let solved = task.solve(moving, FIRST, None)?;
+            let solved = task.solve(moving, FIRST, start.as_ref())?;
             Ok(solved.map_or(f64::INFINITY, |solved| {
+                start = Some(solved.start());
                 let beyond = [0, 1].into_iter().filter(|end| rest[*end]);
                 let beyond: f64 = beyond.map(|end| solved.beyond(end)).sum();
                 solved.figure() * (1.0 + PENALTY * beyond)
             }))
         };
         best.0 = at(best.1)?;
+        if best.0.is_infinite() {
+            // In a time in which the machine would crawl no motion is found, whatever its ramps.
+            return Ok(Task {
+                ramps: best.1,
+                ..self
+            });
+        }
         let mut change = CHANGES[0];
         while change > CHANGES[1] {
             let mut moved = false;

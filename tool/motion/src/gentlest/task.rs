@@ -1,5 +1,7 @@
 //! A move solved on one mesh after another, in numbers of its own.
 
+use std::rc::Rc;
+
 use jred::{Domain, Reducible as _};
 
 use super::cost::Cost;
@@ -7,7 +9,8 @@ use super::mesh::Mesh;
 use super::scale::Scale;
 use super::solve::{self, Minimum, Problem};
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
-use crate::way::Way;
+use crate::memo::Memo;
+use crate::way::{Place, Way};
 
 /// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
 const LONGEST: u32 = 60;
@@ -82,6 +85,8 @@ pub(super) struct Task<'a> {
     pub(super) edges: Vec<f64>,
     /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it begins and ends with a jump.
     pub(super) ramps: [f64; 2],
+    /// The machine where it was needed before: in another time the places are the same.
+    pub(super) places: Rc<Memo<u64, Place>>,
 }
 
 /// One of the problems that are solved one after another, the last of which is meant.
@@ -108,6 +113,27 @@ pub(super) struct Solved<'t> {
     pub(super) stage: Stage,
     pub(super) mesh: Mesh,
     pub(super) found: Minimum,
+}
+
+/// A solution of the same time or another, on another mesh, with which a search begins.
+#[derive(Clone)]
+pub(super) struct Start {
+    moving: f64,
+    scale: Scale,
+    mesh: Mesh,
+    x: Vec<f64>,
+}
+
+impl Solved<'_> {
+    /// It as the start of another search.
+    pub(super) fn start(&self) -> Start {
+        Start {
+            moving: self.moving,
+            scale: self.scale,
+            mesh: self.mesh.clone(),
+            x: self.found.x.clone(),
+        }
+    }
 }
 
 impl Task<'_> {
@@ -137,7 +163,9 @@ impl Task<'_> {
         let mut shorts = 0;
         for _ in 0..LONGEST {
             time *= STEP;
-            let solved = self.solve(time, FIRST, None)?;
+            // A short one is no crawling one.
+            let start = last.as_ref().map(Solved::start);
+            let solved = self.solve(time, FIRST, start.as_ref())?;
             let short = solved.filter(is_short);
             shorts = if short.is_some() { shorts + 1 } else { 0 };
             last = short.or(last);
@@ -160,7 +188,10 @@ impl Task<'_> {
             if high - found.moving <= CLOSE * high {
                 break;
             }
-            if let Some(solved) = self.solve(next, FIRST, Some(&found))?.filter(is_short) {
+            if let Some(solved) = self
+                .solve(next, FIRST, Some(&found.start()))?
+                .filter(is_short)
+            {
                 found = solved;
             } else {
                 (high, is_bracketed) = (next, true);
@@ -220,13 +251,14 @@ impl Task<'_> {
         &'t self,
         moving: f64,
         parts: usize,
-        from: Option<&Solved>,
+        from: Option<&Start>,
     ) -> Result<Option<Solved<'t>>, Fault> {
         let travel = Travel {
             duration: moving,
             ..*self.travel
         };
-        let mesh = Mesh::new(self.way, &travel, self.ramps, (&self.edges, parts))?;
+        let place = |phi: f64| self.places.of(phi.to_bits(), || self.way.place(phi));
+        let mesh = Mesh::new(place, &travel, self.ramps, (&self.edges, parts))?;
         // All meshes for one time count in the same numbers: their costs are compared.
         let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
         let scale = match same {
@@ -236,7 +268,7 @@ impl Task<'_> {
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
         let mut kept = from
-            .and_then(|from| at(&goal, &refined(&from.mesh, &from.found.x, &mesh)))
+            .and_then(|from| at(&goal, &refined(&from.mesh, &from.x, &mesh)))
             .filter(|found| found.converged)
             .map(|found| (goal, found));
         // Of the peak any motion will do that is better than an even one, though the search did not come to its end.

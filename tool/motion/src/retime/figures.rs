@@ -1,5 +1,6 @@
 //! What a motion asks of the motor, and which of it is to be least.
 
+use jred_machine::number::rounding::of_terms;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::winding::CurrentCurve;
@@ -70,15 +71,21 @@ impl Request {
             ratio,
             envelope,
         } = &self.actuator;
-        let rms = cycle.rms_torque(coefficients);
-        let [drawn, _] = cycle.energies(coefficients, *ratio);
         let speed = cycle.peak_speed() * ratio;
+        // The torque is a sum of terms as large as ½·J′·ω², the work one of torques at their speeds.
+        let [_, driving, ..] = coefficients.0;
+        let peak = cycle.peak_torque(coefficients);
+        let inertial = driving * cycle.inertia().max * cycle.peak_speed().powi(2);
+        let peak = of_terms(peak, inertial);
+        let rms = of_terms(cycle.rms_torque(coefficients), inertial);
+        let [drawn, _] = cycle.energies(coefficients, *ratio);
+        let drawn = of_terms(drawn, (inertial + peak) * speed * cycle.duration());
         let continuous = envelope.continuous_torque(cycle.mean_speed() * ratio);
         Figures {
             rms_used: rms / continuous,
             speed_used: speed / envelope.max_speed(),
             rms,
-            peak: cycle.peak_torque(coefficients),
+            peak,
             drawn,
             copper: (self.copper).map(|copper| copper * rms * rms * cycle.duration()),
             speed,

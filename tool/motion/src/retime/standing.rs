@@ -24,7 +24,9 @@ pub(super) fn changed(
     other: &Motion,
 ) -> Result<Vec<(String, [f64; 2])>, Error> {
     let [own_times, other_times] = [times(file, own)?, times(file, other)?];
-    let names = file.machine.mechanism().link_names().iter();
+    let mechanism = file.machine.mechanism();
+    // The links of loads are none of the machine's.
+    let names = mechanism.link_names().iter().take(mechanism.own_links());
     let pairs = own_times.into_iter().zip(other_times);
     let all = names
         .zip(pairs)

@@ -25,7 +25,8 @@ fn more_motor_speed_is_not_more_gearbox_speed() {
         limits,
         ..task(0.0, 4000.0)
     };
-    let made = &single(&file, &actuator, asked, None).unwrap().moves[0];
+    let found = single(&file, &actuator, asked, None).unwrap();
+    let made = &found.with_costs(&file, &actuator).moves[0];
     let cost = (made.costs.iter())
         .find(|cost| cost.limit == Binding::MotorSpeed)
         .unwrap();
@@ -34,6 +35,7 @@ fn more_motor_speed_is_not_more_gearbox_speed() {
     close(cost.time, 4000.0 / top + top / 40.0, 1e-9);
     // Without the gearbox a tenth more speed.
     let free = single(&file, &actuator, task(0.0, 4000.0), None).unwrap();
+    let free = free.with_costs(&file, &actuator);
     let top = (1.0 + MORE) * 3000.0 * rpm;
     close(free.moves[0].costs[1].time, 4000.0 / top + top / 40.0, 1e-9);
 }

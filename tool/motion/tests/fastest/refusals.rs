@@ -245,7 +245,10 @@ fn a_motor_without_a_known_peak_is_refused() {
         ..motor([1.0; 2], 1.0)
     };
     let found = solve(&table(2.0, ""), &unknown, &task(0.0, 1.0));
-    assert!(matches!(found, Err(NoMotion::NoTorqueLimit)), "{found:?}");
+    assert!(
+        matches!(found, Err(NoMotion::NoTorqueLimit(_))),
+        "{found:?}"
+    );
 }
 
 /// Viscous friction that is very large for the inertia: its time is a 10⁷th of the motion's, and the motion is refused after some steps, not sought for minutes.

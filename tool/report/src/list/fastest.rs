@@ -2,6 +2,7 @@
 
 mod drive;
 mod moves;
+mod rules;
 
 use std::fmt::Write as _;
 
@@ -20,6 +21,7 @@ use jred_motion::contact::Broken;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::Reached;
+use jred_motion::fastest::ruled::Judged;
 use jred_motion::moves::Chain;
 use jred_motion::trace::Node;
 use jred_motion::way::{Actuator, BothWays};
@@ -28,6 +30,7 @@ use jred_sizing::select::fit::input_kind;
 pub use drive::Warmth;
 use drive::winding_json;
 use moves::move_json;
+use rules::rules_json;
 
 /// Name and version of the form in JSON.
 const SCHEMA: &str = "jred-fastest/1";
@@ -63,6 +66,8 @@ pub struct Answer<'a> {
     pub asked: Vec<String>,
     /// What it leaves unused of motor and gearbox.
     pub reserve: Reserve,
+    /// How the rules judge it, where they are kept.
+    pub judged: Option<&'a Judged>,
     /// Whether the drive is one of the catalogue, which `jred size` can judge.
     pub of_catalogue: bool,
     /// Instants of the course.
@@ -175,6 +180,9 @@ impl Answer<'_> {
             line(&mut text, "warning", &says);
         }
         line(&mut text, "reserve", &self.reserve());
+        if let Some(judged) = self.judged {
+            self.rules(judged, &mut text);
+        }
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
         let error = cycle.moves.iter().map(|made| made.fastest.error);
         let error = error.sum::<f64>();
@@ -266,6 +274,9 @@ impl Answer<'_> {
         );
         if let Some(warmth) = self.warmth {
             map.insert("winding".into(), winding_json(warmth));
+        }
+        if let Some(judged) = self.judged {
+            map.insert("rules".into(), rules_json(judged));
         }
         let axis = self.file.axis();
         let forces = self.forces.iter().map(|force| {

@@ -1,7 +1,7 @@
 //! What a plan for firmware is, in a line.
 
 use jred::axis::plan::Errors;
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{bound, short};
 use jred_machine::number::words::counted;
 use jred_motion::plan::{Excess, Plan, Quantity};
 use jred_motion::trace::Trace;
@@ -15,8 +15,16 @@ pub fn text(plan: &Plan, trace: &Trace) -> String {
         acceleration,
     } = plan.errors;
     let [_, acceleration_unit] = coordinate.rates();
+    let ramp = match plan.ramp {
+        None => String::new(),
+        Some(ramp) if ramp.is_finite() => format!(
+            "; a ramp of the rate from 0 to 100 % in {} s or more keeps the torque of the drive",
+            bound(ramp)
+        ),
+        Some(_) => "; no change of the rate keeps the torque of the drive, of which the motion uses all (--reserve leaves some)".to_owned(),
+    };
     format!(
-        "{}, {} bytes, {} s; beside the motion off by at most {} {}, {} {} and {} {}",
+        "{}, {} bytes, {} s; beside the motion off by at most {} {}, {} {} and {} {}{ramp}",
         counted(plan.rows, "row", "rows"),
         4 * plan.words.len(),
         short(trace.duration()),

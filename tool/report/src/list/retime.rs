@@ -10,11 +10,13 @@ use crate::table::output::Format;
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rules::Verdict;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
 use jred_motion::contact::Broken;
 use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
 use jred_motion::retime::{Figures, Goal, LAWS, Request, Retimed};
+use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
@@ -37,6 +39,8 @@ pub struct Shown<'a> {
     pub retimed: &'a Retimed,
     /// The contact that the motion loses.
     pub broken: Option<&'a Broken>,
+    /// The rules of the drive in the gentlest motion; none without a drive.
+    pub checks: &'a [Check],
     /// Which files were written.
     pub written: String,
 }
@@ -201,35 +205,21 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
     if let Some(broken) = shown.broken {
         line(text, "warning", &of_retime(broken));
     }
-    if shown.drive.is_some() && retimed.best.rms_used > 1.0 {
-        let says = if retimed.best.rms_used.is_finite() {
-            format!(
-                "the RMS {} is {} of the S1 {} at the mean speed",
-                words.torque,
-                percent(retimed.best.rms_used),
-                words.torque
-            )
+    for check in violated(shown) {
+        let whose = if check.id.follows_motion() {
+            "motion"
         } else {
-            format!("the drive has no S1 {} at the mean speed", words.torque)
+            "drive, whatever the motion"
         };
-        line(text, "warning", &says);
+        let says = format!("{}: `jred size` refuses the {whose}", check.sentence());
+        line(text, "not kept", &says);
     }
-    if shown.drive.is_some() && retimed.best.used > 1.0 {
-        let says = if retimed.best.used.is_finite() {
-            format!(
-                "the motion needs {} of the drive's short-time {}",
-                percent(retimed.best.used),
-                words.torque
-            )
-        } else {
-            format!(
-                "the motion is faster than the drive: {} {} are needed",
-                short(retimed.best.speed / words.speed.scale),
-                words.speed.unit
-            )
-        };
-        line(text, "warning", &says);
-    }
+}
+
+/// The rules that the motion violates.
+fn violated<'a>(shown: &Shown<'a>) -> impl Iterator<Item = &'a Check> {
+    let all = shown.checks.iter();
+    all.filter(|check| check.verdict == Verdict::Fail)
 }
 
 /// `12 % less than`, or the other way round.
@@ -403,6 +393,8 @@ fn json(shown: &Shown) -> Value {
     map.insert("global".into(), global.into());
     map.insert("local_because".into(), json!(reason));
     map.insert("contact_lost".into(), json!(shown.broken.map(of_retime)));
+    let violated: Vec<&Check> = violated(shown).collect();
+    map.insert("rules_not_kept".into(), json!(violated));
     let axis = shown.file.axis();
     map.insert("unit".into(), axis.coordinate.per().into());
     // The mean of a high power has no unit that says anything.

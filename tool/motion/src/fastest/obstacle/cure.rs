@@ -16,11 +16,13 @@ impl NoMotion {
             Self::Stops {
                 eased: Some(eased),
                 at_start: false,
+                unit,
                 ..
             } => format!(
-                "raise the {} ({}), or take a motor with more torque at low speed or a larger gear ratio",
+                "raise the {} ({}), or take a motor with more {} at low speed or a larger gear ratio",
                 eased.name(),
-                eased.option()
+                eased.option(),
+                unit.vocabulary().torque
             ),
             Self::Stops {
                 limit,
@@ -29,6 +31,7 @@ impl NoMotion {
                 ..
             } => {
                 let missing = short(torques[0] - torques[1]);
+                let effort = unit.vocabulary().torque;
                 let unit = unit.effort_unit();
                 match limit {
                     Binding::GearboxTorque => format!(
@@ -39,7 +42,7 @@ impl NoMotion {
                     }
                     Binding::JointForce(_) => LARGER_FORCE.to_owned(),
                     _ => format!(
-                        "take a motor with more torque at low speed ({missing} {unit} more would hold the machine there; less may do, as kinetic energy helps), a larger gear ratio, or start with more speed"
+                        "take a motor with more {effort} at low speed ({missing} {unit} more would hold the machine there; less may do, as kinetic energy helps), a larger gear ratio, or start with more speed"
                     ),
                 }
             }
@@ -52,20 +55,25 @@ impl NoMotion {
         match self {
             Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
             Self::NoWay => "give two different positions".to_owned(),
-            Self::NoTorqueLimit => {
-                "take a motor with a peak torque, or give --torque".to_owned()
+            Self::NoTorqueLimit(unit) => format!(
+                "take a motor with a peak {}, or give --torque",
+                unit.vocabulary().torque
+            ),
+            Self::NoSpeedLimit => {
+                "give --max-speed, or with --torque the --motor-speed".to_owned()
             }
-            Self::NoSpeedLimit => "give --max-speed".to_owned(),
             Self::SelfLocking => "take another gearbox".to_owned(),
             Self::Stops { .. } => self.of_a_stop(),
-            Self::RunsAway { limit, .. } => match limit {
+            Self::RunsAway { limit, unit, .. } => match limit {
                 Binding::Deceleration => "allow a larger deceleration".to_owned(),
                 Binding::JointForce(_) => LARGER_FORCE.to_owned(),
                 Binding::GearboxTorque => {
                     "take a gearbox with more torque, or balance the weight".to_owned()
                 }
-                _ => "take a motor with more torque where it brakes, a larger gear ratio, or balance the weight"
-                    .to_owned(),
+                _ => format!(
+                    "take a motor with more {} where it brakes, a larger gear ratio, or balance the weight",
+                    unit.vocabulary().torque
+                ),
             },
             Self::Stiff { .. } => {
                 "check viscous loads, which are very large for the inertia of the machine, and its masses and rotor_inertia".to_owned()

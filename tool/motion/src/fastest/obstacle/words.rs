@@ -123,9 +123,10 @@ impl NoMotion {
                 f,
                 "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque or of the winding's temperature that binds: that motion is not computed"
             ),
-            Self::NoTorqueLimit => write!(
+            Self::NoTorqueLimit(unit) => write!(
                 f,
-                "the motor's peak torque is not known, so nothing limits the acceleration"
+                "the motor's peak {} is not known, so nothing limits the acceleration",
+                unit.vocabulary().torque
             ),
             Self::NoSpeedLimit => write!(
                 f,
@@ -197,25 +198,27 @@ impl NoMotion {
                 limit,
                 phi,
                 missed,
+                unit,
                 axis,
                 ..
             } => {
+                let words = unit.vocabulary().torque;
                 match limit {
                     Some(limit) => write!(
                         f,
                         "no motion within the limits was found: the {} is exceeded by {} % at {}",
-                        limit.name(),
+                        unit.vocabulary().effort_in(limit.name()),
                         short(100.0 * missed),
                         axis.place(*phi)
                     )?,
                     None => write!(
                         f,
-                        "the search for a motion within the limits of jerk, torque rate or RMS torque did not come to its end, though no limit is exceeded where it stopped"
+                        "the search for a motion within the limits of jerk, {words} rate or RMS {words} did not come to its end, though no limit is exceeded where it stopped"
                     )?,
                 }
                 write!(
                     f,
-                    "; without limits of jerk, torque rate and RMS torque the fastest motion takes {} s",
+                    "; without limits of jerk, {words} rate and RMS {words} the fastest motion takes {} s",
                     short(*bound)
                 )
             }
@@ -279,8 +282,7 @@ impl fmt::Display for NoMotion {
                     ),
                     _ => write!(
                         f,
-                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {} is {given} {unit}",
-                        limit.name()
+                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {name} is {given} {unit}"
                     ),
                 }
             }
@@ -296,7 +298,7 @@ impl fmt::Display for NoMotion {
                 short(axis.rate(*most)),
                 axis.coordinate.speed_unit()
             ),
-            Self::NoTorqueLimit
+            Self::NoTorqueLimit(_)
             | Self::NoSpeedLimit
             | Self::SelfLocking
             | Self::TooLong { .. }

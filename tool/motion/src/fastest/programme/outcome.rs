@@ -10,6 +10,7 @@ use super::{Asked, Found, PROGRAMME_EXCESS};
 use crate::collocation::shape::Shape;
 use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
+use crate::fastest::track::Seen;
 use crate::fastest::{NoMotion, Phase};
 use crate::trace::{Node, Trace};
 use crate::way::Place;
@@ -181,9 +182,9 @@ impl Asked<'_> {
             };
             for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
-                let place = place(state.phi)?;
+                let seen = Seen::new(self.field, place(state.phi)?.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
-                let (excess, limit) = self.field.excess_by(&place, v, alpha)?;
+                let (excess, limit) = self.field.excess_by(&seen, v, alpha);
                 look(0, excess, limit);
             }
             if let Some(limit) = limits.torque_rate {

@@ -1,0 +1,92 @@
+//! What is made as fast as possible: one move, or the motion of the file.
+
+use miette::{Result, miette};
+
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::rounding::short;
+use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
+use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
+use jred_motion::moves::{Chain, NoMoves, Part, chain};
+use jred_motion::way::Actuator;
+
+/// What is made as fast as possible.
+pub(super) enum Motion {
+    /// One move.
+    Move(Task),
+    /// That of the file.
+    Chain(Chain),
+}
+
+impl Motion {
+    /// What the motion of the file is made of.
+    pub(super) const fn chain(&self) -> Option<&Chain> {
+        match self {
+            Self::Move(_) => None,
+            Self::Chain(chain) => Some(chain),
+        }
+    }
+
+    /// It as fast as possible; or why it cannot be made, with the number of the move.
+    pub(super) fn fastest(
+        &self,
+        file: &MachineFile,
+        actuator: &Actuator,
+        limits: &Limits,
+        rms: Option<Rms>,
+    ) -> Result<Cycle, (Option<usize>, NoMotion)> {
+        match self {
+            Self::Move(task) => {
+                let task = Task {
+                    limits: *limits,
+                    ..*task
+                };
+                single(file, actuator, task, rms).map_err(|why| (None, why))
+            }
+            Self::Chain(chain) => {
+                let mut moves = chain.parts.iter().filter_map(Part::step);
+                if let Some((step, _)) = moves.next().filter(|_| chain.endless) {
+                    return endless(file, actuator, *limits, &step).map_err(|why| (None, why));
+                }
+                let several = moves.next().is_some();
+                cycle(file, actuator, *limits, rms, &chain.parts)
+                    .map_err(|(index, why)| (several.then_some(index + 1), why))
+            }
+        }
+    }
+}
+
+/// The moves of the file's motion.
+pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
+    let motion = file.motion_or("give --from and --to, or ")?;
+    let chain = chain(motion, &file.process()).map_err(|why| match why {
+        NoMoves::Still => miette!(
+            help = "give --from and --to, or a [motion] with a move",
+            "nothing moves in the motion of {}",
+            file.name
+        ),
+        NoMoves::NotAtRest { speed, at_end } => {
+            let end = if at_end { "ends" } else { "begins" };
+            let axis = file.axis();
+            let unit = axis.coordinate.speed_unit();
+            miette!(
+                help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
+                "the motion of {} {end} with {} {unit}, so its moves are not known",
+                file.name,
+                short(axis.rate(speed.abs()))
+            )
+        }
+        NoMoves::AllKept => miette!(
+            help = "give --from and --to, or a [motion] with moves beside the constant speed",
+            "the motion of {} is nothing but constant speed, which is kept",
+            file.name
+        ),
+    })?;
+    if chain.endless && (limits.has_rates() || rms.is_some()) {
+        return Err(miette!(
+            help = "leave them out, or give one move with --from and --to",
+            "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+            file.name
+        ));
+    }
+    Ok(Motion::Chain(chain))
+}

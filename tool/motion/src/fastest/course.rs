@@ -1,0 +1,210 @@
+//! A way cut into cells, finer and finer until the time of the fastest motion is settled and its limits hold between the nodes.
+
+use std::cell::Cell;
+
+use crate::trace::{Node, Trace};
+use crate::way::Way;
+
+use super::field::{Field, speed};
+use super::leg::Step;
+use super::sweep::{self, Obstacle, Piece};
+use super::track::{Ends, Survey, Track};
+use super::{
+    Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, slivers, slowed,
+};
+
+/// Cells of the first try, and the most.
+pub(super) const CELLS: [usize; 2] = [128, 131_072];
+
+/// Change of the time from one number of cells to twice as many, as a share, at which it is taken: with a method of order 4 a fifteenth
+/// of it is left.
+const SETTLED: f64 = 1e-9;
+
+/// Share by which a torque, speed or acceleration may exceed its limit between the nodes of the motion.
+pub(super) const SWEEP_EXCESS: f64 = 1e-9;
+
+/// Rounds of finer cells.
+const ROUNDS: u32 = 24;
+
+/// Rounds in a row in which what is exceeded most does not fall below this share of the least so far: it is rounding of the machine's terms, of which finer
+/// cells have as much.
+const IDLE: u32 = 3;
+const FALLS: f64 = 0.5;
+
+/// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
+/// less accurate is none.
+pub(super) const MOST_EXCESS: f64 = 1e-6;
+const MOST_CHANGE: f64 = 1e-6;
+
+/// Cells with which limits that contradict each other are taken as such.
+const ENOUGH: usize = 4096;
+
+/// A way with its limits, along which motions with other speeds at their ends are made.
+pub(super) struct Course<'f, 'w, 'a> {
+    survey: Survey<'f, 'w, 'a>,
+    from: f64,
+    length: f64,
+    corners: Vec<f64>,
+    /// Cells with which the next motion is tried first: half of those with which the one before was settled.
+    first: Cell<usize>,
+}
+
+impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
+    /// The way of a task.
+    ///
+    /// # Errors
+    /// It is too long, or the mechanism cannot be placed somewhere.
+    pub(super) fn new(field: &'f Field<'w, 'a>, task: &Task) -> Result<Self, NoMotion> {
+        let length = (task.to - task.from).abs();
+        let [first, _] = CELLS;
+        Ok(Self {
+            survey: Survey::new(field, task.from),
+            from: task.from,
+            length,
+            corners: corners::corners(field, task.from, length)?,
+            first: Cell::new(first.max(least_cells(field, task.from, length)?)),
+        })
+    }
+
+    /// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
+    pub(super) fn fastest(&self, speeds: [f64; 2], within: f64) -> Result<Fastest, NoMotion> {
+        let field = self.survey.field;
+        let (way, limits, file) = (field.way, &field.limits, field.way.file);
+        let [_, most] = CELLS;
+        let mut count = self.first.get();
+        let ends = Ends {
+            from: self.from,
+            length: self.length,
+            speeds,
+            corners: self.corners.clone(),
+        };
+        let z = ends.speeds.map(|v| 0.5 * v * v);
+        let mut before: Option<f64> = None;
+        let mut end: Option<f64> = None;
+        let mut settled = f64::INFINITY;
+        let mut finer: Vec<f64> = Vec::new();
+        let (mut lowest, mut idle) = (f64::INFINITY, 0);
+        for round in 0.. {
+            let track = Track::new(&self.survey, &ends, count, &finer)?;
+            if let Some((phi, force)) = joint_force::without_motion(&track) {
+                return Err(NoMotion::of_force(file, phi, &force));
+            }
+            let may_go_on = track.cells.len() < most && round < ROUNDS;
+            let pieces = match sweep::fastest(field, &track, z) {
+                Ok(pieces) => pieces,
+                Err(Obstacle::StartTooFast(most) | Obstacle::EndTooFast(most))
+                    if count < ENOUGH
+                        && finer.is_empty()
+                        && may_go_on
+                        && end
+                            .replace(most)
+                            .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
+                {
+                    // How fast an end may be is known as well as the cells show the machine.
+                    count *= 2;
+                    continue;
+                }
+                Err(obstacle) => {
+                    let eased = match obstacle {
+                        Obstacle::Stops(..) => slowed::by(field, &ends, count)?,
+                        _ => None,
+                    };
+                    return Err(NoMotion::at(field, &track, obstacle, eased));
+                }
+            };
+            if let Err(closed) = between::check(field, &ends, &track, &pieces) {
+                // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
+                if !(limits.forces.is_some() && may_go_on) {
+                    return Err(closed.why);
+                }
+                if finer.is_empty() && count < ENOUGH {
+                    count *= 2;
+                } else {
+                    finer.extend(closed.places);
+                }
+                continue;
+            }
+            let times = sweep::times(&track, &pieces);
+            let time: f64 = times.iter().sum();
+            if settled.is_infinite() {
+                let change = before.map_or(f64::INFINITY, |before| (time - before).abs());
+                before = Some(time);
+                if change > SETTLED * time && may_go_on {
+                    count *= 2;
+                    continue;
+                }
+                settled = change;
+                self.first.set(self.first.get().max(count / 2));
+            }
+            let (pieces, times) = slivers::without(&track, pieces, &times);
+            let trace = trace(way, &ends, &track, &pieces, &times);
+            let (worst, places) = if within.is_finite() {
+                between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?
+            } else {
+                ((0.0, self.from), Vec::new())
+            };
+            let falls = worst.0 < FALLS * lowest;
+            if falls {
+                (lowest, idle) = (worst.0, 0);
+            } else {
+                idle += 1;
+            }
+            if !places.is_empty() && may_go_on && idle < IDLE {
+                finer.extend(places);
+                continue;
+            }
+            let (excess, phi) = worst;
+            if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
+                return Err(NoMotion::NotAccurate {
+                    excess,
+                    phi,
+                    change: settled / time,
+                    endless: false,
+                    axis: file.axis(),
+                });
+            }
+            return Ok(Fastest {
+                time,
+                error: settled / 15.0,
+                phases: phases::phases(field, &ends, &track, &pieces, &times),
+                trace,
+                excess,
+                cells: track.cells.len(),
+                bound: None,
+            });
+        }
+        Err(NoMotion::NoWay)
+    }
+}
+
+/// The motion over the time.
+fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
+    let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
+    let mut t = 0.0;
+    let mut push = |t: f64, step: f64, piece: &Piece, end: usize| {
+        let Step { u, z, a, .. } = &piece.step;
+        let cell = &track.cells[piece.cell];
+        let alpha = a[end] * way.direction;
+        if let Some(node) = nodes.last_mut().filter(|_| end == 0) {
+            node.alpha[1] = alpha;
+            return;
+        }
+        nodes.push(Node {
+            t,
+            step,
+            phi: ends.from + way.direction * (cell.x + u[end] * cell.length),
+            omega: speed(z[end]) * way.direction,
+            alpha: [if t == 0.0 { 0.0 } else { alpha }, alpha],
+        });
+    };
+    for (piece, time) in pieces.iter().zip(times) {
+        push(t, 0.0, piece, 0);
+        t += time;
+        push(t, *time, piece, 1);
+    }
+    if let Some(last) = nodes.last_mut() {
+        last.alpha[1] = 0.0;
+        last.phi = ends.from + way.direction * ends.length;
+    }
+    Trace::new(way.coordinate(), nodes)
+}

@@ -1,0 +1,407 @@
+//! The fastest motion that the rules of sizing accept.
+//!
+//! Some limits of a drive depend on the motion itself: T2B on its cycles per hour, the cubic mean against T2N, the mean speed and the RMS current on all of it.
+//! The motion is made, and judged as `jred size` judges it ([`Judge`]). Where a rule is violated, a [`Cap`] that acts at every instant is lowered, until the rule is
+//! kept by no more than a thousandth: a faster motion uses more of every one of these limits, so there is one such cap. Of the cycles per hour that is the
+//! fixed point: the torque that is allowed at the rate that it makes.
+//!
+//! With such a cap the motion is the fastest one within constant limits; for the cubic mean or the mean speed another one may be faster, which uses torque and
+//! speed unevenly over the way.
+
+use jred::Error;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::judge::Context;
+use jred_sizing::judge::Findings;
+use jred_sizing::judge::check::Check;
+use jred_sizing::motor::envelope::Prepared;
+
+use super::cycle::Cycle;
+use super::field::Limits;
+use super::{NoMotion, Rms};
+use crate::trace::Trace;
+
+/// Share of a limit that a motion may use: a millionth less than all of it is what a reserve leaves, and a profile is read with other last digits.
+const ALLOWED: f64 = 1.0 - 5e-7;
+
+/// Share of a limit by which its use may stay below at the end.
+const NEAR: f64 = 1e-3;
+
+/// Motions that are tried for one cap, and rounds over all of them.
+const TRIES: u32 = 10;
+const ROUNDS: u32 = 4;
+
+/// A use that falls by a smaller share than this with a cap that falls by more does not follow it.
+const FOLLOWS: f64 = 1e-3;
+
+/// What is lowered at every instant, so that a rule of the whole motion is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cap {
+    /// The share of the motor's torque.
+    MotorTorque,
+    /// The torque at the gearbox output (N·m).
+    GearboxTorque,
+    /// The speed of the motor (rad/s, or m/s).
+    Speed,
+    /// The RMS torque of the motor (N·m), which is one of the whole motion.
+    RmsTorque,
+}
+
+impl Cap {
+    /// All, in the order in which they are sought.
+    pub const ALL: [Self; 4] = [
+        Self::MotorTorque,
+        Self::GearboxTorque,
+        Self::Speed,
+        Self::RmsTorque,
+    ];
+
+    /// What is lowered for a rule that is kept. `heat`: the rules of the motor's heat are asked for.
+    const fn of(rule: Rule, heat: bool) -> Option<Self> {
+        match rule {
+            Rule::PeakTorque | Rule::PeakCurrent => Some(Self::MotorTorque),
+            Rule::GearboxPeak | Rule::GearboxCubicMean => Some(Self::GearboxTorque),
+            Rule::Speed | Rule::GearboxSpeed | Rule::GearboxMeanSpeed | Rule::GearboxCycles => {
+                Some(Self::Speed)
+            }
+            Rule::RmsCurrent | Rule::Overload => Some(Self::RmsTorque),
+            Rule::RmsTorque | Rule::WindingTemperature | Rule::HousingTemperature if heat => {
+                Some(Self::RmsTorque)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Caps by their order; infinite: none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Caps([f64; Cap::ALL.len()]);
+
+impl Caps {
+    const NONE: Self = Self([f64::INFINITY; Cap::ALL.len()]);
+
+    const fn get(&self, cap: Cap) -> f64 {
+        self.0[cap as usize]
+    }
+
+    const fn with(mut self, cap: Cap, value: f64) -> Self {
+        self.0[cap as usize] = value;
+        self
+    }
+
+    /// The limits with them.
+    fn on(&self, limits: &Limits) -> Limits {
+        let least = |limit: Option<f64>, cap: f64| {
+            let both = limit.map_or(cap, |limit| limit.min(cap));
+            Some(both).filter(|limit| limit.is_finite())
+        };
+        let mut limits = *limits;
+        limits.gearbox_torque = least(limits.gearbox_torque, self.get(Cap::GearboxTorque));
+        limits.gearbox_speed = least(limits.gearbox_speed, self.get(Cap::Speed));
+        let share = self.get(Cap::MotorTorque).min(1.0);
+        limits.reserve.torque = 1.0 - (1.0 - limits.reserve.torque) * share;
+        limits
+    }
+
+    /// The limit of the RMS torque with them.
+    fn rms(&self, rms: Option<Rms>) -> Option<Rms> {
+        let torque = self.get(Cap::RmsTorque);
+        if torque.is_finite() {
+            Some(Rms::and(rms, torque))
+        } else {
+            rms
+        }
+    }
+}
+
+/// What judges motions of a drive: the rules of `jred size`.
+#[derive(Clone, Debug)]
+pub struct Judge<'a> {
+    file: &'a MachineFile,
+    drive: Drive<'a>,
+    prepared: Prepared,
+    steps: usize,
+}
+
+impl<'a> Judge<'a> {
+    /// Of a drive in a machine; its duty is taken in so many time steps.
+    pub fn new(file: &'a MachineFile, drive: Drive<'a>, steps: usize) -> Self {
+        Self {
+            file,
+            drive,
+            prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
+            steps,
+        }
+    }
+
+    fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, Error> {
+        // As a profile that is read back.
+        let cyclic = self.file.motion.as_ref().is_none_or(|own| own.cyclic);
+        let motion = Motion::nodes(trace.nodes(), cyclic);
+        let file = MachineFile {
+            motion: Some(motion.clone()),
+            ..self.file.clone()
+        };
+        let duty = Duty::new(&file, &motion, self.steps)?;
+        let cycle = jred_sizing::cycle::Cycle::new(&duty);
+        let context = Context::new(&cycle, &file.site, self.drive, &self.prepared);
+        Ok(of(&context))
+    }
+
+    /// The findings of all rules in a motion.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub fn findings(&self, trace: &Trace) -> Result<Findings, Error> {
+        self.with(trace, |context| context.findings(&self.file.rules))
+    }
+
+    /// The same under the rules, with words.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, Error> {
+        self.with(trace, |context| context.checks(&self.file.rules))
+    }
+
+    /// The largest use of a limit that a cap keeps.
+    fn used(&self, findings: &Findings, cap: Cap, heat: bool) -> f64 {
+        let own = findings
+            .iter()
+            .filter(|(rule, _)| Cap::of(*rule, heat) == Some(cap));
+        let used = own.map(|(rule, finding)| self.file.rules.use_of_limit(rule, finding));
+        used.fold(0.0, f64::max) / ALLOWED
+    }
+}
+
+/// How the rules judge a motion, and what was lowered for them.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Every rule.
+    pub checks: Vec<Check>,
+    /// The rules that are kept by the search, if they can be.
+    pub sought: Vec<Rule>,
+    /// What was lowered at every instant.
+    pub caps: Vec<(Cap, f64)>,
+}
+
+impl Judged {
+    /// The rules that were sought and are kept.
+    pub fn kept(&self) -> impl Iterator<Item = &Check> {
+        let sought = |check: &&Check| self.sought.contains(&check.id);
+        let held = |check: &&Check| check.verdict == Verdict::Pass;
+        self.checks.iter().filter(sought).filter(held)
+    }
+
+    /// The rules that the motion violates, each a reason for `jred size` to refuse it.
+    pub fn violated(&self) -> impl Iterator<Item = &Check> {
+        let all = self.checks.iter();
+        all.filter(|check| check.verdict == Verdict::Fail)
+    }
+}
+
+/// Why there is no motion, with the number of the move.
+type Refused = (Option<usize>, NoMotion);
+
+/// A motion that was tried, with what goes with it.
+struct Tried<W> {
+    caps: Caps,
+    cycle: Cycle,
+    with: W,
+    findings: Findings,
+}
+
+/// The search for the fastest motion that the rules accept.
+struct Search<'s, W> {
+    judge: &'s Judge<'s>,
+    limits: &'s Limits,
+    rms: Option<Rms>,
+    /// Whether the motor's heat is limited by rules.
+    heat: bool,
+    make: &'s dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused>,
+}
+
+impl<W> Search<'_, W> {
+    fn at(&self, caps: Caps) -> Result<Tried<W>, Refused> {
+        let (cycle, with) = (self.make)(&caps.on(self.limits), caps.rms(self.rms))?;
+        let findings = self.judge.findings(&cycle.trace);
+        Ok(Tried {
+            findings: findings.map_err(|error| (None, error.into()))?,
+            caps,
+            cycle,
+            with,
+        })
+    }
+
+    fn used(&self, tried: &Tried<W>, cap: Cap) -> f64 {
+        self.judge.used(&tried.findings, cap, self.heat)
+    }
+
+    fn keeps_all(&self, tried: &Tried<W>, but: &[Cap]) -> bool {
+        let sought = Cap::ALL.iter().filter(|cap| !but.contains(cap));
+        sought.into_iter().all(|cap| self.used(tried, *cap) <= 1.0)
+    }
+
+    /// What the motion has of a quantity that a cap limits: a higher cap does nothing.
+    fn has(&self, tried: &Tried<W>, cap: Cap) -> f64 {
+        let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
+        let own = match cap {
+            Cap::MotorTorque => 1.0,
+            Cap::GearboxTorque => value(Rule::GearboxPeak),
+            Cap::Speed => value(Rule::Speed),
+            Cap::RmsTorque => tried.cycle.load.rms,
+        };
+        own.min(tried.caps.get(cap))
+    }
+
+    /// Lowers a cap until its rules are kept; `None`: they are not kept by lowering it.
+    fn lowered(&self, cap: Cap, from: &Tried<W>) -> Option<Tried<W>> {
+        // Cap and use of it: too high, and low enough.
+        let mut high = [self.has(from, cap), self.used(from, cap)];
+        let mut low: Option<([f64; 2], Tried<W>)> = None;
+        // Where no motion is left.
+        let mut least = 0.0_f64;
+        for round in 0..TRIES {
+            let next = match &low {
+                Some((own, _)) if round % 3 == 2 => (high[0] * own[0]).sqrt(),
+                Some((own, _)) => between(*own, high),
+                None => high[0] / high[1],
+            };
+            let next = if next > least {
+                next
+            } else {
+                least.midpoint(high[0])
+            };
+            if !next.is_finite() || next <= 0.0 || high[0] - least <= NEAR * high[0] {
+                break;
+            }
+            let Ok(tried) = self.at(from.caps.with(cap, next)) else {
+                least = next;
+                continue;
+            };
+            let used = self.used(&tried, cap);
+            if used <= 1.0 {
+                low = Some(([next, used], tried));
+                if used >= 1.0 - NEAR {
+                    break;
+                }
+            } else {
+                let falls = used < high[1] * (1.0 - FOLLOWS);
+                if !falls && next < high[0] * (1.0 - 10.0 * FOLLOWS) {
+                    break;
+                }
+                high = [next, used];
+            }
+        }
+        low.map(|(_, tried)| tried)
+    }
+
+    /// Raises a cap that became too low when another one was lowered, as far as all rules stay kept.
+    fn raised(&self, cap: Cap, from: Tried<W>, but: &[Cap]) -> Tried<W> {
+        let mut best = from;
+        for _ in 0..TRIES / 2 {
+            let used = self.used(&best, cap);
+            if !best.caps.get(cap).is_finite() || used <= 0.0 || used >= 1.0 - NEAR {
+                break;
+            }
+            let next = best.caps.get(cap) / used.max(0.5);
+            let Ok(tried) = self.at(best.caps.with(cap, next)) else {
+                break;
+            };
+            let is_faster = tried.cycle.trace.duration() < best.cycle.trace.duration();
+            if !is_faster || !self.keeps_all(&tried, but) {
+                // Half of it may do.
+                let next = (best.caps.get(cap) * next).sqrt();
+                match self.at(best.caps.with(cap, next)) {
+                    Ok(tried) if self.keeps_all(&tried, but) => best = tried,
+                    _ => {}
+                }
+                break;
+            }
+            best = tried;
+        }
+        best
+    }
+
+    /// Lowers caps until all rules are kept that can be; those that cannot be are added to `lost`.
+    fn settled(&self, from: Tried<W>, lost: &mut Vec<Cap>) -> Tried<W> {
+        let mut now = from;
+        for _ in 0..ROUNDS {
+            let mut changed = false;
+            for cap in Cap::ALL {
+                if lost.contains(&cap) || self.used(&now, cap) <= 1.0 {
+                    continue;
+                }
+                match self.lowered(cap, &now) {
+                    Some(tried) => (now, changed) = (tried, true),
+                    None => lost.push(cap),
+                }
+            }
+            if !changed {
+                break;
+            }
+        }
+        for cap in Cap::ALL {
+            now = self.raised(cap, now, lost);
+        }
+        now
+    }
+}
+
+/// The cap at which the use would be a little below its limit, as a power of the cap between two.
+fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
+    let aim = 1.0 - 0.5 * NEAR;
+    let share = (high[1] / aim).ln() / (high[1] / low[1]).ln();
+    high[0] * (low[0] / high[0]).powf(share.clamp(0.02, 0.98))
+}
+
+/// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with what goes with it; `heat`: the rules of the motor's heat
+/// are kept as well. `make` makes the fastest motion within limits. Rules that no slower motion keeps are violated: see [`Judged::violated`].
+///
+/// # Errors
+/// Those of `make`.
+pub fn ruled<W>(
+    judge: &Judge<'_>,
+    (limits, rms): (&Limits, Option<Rms>),
+    heat: bool,
+    make: impl Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused>,
+) -> Result<(Cycle, W, Judged), Refused> {
+    let search = |rms, heat| Search {
+        judge,
+        limits,
+        rms,
+        heat,
+        make: &make,
+    };
+    // A limit of the RMS torque takes many motions: first without it.
+    let mut lost = vec![Cap::RmsTorque];
+    let first = search(None, false);
+    let mut caps = first.settled(first.at(Caps::NONE)?, &mut lost);
+    lost.retain(|cap| *cap != Cap::RmsTorque);
+    let whole = search(rms, heat);
+    let turns = caps.cycle.moves.iter().any(|made| made.task.endless);
+    if turns || limits.forces.is_some() {
+        lost.push(Cap::RmsTorque);
+    } else if rms.is_some() {
+        caps = whole.at(caps.caps)?;
+    }
+    let found = whole.settled(caps, &mut lost);
+    let checks = judge.checks(&found.cycle.trace);
+    let checks = checks.map_err(|error| (None, error.into()))?;
+    let applies = checks.iter().map(|check| check.id);
+    let sought = applies.filter(|rule| Cap::of(*rule, heat).is_some());
+    let capped = Cap::ALL.into_iter().filter_map(|cap| {
+        let value = found.caps.get(cap);
+        value.is_finite().then_some((cap, value))
+    });
+    let judged = Judged {
+        sought: sought.collect(),
+        caps: capped.collect(),
+        checks,
+    };
+    Ok((found.cycle, found.with, judged))
+}

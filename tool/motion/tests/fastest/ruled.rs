@@ -1,0 +1,218 @@
+//! Motions that the rules of sizing accept: judged by the profile that is read back.
+
+use std::path::{Path, PathBuf};
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::axis::Axis;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::{drive_train, variator};
+use jred_machine::read;
+use jred_motion::fastest::cycle::{Cycle, cycle, endless};
+use jred_motion::fastest::field::Reserve;
+use jred_motion::fastest::ruled::{Cap, Judge, Judged, ruled};
+use jred_motion::fastest::{Limits, NoMotion, Rms};
+use jred_motion::moves::{Chain, Part, chain};
+use jred_motion::way::Actuator;
+use jred_sizing::catalogue::{Catalogue, Drive, MotorKind};
+use jred_sizing::judge::Context;
+use jred_sizing::judge::check::Check;
+use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::select::fit::input_kind;
+use jred_sizing::select::named::named;
+
+use super::close;
+use crate::support::Folder;
+
+const STEPS: usize = 2000;
+
+fn home() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Five motors, three gearboxes with shock factors, three amplifiers.
+fn catalogue() -> Catalogue {
+    let folder = home().join("support/engineer/cat");
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let names = [
+        "amplifiers.csv",
+        "compatibility.csv",
+        "gearboxes.csv",
+        "motors.csv",
+        "resistors.csv",
+    ];
+    Catalogue::of_texts(names.map(|name| (name, text(name))), false).unwrap()
+}
+
+fn made(
+    file: &MachineFile,
+    chain: &Chain,
+    drive: Drive,
+    rms: Option<Rms>,
+) -> Result<(Cycle, Judged), NoMotion> {
+    let actuator = Actuator::new(
+        &drive,
+        Envelope::at(drive.motor, drive.amplifier, &file.site),
+    );
+    let gearbox = drive.gearbox;
+    let limits = Limits {
+        gearbox_torque: gearbox.and_then(|gearbox| gearbox.peak_torque),
+        gearbox_speed: gearbox.and_then(|gearbox| gearbox.max_speed),
+        ..Limits::default()
+    };
+    let limits = limits.with_reserve(Reserve::of(&file.rules));
+    let judge = Judge::new(file, drive, STEPS);
+    let make = |limits: &Limits, rms: Option<Rms>| {
+        let made = if chain.endless {
+            let step = chain.parts.iter().find_map(Part::step).unwrap().0;
+            endless(file, &actuator, *limits, &step).map_err(|why| (None, why))
+        } else {
+            let made = cycle(file, &actuator, *limits, rms, &chain.parts);
+            made.map_err(|(index, why)| (Some(index), why))
+        };
+        made.map(|cycle| (cycle, ()))
+    };
+    let found = ruled(&judge, (&limits, rms), rms.is_some(), make);
+    let (cycle, (), judged) = found.map_err(|(_, why)| why)?;
+    Ok((cycle, judged))
+}
+
+/// The rules of a machine file whose motion is the profile of a cycle, read as `jred size` reads it.
+fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let own = read::read(path).unwrap();
+    // `of` goes with a profile of the tool.
+    let of_tool = own.axis() != Axis::of_drive(own.machine.mechanism().coordinate());
+    let mut lines: Vec<&str> = Vec::new();
+    let mut of_motion = false;
+    for line in text.lines() {
+        if line.starts_with('[') {
+            of_motion = line.starts_with("[motion") || line.starts_with("[[motion");
+        }
+        let key = line.split('=').next().unwrap_or_default().trim();
+        if !of_motion || line == "[motion]" || of_tool && ["of", "near"].contains(&key) {
+            lines.push(line);
+        }
+        if line == "[motion]" {
+            lines.push("type = \"profile\"\nfile = \"fastest.csv\"");
+        }
+    }
+    let folder = Folder::new();
+    for entry in std::fs::read_dir(path.parent().unwrap()).unwrap() {
+        let entry = entry.unwrap().path();
+        if entry.extension().is_some_and(|ending| ending == "csv") {
+            let name = entry.file_name().unwrap().to_str().unwrap();
+            folder.file(name, std::fs::read_to_string(&entry).unwrap());
+        }
+    }
+    folder.file("fastest.csv", cycle.trace.of_axis(&own.axis()).profile());
+    let judged = folder.file("judged.toml", lines.join("\n"));
+    let file = read::read(&judged).unwrap_or_else(|why| panic!("{}: {why:?}", path.display()));
+    let duty = Duty::new(&file, file.required_motion().unwrap(), STEPS).unwrap();
+    let cycle = jred_sizing::cycle::Cycle::new(&duty);
+    let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    Context::new(&cycle, &file.site, drive, &prepared).checks(&file.rules)
+}
+
+/// A rotary table whose cycles per hour rise with its speed: T2B, the shock factor at the rate that the motion makes and T2N, all three from the data sheet.
+#[test]
+fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
+    let catalogue = catalogue();
+    let path = home().join("support/engineer/table.toml");
+    let mut file = read::read(&path).unwrap();
+    let (_, drive) = named(&catalogue, "sm100bb+g115-16 on a6").unwrap();
+    let chain = chain(file.required_motion().unwrap(), &file.process()).unwrap();
+    for rms in [None, Some(Rms::Continuous)] {
+        let (cycle, judged) = made(&file, &chain, drive, rms).unwrap();
+        assert_eq!(judged.violated().count(), 0, "{:?}", judged.checks);
+        for check in size(&path, &cycle, drive) {
+            assert_ne!(check.verdict, Verdict::Fail, "{}", check.sentence());
+        }
+        // Nearly all of T2N = 120 N m is used.
+        let mean = judged
+            .checks
+            .iter()
+            .find(|check| check.id == Rule::GearboxCubicMean);
+        let used = mean.unwrap().use_of_limit();
+        assert!(used <= 1.0 && used > 0.998, "{used}");
+    }
+    // Without the rule for T2N the fixed point of the shock factor is left: one inertia, a constant friction, a torque of the gearbox output ±T with
+    // the belt's losses on the side on which they are.
+    let mut changes = file.rules.clone();
+    changes.set(Rule::GearboxCubicMean, Default::default());
+    file.rules = changes;
+    let (cycle, judged) = made(&file, &chain, drive, None).unwrap();
+    let [(Cap::GearboxTorque, torque)] = judged.caps[..] else {
+        panic!("{:?}", judged.caps)
+    };
+    let time = cycle.trace.duration();
+    let rate = 3600.0 / time;
+    // 1000/h: 1; 2000/h: 1.15; 3000/h: 1.4; 5000/h: 2
+    let points = [[1000.0, 1.0], [2000.0, 1.15], [3000.0, 1.4], [5000.0, 2.0]];
+    let pair = points.windows(2).find(|pair| rate <= pair[1][0]).unwrap();
+    let [[from, low], [to, high]] = [pair[0], pair[1]];
+    let factor = low + (high - low) * (rate - from) / (to - from);
+    let allowed = 240.0 / factor;
+    assert!(
+        torque <= allowed && torque > 0.998 * allowed,
+        "{torque} {allowed}"
+    );
+    // The time of that torque: with x of the way driven and the rest braked, 1/a₁ + 1/a₂ = t²/(2·way).
+    let i = 4.0;
+    let parts = 12.0 * (4.2 * 0.42 * 0.42 + 0.012);
+    let belt = 0.9 * 0.16 * 0.16;
+    let inertia = 0.5 * 110.0 * 0.25 + parts;
+    let shafts = 0.09 + belt + i * i * 9e-4;
+    let (torque, friction, efficiency) = (torque * i, 14.0, 0.97);
+    let driven = (torque * efficiency - friction) / (inertia + shafts * efficiency);
+    let braked = (torque / efficiency + friction) / (inertia + shafts / efficiency);
+    let way = 30f64.to_radians();
+    let moving = (2.0 * way * (1.0 / driven + 1.0 / braked)).sqrt();
+    close(time, moving + 0.6, 1e-3);
+}
+
+/// Whatever machine, whatever drive: what is named as kept is kept, by the profile that is read back.
+#[test]
+fn what_is_named_as_kept_is_kept() {
+    let catalogue = catalogue();
+    let mut count = 0;
+    let mut capped = 0;
+    for entry in std::fs::read_dir(home().join("../machines")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let file = read::read(&path).unwrap();
+        let refused = variator::refuse(&file, "fastest").is_err()
+            || drive_train::refuse(&file, "fastest").is_err()
+            || file.refuse_timed("fastest").is_err();
+        if refused || input_kind(&file) == MotorKind::Linear {
+            continue;
+        }
+        let Some(Ok(chain)) = file.motion.as_ref().map(|own| chain(own, &file.process())) else {
+            continue;
+        };
+        // The small one for every third.
+        for name in ["sm60b+g70-5 on a3", "sm100bb+g115-16 on a6"] {
+            if name.starts_with("sm60b") && count % 3 != 0 {
+                continue;
+            }
+            let (_, drive) = named(&catalogue, name).unwrap();
+            let Ok((cycle, judged)) = made(&file, &chain, drive, None) else {
+                continue;
+            };
+            count += 1;
+            capped += usize::from(!judged.caps.is_empty());
+            let kept: Vec<Rule> = judged.kept().map(|check| check.id).collect();
+            let violated: Vec<Rule> = judged.violated().map(|check| check.id).collect();
+            for check in size(&path, &cycle, drive) {
+                let says = format!("{} with {name}: {}", path.display(), check.sentence());
+                let fails = check.verdict == Verdict::Fail;
+                assert!(!(fails && kept.contains(&check.id)), "{says}");
+                assert!(!fails || violated.contains(&check.id), "{says}");
+            }
+        }
+    }
+    assert!(count > 25 && capped > 5, "{count} {capped}");
+}
