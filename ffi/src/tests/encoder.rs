@@ -135,7 +135,7 @@ fn the_header_computes_the_bits_of_rust() {
         for _ in 0..8 {
             let count = numbers.count();
             let [step, start] = [0, 8].map(|at| field::<u64, _>(&encoder, at));
-            let rest: i32 = field(&encoder, 24);
+            let rest: i32 = field(&encoder, 16);
             writeln!(asked, "t {step} {start} {rest} {count}").unwrap();
             let [narrow, wide] = [encoder.phase(count as i32), encoder.phase_wide(count)];
             expected.push(format!("{} {}", narrow.to_bits(), wide.to_bits()));

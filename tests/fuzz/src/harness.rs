@@ -21,6 +21,7 @@ use jred_machine::number::columns::Columns;
 use jred_machine::read;
 use jred_report::list::inspection;
 use jred_report::table::output::{Format as Sheet, write};
+use jred_report::table::rows::RowFormat;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::fit_input;
@@ -403,8 +404,16 @@ fn catalogue(input: &str) -> bool {
 /// A file of a study's rows: its header, and every line as a row of it.
 fn rows(text: &str) -> bool {
     let path = std::path::Path::new("rows.csv");
-    let mut lines = text.lines();
-    let Ok((header, form)) = store::parse(lines.next().unwrap_or_default(), path) else {
+    let mut lines = text.lines().peekable();
+    let first = lines.next().unwrap_or_default();
+    let Ok(form) = store::form(first, path) else {
+        return false;
+    };
+    let study = match form {
+        RowFormat::Csv => lines.peek().and_then(|row| RowFormat::study_of(row)),
+        _ => Some((first.to_owned(), "")),
+    };
+    let Some(Ok(header)) = study.map(|(study, _)| store::parse(&study, path)) else {
         return false;
     };
     let mut found = 0;
@@ -424,7 +433,7 @@ fn rows(text: &str) -> bool {
                 (0, texts.take(header.columns.len()).collect())
             }
         };
-        let again = form.line(&header.columns, index, &cells);
+        let again = form.line(&header.columns, (index, &cells), None);
         let read = store::row(form, &header.columns, again.trim_end());
         assert!(
             read.is_some_and(|(_, cells)| cells.len() == header.columns.len()),
