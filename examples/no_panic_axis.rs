@@ -4,7 +4,7 @@
 
 use core::hint::black_box;
 
-use jred::axis::plan::{Errors, Knot, encode, image_len};
+use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
     Braking, Counter, Direction, Encoder, Envelope, FeedForward, Follower, Gearbox, Governor,
     ImageSlot, Limits, LookAhead, Motion, MotionRange, Mounting, Period, Plan, Ramp, Rate, Scaled,
@@ -128,6 +128,7 @@ fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
     };
     black_box((Plan::machine(&plan), Plan::errors(&plan), Plan::most(&plan)));
     black_box((Plan::duration(&plan), Plan::end(&plan)));
+    black_box(Plan::least_ramp(&plan));
     black_box(Plan::at(&plan, black_box(1 << 38)));
     let Ok(plan) = Plan::of_machine(plan, black_box(1)) else {
         return;
@@ -259,6 +260,7 @@ fn every_double() {
         &mut words,
     );
     black_box(written.is_ok());
+    black_box(with_ramp(&mut words, black_box(0.1)).is_ok());
 }
 
 #[cfg(not(target_os = "none"))]

@@ -287,7 +287,7 @@ fn what_cannot_turn_is_refused_with_its_reason() {
     // sin φ₂ = l₃/l₂ = 0.4 is reached at φ = φ₂ + asin(b·sin φ₂/l₁) = 23.578° + 53.130°.
     assert_eq!(
         refused([0.1, 0.5, 0.2], 0.2, 0.0),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make the rod longer than 0.250000 m, or shorten the crank"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make the rod longer than 0.250000 m, shorten the crank, or drive it over a stroke that stays inside φ = -76.71° and 76.71°, its dead points"
     );
     assert_eq!(
         refused([0.1, 0.5, 0.3], 0.2, -0.35),

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use jred::axis::plan::{Errors, Knot, encode, image_len};
+use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
     Braking, Direction, Envelope, FeedForward, Follower, Gearbox, Governor, Limits, LookAhead,
     Motion, MotionRange, Period, Plan, Ramp, Scaled, StrokeEncoder, TorqueLimits, Tracker,
@@ -462,6 +462,17 @@ const CASES: &[Case] = &[
     }),
     ("Follower::new", Refused, |m, x| followed(m, x, 0.1)),
     ("Follower::new", Refused, |m, x| followed(m, 0.001, x)),
+    // An infinite ramp has a meaning: none keeps the torque.
+    ("with_ramp", Refused, |_, x| {
+        let end = Knot {
+            t: 1.0,
+            ..Knot::default()
+        };
+        let mut words = [0; image_len(2)];
+        let knots = [Knot::default(), end];
+        encode(&knots, STROKE, 7, Errors::default(), &mut words).unwrap();
+        refused(with_ramp(&mut words, -x.abs()))
+    }),
     ("encode", Refused, |_, x| {
         let wide = f64::from(x);
         let (knot, none) = (
@@ -534,6 +545,7 @@ fn every_function_of_the_axis_is_tried() {
         "Plan::new",
         "Plan::from_bytes",
         "Plan::of_machine",
+        "Plan::least_ramp",
         "Plan::machine",
         "Plan::errors",
         "Plan::most",
