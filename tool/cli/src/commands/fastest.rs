@@ -348,7 +348,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
             &options.file,
             &options.supply,
             &filter,
-            options.supply.steps(),
+            options.supply.course.sampling(),
         )?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };

@@ -45,8 +45,8 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// What the chain's shaft must give it.
-    fn input(&self, shaft: &TrainOutput) -> TrainInput {
+    /// What its end delivers, by the motion of the chain's shaft: its friction.
+    fn output(&self, shaft: &TrainOutput) -> TrainOutput {
         let ratio = self.train.ratio();
         let [omega, alpha, direction] =
             [shaft.omega, shaft.alpha, shaft.direction].map(|of| of / ratio);
@@ -55,17 +55,22 @@ impl Branch {
         } else {
             direction.signum()
         };
-        let torque = self.opposing * sense + self.viscous * omega;
-        let mut input = self.train.input(&TrainOutput {
-            torque,
+        TrainOutput {
+            torque: self.opposing * sense + self.viscous * omega,
             torque_per_alpha: 0.0,
             omega,
             alpha,
             direction,
-        });
+        }
+    }
+
+    /// What the chain's shaft must give it.
+    fn input(&self, shaft: &TrainOutput) -> TrainInput {
+        let output = self.output(shaft);
+        let mut input = self.train.input(&output);
         // By the acceleration of the chain's shaft.
-        input.torque_per_alpha /= ratio;
-        input.loss += torque * omega;
+        input.torque_per_alpha /= self.train.ratio();
+        input.loss += output.torque * output.omega;
         input
     }
 
@@ -82,6 +87,16 @@ pub struct DriveTrain {
     /// Each stage of the chain alone.
     steps: Vec<Train>,
     branches: Vec<Branch>,
+    /// The stages of each branch as a train of its own.
+    beside: Vec<DriveTrain>,
+}
+
+/// What is met on the way from the output shaft to the input.
+enum Met<'t> {
+    /// A stage, and the torque that it delivers to the shaft behind it (N·m).
+    Stage(&'t Stage, f64),
+    /// A branch, by its number, and the shaft that drives it.
+    Branch(usize, TrainOutput),
 }
 
 impl DriveTrain {
@@ -94,8 +109,10 @@ impl DriveTrain {
             .stages()
             .iter()
             .map(|stage| Ok(Train::new(&[*stage])?));
+        let own = |branch: &Branch| Self::new(branch.train.clone(), Vec::new());
         Ok(Self {
             steps: steps.collect::<Result<_, Error>>()?,
+            beside: branches.iter().map(own).collect::<Result<_, Error>>()?,
             chain,
             branches,
         })
@@ -162,22 +179,47 @@ impl DriveTrain {
         self.walk(output, |_| ())
     }
 
+    /// Whether any stage has losses. They change sides where the power that it transmits turns.
+    pub fn is_lossy(&self) -> bool {
+        let lossy = |stage: &Stage| stage.efficiency() < 1.0;
+        self.stages().iter().any(lossy) || self.beside.iter().any(Self::is_lossy)
+    }
+
+    /// Adds the torque (N·m) that each stage with losses delivers, of the chain and of the branches, always in the same order: while the shafts turn
+    /// one way, the torque at the input bends where one of these changes its sign.
+    pub fn lossy_flows(&self, output: &TrainOutput, flows: &mut Vec<f64>) {
+        self.walk(output, |met| match met {
+            Met::Stage(stage, torque) => flows.extend((stage.efficiency() < 1.0).then_some(torque)),
+            Met::Branch(k, shaft) => {
+                if let Some((branch, train)) = self.branches.get(k).zip(self.beside.get(k)) {
+                    train.lossy_flows(&branch.output(&shaft), flows);
+                }
+            }
+        });
+    }
+
     /// The torque that each stage delivers to the shaft behind it (N·m), in order from the motor.
     pub fn delivered(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::with_capacity(self.steps.len());
-        self.walk(output, |torque| delivered.push(torque));
+        self.walk(output, |met| {
+            if let Met::Stage(_, torque) = met {
+                delivered.push(torque);
+            }
+        });
         delivered.reverse();
         delivered
     }
 
-    /// From the output shaft to the input; `seen` is told what each stage delivers.
-    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(f64)) -> TrainInput {
+    /// From the output shaft to the input, with what is met on the way.
+    fn walk(&self, output: &TrainOutput, mut meet: impl FnMut(Met)) -> TrainInput {
         let mut input = TrainInput::default();
         let mut shaft = *output;
         // Per acceleration of the present shaft, which turns `ratio` times as fast as the output.
         let mut ratio = 1.0;
         for k in (0..=self.steps.len()).rev() {
-            for branch in self.branches.iter().filter(|branch| branch.shaft == k) {
+            let branches = self.branches.iter().enumerate();
+            for (number, branch) in branches.filter(|(_, branch)| branch.shaft == k) {
+                meet(Met::Branch(number, shaft));
                 let own = branch.input(&shaft);
                 shaft.torque += own.torque;
                 shaft.torque_per_alpha += own.torque_per_alpha;
@@ -190,7 +232,7 @@ impl DriveTrain {
                 break;
             };
             let [_, driven] = stage.inertias();
-            seen(shaft.torque + driven * shaft.alpha);
+            meet(Met::Stage(stage, shaft.torque + driven * shaft.alpha));
             let before = step.input(&shaft);
             input.loss += before.loss;
             let i = stage.ratio();

@@ -22,7 +22,7 @@ const STEPS: usize = 360;
 /// Parts of the motion that its work is integrated over, each halved where it must be.
 const PANELS: u32 = 96;
 
-/// Parts of a motion of states, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
+/// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
 const ROW_PANELS: usize = 8192;
 
 /// Tolerance of the work, as a share of the energy that the drive moves.
@@ -157,13 +157,13 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
 
 /// The energy balance over the motion, stretch by stretch: a payload brings its energy with it, and takes it away.
 fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
-    let stretches = duty::smooth_stretches(file, motion, STEPS);
+    let stretches = duty::smooth_stretches(file, motion);
     let parts: Vec<Part> = stretches
         .into_iter()
         .map(|(from, to)| Part::new(file, machines, motion, [from, to]))
         .collect();
     let duration = motion.duration();
-    // Between two rows of a motion of states, where it is smooth.
+    // Between two rows of a recorded or computed motion, where it is smooth.
     let over = |part: &Part, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
         let cuts = motion.cut_at_rows(part.span);
         let least = if cuts.len() > 2 {
@@ -173,23 +173,27 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         };
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
-            let share = (pair[1] - pair[0]) / duration;
-            let panels = (f64::from(PANELS) * share).ceil().max(least as f64) as u32;
+            let panels = f64::from(PANELS) * (pair[1] - pair[0]) / duration;
+            let panels = panels.ceil().max(least as f64) as u32;
+            let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
             sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
         }
         Ok::<f64, Error>(sum)
     };
-    let mut moved = 0.0;
-    for part in &parts {
-        // Only a scale: the rule without halvings.
-        moved += over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY)?;
-    }
+    // Only scales: the rule without halvings.
+    let moved = (parts.iter())
+        .map(|part| over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY))
+        .collect::<Result<Vec<f64>, Error>>()?;
+    let all: f64 = moved.iter().sum();
     let (mut work, mut gain) = (0.0, 0.0);
-    for part in &parts {
+    for (part, moved) in parts.iter().zip(moved) {
         let [from, to] = part.span;
-        work += over(part, &|t| part.power(t), SHARE * moved)?;
+        // Of its own energy, or by the time: in a short part of a long motion that would be less than rounding.
+        let tolerance = SHARE * moved.max(all * (to - from) / duration);
+        work += over(part, &|t| part.power(t), tolerance)?;
         gain += part.energy(to)? - part.energy(from)?;
     }
+    let moved = all;
     let off = (work - gain).abs();
     Ok(if moved > 0.0 { off / moved } else { off })
 }

@@ -173,7 +173,7 @@ impl<'f> Course<'f> {
     /// What is smooth, in about so many steps.
     fn stretches(&self, source: &Source, steps: usize) -> Vec<Stretch> {
         let parts = match self {
-            Self::Motion(motion) => smooth_stretches(source.file, motion, SEARCHED),
+            Self::Motion(motion) => smooth_stretches(source.file, motion),
             Self::State(_) => between_edges(source.file),
         };
         let whole: f64 = parts.iter().map(|(from, to)| to - from).sum();
