@@ -38,6 +38,12 @@ pub(crate) const FINE_STEPS: f64 = 1e-9;
 /// The holding torque is sought every 0.5°: the largest lies up to (0.25°)²/2 = 1e-5 higher [3.6e-6].
 pub(crate) const HOLDING_GRID: f64 = 1e-5;
 
+/// Shares of limits at the default sampling against those at 8000 instants and a tolerance of 1e-12: peaks between the instants.
+pub(crate) const OTHER_INSTANTS: f64 = 1e-6;
+
+/// Integrals over the cycle at the default tolerance of 1e-9, at any number of instants.
+pub(crate) const DUTY: f64 = 1e-9;
+
 /// Order of Simpson's rule from three step sizes.
 pub(crate) const ORDER: f64 = 0.1;
 

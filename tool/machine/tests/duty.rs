@@ -2,6 +2,8 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
+mod known_error;
+
 use std::fmt::Write as _;
 use std::path::Path;
 

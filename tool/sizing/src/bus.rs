@@ -34,7 +34,7 @@ use crate::motor::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;
 
-/// Power that a drive draws from the DC bus over the cycle.
+/// Power that a drive draws from the DC bus over the cycle: straight lines from instant to instant, with the energies of the integrals.
 pub fn power(
     cycle: &Cycle,
     coefficients: &Coefficients,
@@ -45,9 +45,7 @@ pub fn power(
 ) -> PowerCurve {
     let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);
     let [constant, per_ampere] = amplifier.map_or([0.0; 2], |a| a.losses);
-    let points = cycle.samples().iter().map(|sample| {
-        let torque = coefficients.torque(&sample.loads());
-        let speed = sample.speed() * ratio;
+    let drawn = |torque: f64, speed: f64| {
         let mut power = torque * speed + constant;
         let current = if torque * speed < 0.0 {
             prepared.torques.map(|curve| curve.current(torque))
@@ -57,7 +55,25 @@ pub fn power(
         if let Some(current) = current {
             power += per_ampere * current + resistance.unwrap_or(0.0) * current * current;
         }
-        [sample.t, power]
+        power
+    };
+    let points = cycle.samples().iter().map(|sample| {
+        let torque = coefficients.torque(&sample.loads());
+        [sample.t, drawn(torque, sample.speed() * ratio)]
     });
+    let mut points: Vec<[f64; 2]> = points.collect();
+    let bent = cycle.bent(coefficients, ratio);
+    for range in cycle.panels() {
+        let exact = [1.0, -1.0].map(|sign| {
+            bent.over(&[range.start], 0.0, |torque, speed| {
+                (sign * drawn(torque, speed)).max(0.0)
+            })
+        });
+        // The end of the panel before stays as it is.
+        let first = cycle.left_end(range.start);
+        if let Some(points) = points.get_mut(first..range.end) {
+            curve::with_energies(points, exact);
+        }
+    }
     PowerCurve::new(points, cycle.duration())
 }

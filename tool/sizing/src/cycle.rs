@@ -12,12 +12,13 @@
 //! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
 //! the search's few levels more (docs/performance.md).
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::{Duty, Smooth};
+use jred_machine::analysis::duty::{Duty, Panel, Smooth, Values};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_machine::number::figures::Figures;
 
@@ -265,6 +266,41 @@ impl Cycle {
     /// Samples, in order, of all panels in whose range of speeds (rad/s, at the gearbox output, without sign) something `is_open`.
     pub(crate) fn at_speeds(&self, is_open: &impl Fn([f64; 2]) -> bool) -> Vec<usize> {
         self.stretches().at_speeds(is_open)
+    }
+
+    /// The samples of each panel of the integrals, in order.
+    pub(crate) fn panels(&self) -> impl Iterator<Item = Range<usize>> {
+        self.smooth.panels(self.samples.len())
+    }
+
+    /// The sample at the left end of the panel that begins with the sample `k`: the right end of the one before, unless a stretch begins.
+    pub(crate) fn left_end(&self, k: usize) -> usize {
+        let begins = self.smooth.stretch(k, self.samples.len());
+        if begins.is_some_and(|stretch| stretch.start == k) {
+            k
+        } else {
+            k.saturating_sub(1)
+        }
+    }
+
+    /// Calls `take` with every panel of the integrals, in order, and torque and speed of the motor over it; whether they are known.
+    pub(crate) fn each_panel(
+        &self,
+        coefficients: &Coefficients,
+        ratio: f64,
+        mut take: impl FnMut(&Panel, &Values, &Values),
+    ) -> bool {
+        let stretches = self.stretches();
+        let mut is_known = false;
+        for range in self.panels() {
+            if let Some(panel) = stretches.panel(range.start) {
+                let torque = |k: usize| coefficients.torque(&self.samples[k].loads());
+                let speed = |k: usize| self.samples[k].speed() * ratio;
+                take(&panel, &panel.values(torque), &panel.values(speed));
+                is_known = true;
+            }
+        }
+        is_known
     }
 
     /// The sums that bend: see [`Bent`].

@@ -20,7 +20,7 @@ use moving::Moving;
 pub use panels::MOST_INSTANTS;
 use panels::Panels;
 use refined::insert_extremes;
-pub use smooth::{MOST_RAISED, Panel, Smooth};
+pub use smooth::{MOST_RAISED, Panel, Smooth, Values};
 pub(crate) use stretches::{passages, smooth_stretches};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the

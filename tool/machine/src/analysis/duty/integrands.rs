@@ -83,14 +83,14 @@ pub(super) struct Allowed<'s> {
 }
 
 impl Sums {
-    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and whether every error is as small as is allowed, or is
+    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and the largest error as a share of what is allowed, where it is not
     /// rounding.
     pub(super) fn over(
         rule: &Rule,
         places: &[Evaluated],
         half: f64,
         allowed: Allowed,
-    ) -> (Self, bool) {
+    ) -> (Self, f64) {
         let mut values = [[0.0; MOST_PLACES]; COUNT];
         let mut roundings = [0.0; COUNT];
         for (place, (now, weight)) in places.iter().zip(rule.weights()).enumerate() {
@@ -100,7 +100,7 @@ impl Sums {
             }
         }
         let mut sums = Self::default();
-        let mut is_enough = true;
+        let mut excess = 0.0f64;
         for (j, values) in values.iter().enumerate() {
             let found = rule.estimate(&values[..places.len()]);
             let Estimate {
@@ -111,7 +111,9 @@ impl Sums {
             let [error, size] = [half * error, half * size];
             let whole = allowed.sizes[j] * allowed.share.max(OF_WHOLE);
             let most = (0.5 * allowed.tolerance * size.max(whole)).max(half * roundings[j]);
-            is_enough &= error <= most;
+            if error > 0.0 {
+                excess = excess.max(error / most);
+            }
             sums.0[j] = Estimate {
                 integral: half * integral,
                 // What is rounding is not made smaller by smaller panels.
@@ -119,7 +121,7 @@ impl Sums {
                 size,
             };
         }
-        (sums, is_enough)
+        (sums, excess)
     }
 
     pub(super) fn add(&mut self, other: &Self) {

@@ -59,6 +59,38 @@ struct End {
     is_zero: bool,
 }
 
+/// How a panel came about.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Halvings.
+    depth: u32,
+    /// The last ones of them that made the error little smaller.
+    idle: u32,
+    /// The error as a multiple of what is allowed.
+    excess: f64,
+}
+
+impl Default for Way {
+    fn default() -> Self {
+        Self {
+            depth: 0,
+            idle: 0,
+            excess: f64::INFINITY,
+        }
+    }
+}
+
+impl Way {
+    fn further(self, excess: f64) -> Self {
+        let is_idle = excess > LITTLE * self.excess;
+        Self {
+            depth: self.depth + 1,
+            idle: if is_idle { self.idle + 1 } else { 0 },
+            excess,
+        }
+    }
+}
+
 /// The duty in the making.
 pub(super) struct Panels<'a, 'm> {
     moving: &'a mut Moving<'m>,
@@ -154,6 +186,15 @@ impl<'a, 'm> Panels<'a, 'm> {
         let each: Vec<f64> = stretches.iter().map(|s| turns(file, motion, *s)).collect();
         let all: f64 = each.iter().sum();
         let of_turn = (FOR_TURNS / 15.0 / all).clamp(OF_TURN[0], OF_TURN[1]);
+        let fewest = (15.0 * OF_TURN[0] * all).max(15.0 * stretches.len() as f64);
+        if fewest > MOST_INSTANTS as f64 {
+            return Err(Fault::Fine {
+                until: duration * MOST_INSTANTS as f64 / fewest,
+                duration,
+                tolerance: sampling.tolerance,
+                most: MOST_INSTANTS,
+            });
+        }
         let borders: Vec<(Stretch, Vec<f64>)> = (stretches.iter().zip(&each))
             .map(|(stretch, turns)| {
                 let (from, to) = *stretch;
@@ -264,7 +305,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let mut left = first;
         for border in borders.get(1..).unwrap_or_default() {
             let right = self.end(stretch, *border, false)?;
-            self.panel(stretch, [&left, &right], 0)?;
+            self.panel(stretch, [&left, &right], Way::default())?;
             left = right;
         }
         if stretch.moves {
@@ -286,7 +327,7 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Adds a panel, or its parts.
-    fn panel(&mut self, stretch: &Stretch, ends: [&End; 2], depth: u32) -> Result<(), Fault> {
+    fn panel(&mut self, stretch: &Stretch, ends: [&End; 2], way: Way) -> Result<(), Fault> {
         let [from, to] = ends.map(|end| end.t);
         let inner = stretch.between([from, to]);
         let by_rows = !stretch.rows.is_empty() && inner.is_empty();
@@ -297,14 +338,14 @@ impl<'a, 'm> Panels<'a, 'm> {
         for (place, x) in places.iter_mut().zip(rule.places()) {
             *place = self.moving.at(stretch.clamp(middle + half * x))?;
         }
-        let is_short = half <= 4.0 * f64::EPSILON * to.abs() || depth > DEEPEST;
+        let is_short = half <= 4.0 * f64::EPSILON * to.abs() || way.depth > DEEPEST;
         if stretch.moves && !is_short {
             let cuts = self.changes(stretch, ends, places)?;
             if (1..=MOST_CUTS).contains(&cuts.len()) {
-                return self.parts(stretch, ends, &cuts, true, depth);
+                return self.parts(stretch, ends, &cuts, true, way.further(f64::INFINITY));
             }
             if cuts.len() > MOST_CUTS {
-                return self.parts(stretch, ends, &[middle], false, depth);
+                return self.parts(stretch, ends, &[middle], false, way.further(f64::INFINITY));
             }
         }
         let allowed = Allowed {
@@ -312,10 +353,12 @@ impl<'a, 'm> Panels<'a, 'm> {
             sizes: &self.sizes,
             share: (to - from) / self.duration,
         };
-        let (sums, is_enough) = Sums::over(rule, places, half, allowed);
-        if !is_enough && !is_short {
+        let (sums, excess) = Sums::over(rule, places, half, allowed);
+        let way = way.further(excess);
+        let is_noise = way.idle >= IDLE && excess * self.tolerance <= NOISE;
+        if excess > 1.0 && !is_short && !is_noise {
             let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
-            return self.parts(stretch, ends, &[cut], false, depth);
+            return self.parts(stretch, ends, &[cut], false, way);
         }
         self.accept(stretch, ends, rule, places, &sums)
     }
@@ -327,15 +370,15 @@ impl<'a, 'm> Panels<'a, 'm> {
         [first, last]: [&End; 2],
         cuts: &[f64],
         is_zero: bool,
-        depth: u32,
+        way: Way,
     ) -> Result<(), Fault> {
         let mut left = *first;
         for cut in cuts {
             let right = self.end(stretch, *cut, is_zero)?;
-            self.panel(stretch, [&left, &right], depth + 1)?;
+            self.panel(stretch, [&left, &right], way)?;
             left = right;
         }
-        self.panel(stretch, [&left, last], depth + 1)
+        self.panel(stretch, [&left, last], way)
     }
 
     /// The times within the panel at which the power through a stage with losses, or at the input, changes its sign.
@@ -488,6 +531,13 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 }
+
+/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth.
+const LITTLE: f64 = 0.3;
+
+/// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
+const IDLE: u32 = 3;
+const NOISE: f64 = 1e-9;
 
 /// Halvings of a panel at most.
 const DEEPEST: u32 = 60;
