@@ -90,7 +90,7 @@ pub(crate) const SAME_SUMS: f64 = 1e-11;
 /// A peak between two steps of a duty, which resolves it to 1e-5 of itself: twice that, for the search.
 pub(crate) const PEAK_BETWEEN_STEPS: f64 = 2e-5;
 
-/// Simpson's rule at 2000 steps over laws with bounded fourth derivatives, the ends of a stretch taken from 1e-9 inside.
+/// Figures over stretches of laws, the ends of a stretch taken from 1e-9 inside.
 pub(crate) const SIMPSON: f64 = 1e-8;
 
 /// Order of the RMS of a recorded motion from three recording steps [4.02, 4.00].
@@ -160,10 +160,6 @@ pub(crate) const PREPARED_CYCLE: f64 = 1e-12;
 /// A peak between samples at 302 steps of an inclined sine, by the parabola through three: (2π/302)⁴/128 of a sine's peak for a
 /// vertex halfway between two samples, and less elsewhere.
 pub(crate) const PEAK_BETWEEN: f64 = 1.5e-9;
-
-/// Energies about a zero of the power at 302 steps of an inclined sine: of the parabola through three samples the zero is off by
-/// the third power of the step.
-pub(crate) const ENERGY_BETWEEN: f64 = 1e-7;
 
 /// The largest force of a motion: six vertices of parabolas from a quarter of a degree come down to rounding of a flat top.
 pub(crate) const LARGEST_FORCE: f64 = 1e-13;
