@@ -16,9 +16,7 @@ pub(crate) const DERIVATION: f64 = 5e-11;
 /// An integral by the trapezoidal rule at 1e5 steps over a function with a kink, h²·Δf′ [1.3e-10].
 pub(crate) const QUADRATURE: f64 = 2e-9;
 
-/// Integrals over the cycle at the default of 2000 steps, and what the motor puts in and takes back as shares of what it puts in:
-/// the ramps of the pressing force leave h⁴, the kinks of the efficiency where power changes its direction h² times a small step of
-/// the slope [5.5e-8 for the RMS; 1e-6 for others].
+/// Integrals over the cycle against sums over 2000 steps of another kind, which leave the square of the step at the kinks of the efficiency.
 pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 
 /// Extremes at the default of 2000 steps: that of the parabola through three instants, against the largest of 200 000 samples
@@ -43,9 +41,6 @@ pub(crate) const OTHER_INSTANTS: f64 = 1e-6;
 
 /// Integrals over the cycle at the default tolerance of 1e-9, at any number of instants.
 pub(crate) const DUTY: f64 = 1e-9;
-
-/// Order of Simpson's rule from three step sizes.
-pub(crate) const ORDER: f64 = 0.1;
 
 /// Golden motion from rest over 0.5 s at a tolerance of 1e-12, relative to the column's largest: the integrator's error
 /// grows with the 30 rad turned [5e-12 for φ, 8e-11 for α].
@@ -119,7 +114,7 @@ pub(crate) const DOCUMENT_I16: f64 = 1e-12;
 /// The curve of 1/J times J, of what it should be: the units of 16 bits [2.8e-4; 1.6e-5 for 16-bit splines].
 pub(crate) const RECIPROCAL_SEED: f64 = 1e-3;
 
-/// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and Simpson's rule on its ramps.
+/// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and the rule on its ramps.
 pub(crate) const BLOW: f64 = 1e-5;
 
 /// A linkage solved from its joints against golden data and closed forms, of the size of the largest value [3e-13].
@@ -137,7 +132,7 @@ pub(crate) const RATIO: f64 = 1e-12;
 /// Some twenty cells of an instant against the motor torque, of the largest torque: the same products in another order.
 pub(crate) const CELLS: f64 = 1e-12;
 
-/// Energy stored over a closed cycle at 40 000 steps, of the energy turned over: Simpson's rule, the ends of a stretch taken
+/// Energy stored over a closed cycle at 40 000 steps, of the energy turned over: the ends of a stretch taken
 /// from 1e-9 inside.
 pub(crate) const CLOSED_CYCLE: f64 = 1e-8;
 
@@ -286,7 +281,7 @@ pub(crate) const PUBLISHED_ACCELERATION: f64 = 3e-6;
 pub(crate) const PUBLISHED_MOTION: f64 = 1.5e-10;
 
 /// Torque of many turns, squared and summed: with all edges found, the instants between them are at least 16 a stretch, whose
-/// Simpson sums differ by this share where a dwell takes most of the steps.
+/// Sums differ by this share where a dwell takes most of the steps.
 pub(crate) const LOADS_FOUND: f64 = 1e-3;
 
 /// Rated power and power rate of a data sheet against its torque, speed and inertia, each rounded to two or three digits [3.8 % and 1.4 %].
