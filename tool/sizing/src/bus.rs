@@ -64,15 +64,14 @@ pub fn power(
     let mut points: Vec<[f64; 2]> = points.collect();
     let bent = cycle.bent(coefficients, ratio);
     for range in cycle.panels() {
-        let exact = [1.0, -1.0].map(|sign| {
-            bent.over(&[range.start], 0.0, |torque, speed| {
-                (sign * drawn(torque, speed)).max(0.0)
-            })
+        let means = [1.0, -1.0].map(|sign| {
+            let part = |torque, speed| (sign * drawn(torque, speed)).max(0.0);
+            bent.mean(range.start, part)
         });
         // The end of the panel before stays as it is.
         let first = cycle.left_end(range.start);
         if let Some(points) = points.get_mut(first..range.end) {
-            curve::with_energies(points, exact);
+            curve::with_means(points, means);
         }
     }
     PowerCurve::new(points, cycle.duration())

@@ -225,9 +225,13 @@ impl PowerCurve {
 /// The most by which straight lines between instants may miss an energy: more is none of a smooth power.
 const MISSED: f64 = 0.05;
 
-/// Moves points after the first, each in proportion to its power, so that the straight lines between them have these energies, drawn and fed
-/// back (J): between instants the power bends.
-pub(super) fn with_energies(points: &mut [[f64; 2]], exact: [f64; 2]) {
+/// Moves points after the first, each in proportion to its power, so that the straight lines between them have these means over their time, drawn
+/// and fed back (W): between instants the power bends.
+pub(super) fn with_means(points: &mut [[f64; 2]], means: [f64; 2]) {
+    let Some(([from, _], [to, _])) = points.first().zip(points.last()) else {
+        return;
+    };
+    let time = to - from;
     // The first point stays: a few rounds.
     for _ in 0..3 {
         let mut found = [0.0; 2];
@@ -240,7 +244,7 @@ pub(super) fn with_energies(points: &mut [[f64; 2]], exact: [f64; 2]) {
             });
         }
         let factors = [0, 1].map(|k| {
-            let factor = exact[k] / found[k];
+            let factor = means[k] * time / found[k];
             if (factor - 1.0).abs() <= MISSED {
                 factor
             } else {

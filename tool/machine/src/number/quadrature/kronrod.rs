@@ -9,6 +9,8 @@
 //! The polynomial through the places is taken in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM
 //! Review 46 (2004) 501).
 
+use std::cell::Cell;
+
 /// Most places of a rule.
 pub const MOST_PLACES: usize = 15;
 
@@ -103,15 +105,16 @@ impl Rule {
         half * terms.map(|(x, w)| w * f(middle + half * x)).sum::<f64>()
     }
 
-    /// The integral of `f` over [a, b], cut into halves until the error is estimated below `share` of ∫|f| over each, or below `least`. The
-    /// value at a place that is not finite makes the sum so.
+    /// The integral of `f` over [a, b], cut into halves until the error is estimated below `share` of ∫|f| over each, or below `least`, some
+    /// hundred times at most: a curve of roundings must not be halved without end. The value at a place that is not finite makes the sum so.
     pub fn adaptive(
         &self,
         [a, b]: [f64; 2],
         (share, least): (f64, f64),
         f: &impl Fn(f64) -> f64,
     ) -> f64 {
-        self.halved([a, b], (share, least), f, DEEPEST)
+        let left = Cell::new(MOST_HALVINGS);
+        self.halved([a, b], (share, least), f, &left)
     }
 
     fn halved(
@@ -119,7 +122,7 @@ impl Rule {
         [a, b]: [f64; 2],
         (share, least): (f64, f64),
         f: &impl Fn(f64) -> f64,
-        depth: u32,
+        left: &Cell<u32>,
     ) -> f64 {
         let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
         let mut values = [0.0; MOST_PLACES];
@@ -128,16 +131,18 @@ impl Rule {
         }
         let found = self.estimate(&values[..self.places.len()]);
         let is_enough = half * found.error <= (share * half * found.size).max(least);
-        if depth == 0 || is_enough || !found.error.is_finite() {
+        let is_short = half <= f64::EPSILON * a.abs().max(b.abs());
+        if left.get() == 0 || is_enough || is_short || !found.error.is_finite() {
             return half * found.integral;
         }
-        let rest = |ends| self.halved(ends, (share, 0.5 * least), f, depth - 1);
+        left.set(left.get() - 1);
+        let rest = |ends| self.halved(ends, (share, 0.5 * least), f, left);
         rest([a, middle]) + rest([middle, b])
     }
 }
 
-/// Halvings down to the rounding of a place.
-const DEEPEST: u32 = 50;
+/// The most halvings of one integral: a kink takes some forty, down to the rounding of its place.
+const MOST_HALVINGS: u32 = 200;
 
 const fn barycentric<const N: usize>(places: &[f64; N]) -> [f64; N] {
     let mut weights = [1.0; N];
