@@ -372,6 +372,9 @@ fn pieces_of(
     parts: f64,
 ) -> Vec<Piece> {
     let rule = panel.rule();
+    let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
+    let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
+    let least = KNOWN * (estimates[0].size + estimates[1].size);
     let constant = known.iter().all(|losses| losses == &known[0]);
     let parts = if constant { 1.0 } else { parts };
     let mut pieces = Vec::with_capacity(parts as usize);
@@ -382,9 +385,9 @@ fn pieces_of(
         let share = |x: f64| (x - a.midpoint(b)) / (b - a);
         let moments = |which: usize| {
             if parts <= 1.0 {
-                let values: Vec<f64> = known.iter().map(|losses| losses[which]).collect();
-                let found = rule.estimate(&values);
-                if found.error <= KNOWN * found.size || !found.error.is_finite() {
+                let found = estimates[which];
+                if found.error <= least || !found.error.is_finite() {
+                    let values = values(which);
                     let places = rule.places().iter().zip(rule.weights()).zip(&values);
                     return places.fold([0.0; 3], |[m, first, second], ((x, weight), value)| {
                         let (x, part) = (0.5 * x, 0.5 * weight * value);
@@ -394,7 +397,7 @@ fn pieces_of(
             }
             [0, 1, 2].map(|power| {
                 let f = |x: f64| between(x)[which] * share(x).powi(power);
-                rule.adaptive([a, b], (KNOWN, 0.0), &f) / (b - a)
+                rule.adaptive([a, b], (KNOWN, least), &f) / (b - a)
             })
         };
         let time = panel.half() * (b - a);

@@ -9,7 +9,7 @@ use jred_machine::analysis::duty::Panel;
 
 /// Error of the integral over a panel, as a share of it, and as a share of what the whole is compared with.
 const SHARE: f64 = 1e-10;
-const OF_WHOLE: f64 = 1e-13;
+const OF_WHOLE: f64 = 1e-11;
 
 /// A torque over the samples of a cycle.
 pub(crate) struct Bent<'c> {
@@ -173,7 +173,7 @@ impl Stretches<'_> {
         let last = self.tree.nodes[index + 1].last as usize;
         let [a, b] = [last, last + 1].map(|k| self.samples[k].speed().abs());
         if is_open([a.min(b), a.max(b)]) {
-            found.push(last);
+            found.push(last + 1);
         }
         self.look_at_speeds(is_open, node.second as usize, found);
     }

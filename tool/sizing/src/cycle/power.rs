@@ -67,15 +67,15 @@ impl Stretches<'_> {
             return;
         }
         let count = self.samples.len();
-        let range = self.smooth.panel_of(k, count);
-        let Some(range) = range.filter(|range| k + 1 < range.end) else {
+        // Between a panel's left border, which is the last sample of the one before, and its first sample too.
+        let Some(range) = self.smooth.panel_of(k + 1, count) else {
             return;
         };
         // Once for a panel.
         if work.mended.replace(range.start) == Some(range.start) {
             return;
         }
-        let Some(panel) = self.panel(k) else {
+        let Some(panel) = self.panel(k + 1) else {
             return;
         };
         let over = panel.values(power);

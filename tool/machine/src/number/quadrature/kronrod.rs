@@ -105,7 +105,7 @@ impl Rule {
         half * terms.map(|(x, w)| w * f(middle + half * x)).sum::<f64>()
     }
 
-    /// The integral of `f` over [a, b], cut into halves until the error is estimated below `share` of ∫|f| over each, or below `least`, some
+    /// The integral of `f` over [a, b], cut into halves until the error is estimated below `share` of ∫|f| over each half, or below `least`, some
     /// hundred times at most: a curve of roundings must not be halved without end. The value at a place that is not finite makes the sum so.
     pub fn adaptive(
         &self,
@@ -136,13 +136,13 @@ impl Rule {
             return half * found.integral;
         }
         left.set(left.get() - 1);
-        let rest = |ends| self.halved(ends, (share, 0.5 * least), f, left);
+        let rest = |ends| self.halved(ends, (share, least), f, left);
         rest([a, middle]) + rest([middle, b])
     }
 }
 
 /// The most halvings of one integral: a kink takes some forty, down to the rounding of its place.
-const MOST_HALVINGS: u32 = 200;
+const MOST_HALVINGS: u32 = 100;
 
 const fn barycentric<const N: usize>(places: &[f64; N]) -> [f64; N] {
     let mut weights = [1.0; N];
