@@ -34,7 +34,7 @@ use crate::motor::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;
 
-/// Power that a drive draws from the DC bus over the cycle: straight lines from instant to instant, with the energies of the integrals.
+/// Power that a drive draws from the DC bus over the cycle.
 pub fn power(
     cycle: &Cycle,
     coefficients: &Coefficients,
@@ -45,7 +45,9 @@ pub fn power(
 ) -> PowerCurve {
     let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);
     let [constant, per_ampere] = amplifier.map_or([0.0; 2], |a| a.losses);
-    let drawn = |torque: f64, speed: f64| {
+    let points = cycle.samples().iter().map(|sample| {
+        let torque = coefficients.torque(&sample.loads());
+        let speed = sample.speed() * ratio;
         let mut power = torque * speed + constant;
         let current = if torque * speed < 0.0 {
             prepared.torques.map(|curve| curve.current(torque))
@@ -55,24 +57,7 @@ pub fn power(
         if let Some(current) = current {
             power += per_ampere * current + resistance.unwrap_or(0.0) * current * current;
         }
-        power
-    };
-    let points = cycle.samples().iter().map(|sample| {
-        let torque = coefficients.torque(&sample.loads());
-        [sample.t, drawn(torque, sample.speed() * ratio)]
+        [sample.t, power]
     });
-    let mut points: Vec<[f64; 2]> = points.collect();
-    let bent = cycle.bent(coefficients, ratio);
-    for range in cycle.panels() {
-        let means = [1.0, -1.0].map(|sign| {
-            let part = |torque, speed| (sign * drawn(torque, speed)).max(0.0);
-            bent.mean(range.start, part)
-        });
-        // The end of the panel before stays as it is.
-        let first = cycle.left_end(range.start);
-        if let Some(points) = points.get_mut(first..range.end) {
-            curve::with_means(points, means);
-        }
-    }
     PowerCurve::new(points, cycle.duration())
 }

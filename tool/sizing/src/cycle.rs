@@ -12,7 +12,6 @@
 //! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
 //! the search's few levels more (docs/performance.md).
 
-use std::ops::Range;
 use std::sync::OnceLock;
 
 use crate::catalogue::Drive;
@@ -268,21 +267,6 @@ impl Cycle {
         self.stretches().at_speeds(is_open)
     }
 
-    /// The samples of each panel of the integrals, in order.
-    pub(crate) fn panels(&self) -> impl Iterator<Item = Range<usize>> {
-        self.smooth.panels(self.samples.len())
-    }
-
-    /// The sample at the left end of the panel that begins with the sample `k`: the right end of the one before, unless a stretch begins.
-    pub(crate) fn left_end(&self, k: usize) -> usize {
-        let begins = self.smooth.stretch(k, self.samples.len());
-        if begins.is_some_and(|stretch| stretch.start == k) {
-            k
-        } else {
-            k.saturating_sub(1)
-        }
-    }
-
     /// Calls `take` with every panel of the integrals, in order, and torque and speed of the motor over it; whether they are known.
     pub(crate) fn each_panel(
         &self,
@@ -292,7 +276,7 @@ impl Cycle {
     ) -> bool {
         let stretches = self.stretches();
         let mut is_known = false;
-        for range in self.panels() {
+        for range in self.smooth.panels(self.samples.len()) {
             if let Some(panel) = stretches.panel(range.start) {
                 let torque = |k: usize| coefficients.torque(&self.samples[k].loads());
                 let speed = |k: usize| self.samples[k].speed() * ratio;

@@ -222,41 +222,6 @@ impl PowerCurve {
     }
 }
 
-/// The most by which straight lines between instants may miss an energy: more is none of a smooth power.
-const MISSED: f64 = 0.05;
-
-/// Moves points after the first, each in proportion to its power, so that the straight lines between them have these means over their time, drawn
-/// and fed back (W): between instants the power bends.
-pub(super) fn with_means(points: &mut [[f64; 2]], means: [f64; 2]) {
-    let Some(([from, _], [to, _])) = points.first().zip(points.last()) else {
-        return;
-    };
-    let time = to - from;
-    // The first point stays: a few rounds.
-    for _ in 0..3 {
-        let mut found = [0.0; 2];
-        for pair in points.windows(2) {
-            let [[t, a], [next, b]] = [pair[0], pair[1]];
-            split((next - t, [a, b]), 0.0, |(h, [a, b])| {
-                let area = 0.5 * h * (a + b);
-                found[0] += area.max(0.0);
-                found[1] += (-area).max(0.0);
-            });
-        }
-        let factors = [0, 1].map(|k| {
-            let factor = means[k] * time / found[k];
-            if (factor - 1.0).abs() <= MISSED {
-                factor
-            } else {
-                1.0
-            }
-        });
-        for [_, power] in points.iter_mut().skip(1) {
-            *power *= factors[usize::from(*power < 0.0)];
-        }
-    }
-}
-
 /// A straight piece of power: length (s), power at both ends (W).
 pub type Piece = (f64, [f64; 2]);
 

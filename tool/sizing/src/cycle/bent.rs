@@ -60,15 +60,6 @@ impl<'c> Bent<'c> {
         sum
     }
 
-    /// The mean of a function over the panel of a sample; of one without a panel its value there.
-    pub(crate) fn mean(&self, k: usize, f: impl Fn(f64, f64) -> f64) -> f64 {
-        if let Some((panel, _)) = self.panel(k) {
-            return self.exact(&panel, 0.0, &f) / (2.0 * panel.half());
-        }
-        let [torque, speed] = self.at(k);
-        f(torque, speed)
-    }
-
     /// What the integral of a function over the panels of these samples, which are in order, is more than their weighted sum.
     pub(crate) fn more(&self, samples: &[usize], whole: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let mut sum = 0.0;

@@ -63,7 +63,8 @@ impl Stretches<'_> {
     fn mend(self, c: &Coefficients, k: usize, work: &mut Work) {
         let power = |k: usize| self.samples[k].power(c);
         let [before, after] = [power(k), power(k + 1)];
-        if before.min(after) >= 0.0 || before.max(after) <= 0.0 {
+        // Zero itself may be a sample.
+        if (before > 0.0) == (after > 0.0) {
             return;
         }
         let count = self.samples.len();
@@ -85,7 +86,9 @@ impl Stretches<'_> {
         let mut ends = vec![-1.0];
         for pair in places.windows(2) {
             let powers = [over.at(pair[0]), over.at(pair[1])];
-            if powers[0] * powers[1] < 0.0 {
+            if powers[1] == 0.0 {
+                ends.push(pair[1]);
+            } else if powers[0] * powers[1] < 0.0 {
                 let at = |x: f64| Ok::<f64, Infallible>(over.at(x));
                 let Ok(zero) = numerics::zero(at, [pair[0], pair[1]], powers, f64::EPSILON);
                 ends.push(zero);

@@ -520,7 +520,9 @@ impl<'a, 'm> Panels<'a, 'm> {
         } else {
             0.0
         };
-        if share > UNBALANCED + self.tolerance {
+        // Carriages bring energy of their own.
+        let is_whole = !self.moving.file.schedule.flows();
+        if is_whole && share > UNBALANCED + self.tolerance {
             return Err(Fault::Unbalanced {
                 work,
                 spent,

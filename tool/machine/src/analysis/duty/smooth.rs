@@ -43,6 +43,16 @@ impl Smooth {
         }
     }
 
+    /// That of some of the instants, in order, among them all that have a weight.
+    #[must_use]
+    pub fn among(&self, kept: &[usize]) -> Self {
+        let place = |first: &u32| kept.partition_point(|k| *k < *first as usize) as u32;
+        Self {
+            firsts: self.firsts.iter().map(place).collect(),
+            panels: self.panels.iter().map(place).collect(),
+        }
+    }
+
     /// The stretch of the instant `k` of `count`.
     pub fn stretch(&self, k: usize, count: usize) -> Option<Range<usize>> {
         group(&self.firsts, k, count)
