@@ -36,8 +36,9 @@ pub(crate) const FINE_STEPS: f64 = 1e-9;
 /// The holding torque is sought every 0.5°: the largest lies up to (0.25°)²/2 = 1e-5 higher [3.6e-6].
 pub(crate) const HOLDING_GRID: f64 = 1e-5;
 
-/// Shares of limits at the default sampling against those at 8000 instants and a tolerance of 1e-12: peaks between the instants.
-pub(crate) const OTHER_INSTANTS: f64 = 1e-6;
+/// Shares of limits at the default sampling against those at 8000 instants and a tolerance of 1e-12: the power of the bus is straight
+/// between the instants [2.0e-6 for a brake resistor; below 1e-6 all others].
+pub(crate) const OTHER_INSTANTS: f64 = 5e-6;
 
 /// Integrals over the cycle at the default tolerance of 1e-9, at any number of instants.
 pub(crate) const DUTY: f64 = 1e-9;

@@ -9,7 +9,7 @@ use jred_machine::analysis::duty::Panel;
 
 /// Error of the integral over a panel, as a share of it, and as a share of what the whole is compared with.
 const SHARE: f64 = 1e-10;
-const OF_WHOLE: f64 = 1e-11;
+const OF_WHOLE: f64 = 1e-10;
 
 /// A torque over the samples of a cycle.
 pub(crate) struct Bent<'c> {
@@ -121,7 +121,8 @@ impl<'c> Bent<'c> {
         }
         let torques = panel.values(|k| self.at(k)[0]);
         let speeds = panel.values(|k| self.at(k)[1]);
-        let between = |x: f64| f(torques.at(x), speeds.at(x));
+        let still = self.c.0.iter().all(|c| *c == 0.0);
+        let between = |x: f64| f(if still { 0.0 } else { torques.at(x) }, speeds.at(x));
         let sum = panel
             .rule()
             .adaptive([-1.0, 1.0], (SHARE, least / half), &between);

@@ -156,7 +156,7 @@ impl Stretches<'_> {
             let sample = &self.samples[k];
             (c.torque(&sample.loads()), sample.speed() * ratio)
         };
-        let panel = self.panel(k)?;
+        let panel = self.panel(k).filter(|_| self.smooth.knows_peaks())?;
         let kind = |k: usize| {
             let [_, driving, back, _, sign] = self.samples[k].loads();
             [driving, back, sign].map(|x| x != 0.0)

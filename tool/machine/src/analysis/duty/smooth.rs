@@ -18,6 +18,8 @@ pub struct Smooth {
     firsts: Vec<u32>,
     /// Index of the first instant of each panel.
     panels: Vec<u32>,
+    /// Whether instants were left out: between those that are left nothing is known of a peak.
+    is_outline: bool,
 }
 
 impl Smooth {
@@ -50,7 +52,13 @@ impl Smooth {
         Self {
             firsts: self.firsts.iter().map(place).collect(),
             panels: self.panels.iter().map(place).collect(),
+            is_outline: true,
         }
+    }
+
+    /// Whether a peak may lie between the instants.
+    pub const fn knows_peaks(&self) -> bool {
+        !self.is_outline
     }
 
     /// The stretch of the instant `k` of `count`.
