@@ -16,9 +16,7 @@ pub(crate) const DERIVATION: f64 = 5e-11;
 /// An integral by the trapezoidal rule at 1e5 steps over a function with a kink, h²·Δf′ [1.3e-10].
 pub(crate) const QUADRATURE: f64 = 2e-9;
 
-/// Integrals over the cycle at the default of 2000 steps, and what the motor puts in and takes back as shares of what it puts in:
-/// the ramps of the pressing force leave h⁴, the kinks of the efficiency where power changes its direction h² times a small step of
-/// the slope [5.5e-8 for the RMS; 1e-6 for others].
+/// Integrals over the cycle against sums over 2000 steps of another kind, which leave the square of the step at the kinks of the efficiency.
 pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 
 /// Extremes at the default of 2000 steps: that of the parabola through three instants, against the largest of 200 000 samples
@@ -38,8 +36,12 @@ pub(crate) const FINE_STEPS: f64 = 1e-9;
 /// The holding torque is sought every 0.5°: the largest lies up to (0.25°)²/2 = 1e-5 higher [3.6e-6].
 pub(crate) const HOLDING_GRID: f64 = 1e-5;
 
-/// Order of Simpson's rule from three step sizes.
-pub(crate) const ORDER: f64 = 0.1;
+/// Shares of limits at the default sampling against those at 8000 instants and a tolerance of 1e-12: the power of the bus is straight
+/// between the instants [2.0e-6 for a brake resistor; below 1e-6 all others].
+pub(crate) const OTHER_INSTANTS: f64 = 5e-6;
+
+/// Integrals over the cycle at the default tolerance of 1e-9, at any number of instants.
+pub(crate) const DUTY: f64 = 1e-9;
 
 /// Golden motion from rest over 0.5 s at a tolerance of 1e-12, relative to the column's largest: the integrator's error
 /// grows with the 30 rad turned [5e-12 for φ, 8e-11 for α].
@@ -84,7 +86,7 @@ pub(crate) const SAME_SUMS: f64 = 1e-11;
 /// A peak between two steps of a duty, which resolves it to 1e-5 of itself: twice that, for the search.
 pub(crate) const PEAK_BETWEEN_STEPS: f64 = 2e-5;
 
-/// Simpson's rule at 2000 steps over laws with bounded fourth derivatives, the ends of a stretch taken from 1e-9 inside.
+/// Figures over stretches of laws, the ends of a stretch taken from 1e-9 inside.
 pub(crate) const SIMPSON: f64 = 1e-8;
 
 /// Order of the RMS of a recorded motion from three recording steps [4.02, 4.00].
@@ -113,7 +115,7 @@ pub(crate) const DOCUMENT_I16: f64 = 1e-12;
 /// The curve of 1/J times J, of what it should be: the units of 16 bits [2.8e-4; 1.6e-5 for 16-bit splines].
 pub(crate) const RECIPROCAL_SEED: f64 = 1e-3;
 
-/// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and Simpson's rule on its ramps.
+/// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and the rule on its ramps.
 pub(crate) const BLOW: f64 = 1e-5;
 
 /// A linkage solved from its joints against golden data and closed forms, of the size of the largest value [3e-13].
@@ -131,7 +133,7 @@ pub(crate) const RATIO: f64 = 1e-12;
 /// Some twenty cells of an instant against the motor torque, of the largest torque: the same products in another order.
 pub(crate) const CELLS: f64 = 1e-12;
 
-/// Energy stored over a closed cycle at 40 000 steps, of the energy turned over: Simpson's rule, the ends of a stretch taken
+/// Energy stored over a closed cycle at 40 000 steps, of the energy turned over: the ends of a stretch taken
 /// from 1e-9 inside.
 pub(crate) const CLOSED_CYCLE: f64 = 1e-8;
 
@@ -154,10 +156,6 @@ pub(crate) const PREPARED_CYCLE: f64 = 1e-12;
 /// A peak between samples at 302 steps of an inclined sine, by the parabola through three: (2π/302)⁴/128 of a sine's peak for a
 /// vertex halfway between two samples, and less elsewhere.
 pub(crate) const PEAK_BETWEEN: f64 = 1.5e-9;
-
-/// Energies about a zero of the power at 302 steps of an inclined sine: of the parabola through three samples the zero is off by
-/// the third power of the step.
-pub(crate) const ENERGY_BETWEEN: f64 = 1e-7;
 
 /// The largest force of a motion: six vertices of parabolas from a quarter of a degree come down to rounding of a flat top.
 pub(crate) const LARGEST_FORCE: f64 = 1e-13;
@@ -284,7 +282,7 @@ pub(crate) const PUBLISHED_ACCELERATION: f64 = 3e-6;
 pub(crate) const PUBLISHED_MOTION: f64 = 1.5e-10;
 
 /// Torque of many turns, squared and summed: with all edges found, the instants between them are at least 16 a stretch, whose
-/// Simpson sums differ by this share where a dwell takes most of the steps.
+/// Sums differ by this share where a dwell takes most of the steps.
 pub(crate) const LOADS_FOUND: f64 = 1e-3;
 
 /// Rated power and power rate of a data sheet against its torque, speed and inertia, each rounded to two or three digits [3.8 % and 1.4 %].

@@ -6,6 +6,7 @@ pub mod catalogue;
 pub mod fastest;
 pub mod plan;
 pub mod retime;
+pub mod sampling;
 pub mod search;
 pub mod simulate;
 mod word;
@@ -198,6 +199,9 @@ pub struct Size {
     /// Catalogue, rules and time steps.
     #[command(flatten)]
     pub supply: search::SizingOptions,
+    /// Error of the integrals.
+    #[command(flatten)]
+    pub accuracy: sampling::Accuracy,
     /// Which motion the drives are judged with.
     #[arg(long, value_parser = word::<Moved>(), default_value_t, conflicts_with = "rank")]
     pub motion: Moved,

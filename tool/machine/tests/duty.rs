@@ -2,6 +2,9 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
+mod every_machine;
+mod known_error;
+
 use std::fmt::Write as _;
 use std::path::Path;
 

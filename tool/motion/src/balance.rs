@@ -14,7 +14,7 @@
 use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Reducible as _};
 use jred_machine::analysis::contact::{OneWay, Parted};
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{self, Duty};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::laden::Attached;
 use jred_machine::model::machine::MachineFile;
@@ -78,8 +78,8 @@ pub struct Request {
     pub counterweights: Vec<Counterweight>,
     /// Springs whose stiffness and free length are sought, as numbers of the file's elements.
     pub springs: Vec<usize>,
-    /// Time steps of the motion.
-    pub steps: usize,
+    /// How finely the motion is sampled.
+    pub sampling: duty::Sampling,
 }
 
 /// Why there is no answer.
@@ -87,6 +87,8 @@ pub struct Request {
 pub enum Fault {
     /// The machine cannot be placed somewhere.
     Machine(Error),
+    /// The duty of the motion cannot be found.
+    Duty(duty::Fault),
     /// The motion is missing that the torque is sought for.
     NoMotion,
     /// There is nothing to make less: the torque, or the deviation of the inertia, is zero everywhere.
@@ -102,6 +104,15 @@ pub enum Fault {
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
         Self::Machine(error)
+    }
+}
+
+impl From<duty::Fault> for Fault {
+    fn from(fault: duty::Fault) -> Self {
+        match fault {
+            duty::Fault::Machine(error) => Self::Machine(error),
+            fault => Self::Duty(fault),
+        }
     }
 }
 
@@ -249,7 +260,7 @@ fn efforts(
 /// The motion of a machine, if it has one.
 fn duty(file: &MachineFile, request: &Request) -> Result<Option<Duty>, Fault> {
     let motion = file.motion.as_ref();
-    let duty = motion.map(|motion| Duty::new(file, motion, request.steps));
+    let duty = motion.map(|motion| Duty::new(file, motion, request.sampling));
     Ok(duty.transpose()?)
 }
 

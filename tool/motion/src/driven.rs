@@ -295,7 +295,7 @@ impl Observer for LoadObserver<'_> {
             let state = [working.torque, working.speed];
             (warming.model).point(self.drive.motor, self.prepared, t, state)
         };
-        let course = Course::new(vec![point(0.0, &from), point(length, &to)], length);
+        let course = Course::new(&[point(0.0, &from), point(length, &to)], length);
         let (hottest, now) = course.follow(&warming.network, warming.rise, length);
         warming.rise = now;
         if let Some(heat) = &mut self.loads.heat {

@@ -2,6 +2,7 @@
 
 use jred::Error;
 use jred::machine::motion::Law;
+use jred_machine::analysis::duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Motion;
 
@@ -57,8 +58,8 @@ pub struct Request {
     pub goal: Goal,
     /// Share of a move's time over which its acceleration rises and falls; 0: it jumps at rest.
     pub ramp: f64,
-    /// Time steps of the duty.
-    pub steps: usize,
+    /// How finely the duty is sampled.
+    pub sampling: duty::Sampling,
 }
 
 /// A motion of the comparison.
@@ -118,6 +119,8 @@ impl Retimed {
 pub enum Obstacle {
     /// The machine cannot be placed somewhere.
     Machine(Error),
+    /// The duty of a motion cannot be found.
+    Duty(duty::Fault),
     /// The motion is not made of moves, nor does it turn for ever.
     NoMoves(NoMoves),
     /// The figures of the copper loss are not known.
@@ -129,6 +132,15 @@ pub enum Obstacle {
 impl From<Error> for Obstacle {
     fn from(error: Error) -> Self {
         Self::Machine(error)
+    }
+}
+
+impl From<duty::Fault> for Obstacle {
+    fn from(fault: duty::Fault) -> Self {
+        match fault {
+            duty::Fault::Machine(error) => Self::Machine(error),
+            fault => Self::Duty(fault),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Motion;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
@@ -29,8 +29,8 @@ pub struct Judging<'a> {
     pub catalogue: &'a Catalogue,
     /// Limits of their motors.
     pub motors: &'a [Prepared],
-    /// Time steps of the duty.
-    pub steps: usize,
+    /// How finely the duty is sampled.
+    pub sampling: Sampling,
     /// Leaves of a selection what is asked for.
     pub narrow: &'a (dyn Fn(&mut Selection) + Sync),
 }
@@ -157,7 +157,7 @@ impl<'a> Judging<'a> {
             copper: None,
             goal: Goal::Rms,
             ramp: 0.0,
-            steps: self.steps,
+            sampling: self.sampling,
         }
     }
 
@@ -166,7 +166,7 @@ impl<'a> Judging<'a> {
     }
 
     fn cycle(&self, motion: &Motion) -> Result<Cycle, Obstacle> {
-        Ok(Cycle::new(&Duty::new(self.file, motion, self.steps)?))
+        Ok(Cycle::new(&Duty::new(self.file, motion, self.sampling)?))
     }
 
     fn first(&self, cycle: &Cycle) -> First<'a> {

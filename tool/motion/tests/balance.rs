@@ -46,7 +46,7 @@ fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) 
             .map(|&(link, most, reach)| Counterweight { link, most, reach })
             .collect(),
         springs: springs.to_vec(),
-        steps: STEPS,
+        sampling: STEPS.into(),
     }
 }
 

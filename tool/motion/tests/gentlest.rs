@@ -73,7 +73,7 @@ fn request(goal: Goal, ramp: f64) -> Request {
         copper: Some(2.0),
         goal,
         ramp,
-        steps: 2000,
+        sampling: 2000.into(),
     }
 }
 

@@ -52,7 +52,7 @@ fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> Retimed {
         copper: Some(2.0),
         goal,
         ramp,
-        steps: 4000,
+        sampling: 4000.into(),
     };
     retime(file, file.motion.as_ref().unwrap(), &request).unwrap()
 }

@@ -53,7 +53,7 @@ fn retimed(file: &MachineFile) -> Retimed {
         copper: None,
         goal: Goal::Rms,
         ramp: 0.0,
-        steps: 4000,
+        sampling: 4000.into(),
     };
     retime(file, file.motion.as_ref().unwrap(), &request).unwrap()
 }

@@ -227,7 +227,7 @@ fn a_written_motion_is_read_with_its_pauses() {
             copper: None,
             goal: Goal::Rms,
             ramp,
-            steps: 300,
+            sampling: 300.into(),
         };
         let made = retime(&file, file.required_motion().unwrap(), &request)
             .unwrap_or_else(|_| panic!("{name}"));

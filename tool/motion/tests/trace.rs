@@ -271,7 +271,7 @@ fn the_check_accepts_the_profiles() {
             copper: None,
             goal: Goal::Rms,
             ramp: 0.0,
-            steps: 500,
+            sampling: 500.into(),
         };
         let gentle = retime(&file, motion, &request).unwrap_or_else(|_| panic!("{machine}"));
         let trace = &gentle.trace;

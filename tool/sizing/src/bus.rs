@@ -59,5 +59,13 @@ pub fn power(
         }
         [sample.t, power]
     });
+    let mut points: Vec<[f64; 2]> = points.collect();
+    // Where the power turns, the voltage is at an extreme.
+    for k in (1..points.len()).rev() {
+        let [[t, a], [next, b]] = [points[k - 1], points[k]];
+        if a * b < 0.0 && next > t {
+            points.insert(k, [t + (next - t) * (a / (a - b)), 0.0]);
+        }
+    }
     PowerCurve::new(points, cycle.duration())
 }

@@ -7,8 +7,8 @@
 //!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
 //!
 //! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`). A peak is
-//! then that of the parabola through the samples around it, and where the power changes its sign the energies are those of the
-//! parabola through Simpson's three samples: `tests/cycle/between.rs` compares both with closed forms.
+//! then that of the polynomial through the samples of its panel, and where the power changes its sign the energies are those of that
+//! polynomial: `tests/cycle/between.rs` compares both with closed forms.
 //! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
 //! the search's few levels more (docs/performance.md).
 
@@ -17,11 +17,12 @@ use std::sync::OnceLock;
 use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::{Duty, Smooth};
+use jred_machine::analysis::duty::{Duty, Panel, Smooth, Values};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_machine::number::figures::Figures;
 
 mod against;
+mod bent;
 mod beyond;
 mod extremes;
 mod factor;
@@ -34,6 +35,7 @@ pub(crate) mod speeds;
 mod tree;
 
 pub(crate) use against::Against;
+pub(crate) use bent::Bent;
 use extremes::Stretches;
 use factor::Factor;
 use front::Front;
@@ -68,10 +70,16 @@ impl Sample {
         self.speed
     }
 
+    /// Power of the motor per ratio (W).
+    #[inline]
+    fn power(&self, c: &Coefficients) -> f64 {
+        self.speed * c.torque(&self.loads())
+    }
+
     /// Whether power flows back to the motor, by more than a rounding of its torque.
     #[inline]
     fn gives_back(&self, c: &Coefficients, slack: f64) -> bool {
-        self.speed * c.torque(&self.loads()) < -slack * self.speed.abs()
+        self.power(c) < -slack * self.speed.abs()
     }
 
     /// Torque at the gearbox output (N·m).
@@ -248,15 +256,40 @@ impl Cycle {
         self.torque.norm(&coefficients.0) / self.duration.sqrt()
     }
 
-    /// Calls `take` with every sample at which the motor torque (N·m), given too, is larger in magnitude than `bound`: the cost
+    /// Calls `take` with the index of every sample at which the motor torque (N·m) is larger in magnitude than `bound`, in order: the cost
     /// is that of these samples.
-    pub(crate) fn beyond(
+    pub(crate) fn beyond(&self, coefficients: &Coefficients, bound: f64, take: impl FnMut(usize)) {
+        self.stretches().beyond(coefficients, bound, take);
+    }
+
+    /// Samples, in order, of all panels in whose range of speeds (rad/s, at the gearbox output, without sign) something `is_open`.
+    pub(crate) fn at_speeds(&self, is_open: &impl Fn([f64; 2]) -> bool) -> Vec<usize> {
+        self.stretches().at_speeds(is_open)
+    }
+
+    /// Calls `take` with every panel of the integrals, in order, and torque and speed of the motor over it; whether they are known.
+    pub(crate) fn each_panel(
         &self,
         coefficients: &Coefficients,
-        bound: f64,
-        take: impl FnMut(&Sample, f64),
-    ) {
-        self.stretches().beyond(coefficients, bound, take);
+        ratio: f64,
+        mut take: impl FnMut(&Panel, &Values, &Values),
+    ) -> bool {
+        let stretches = self.stretches();
+        let mut is_known = false;
+        for range in self.smooth.panels(self.samples.len()) {
+            if let Some(panel) = stretches.panel(range.start) {
+                let torque = |k: usize| coefficients.torque(&self.samples[k].loads());
+                let speed = |k: usize| self.samples[k].speed() * ratio;
+                take(&panel, &panel.values(torque), &panel.values(speed));
+                is_known = true;
+            }
+        }
+        is_known
+    }
+
+    /// The sums that bend: see [`Bent`].
+    pub(crate) fn bent<'c>(&'c self, coefficients: &'c Coefficients, ratio: f64) -> Bent<'c> {
+        Bent::new(self.stretches(), coefficients, ratio)
     }
 
     /// Mean of the motor torque (N·m).

@@ -26,9 +26,10 @@ use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Prepared;
 use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
+use jred_machine::analysis::duty::Panel;
 use jred_machine::units::{Sentence, Vocabulary};
 
-use course::{Course, Hottest, Point};
+use course::{Course, Hottest, MOST_PARTS, PART, Piece, Point};
 use jred_machine::model::operation::Operation;
 use jred_machine::model::surroundings::Surroundings;
 use network::{Losses, Network};
@@ -204,11 +205,31 @@ impl Model {
             motor,
             prepared,
         } = *load;
-        let points = cycle.samples().iter().map(|sample| {
-            let torque = coefficients.torque(&sample.loads());
-            self.point(motor, prepared, sample.t, [torque, sample.speed() * ratio])
+        let at =
+            |t: f64, [torque, speed]: [f64; 2]| self.point(motor, prepared, t, [torque, speed]);
+        let mut pieces = Vec::new();
+        let longest = self.network().map_or(f64::INFINITY, |n| PART * n.fastest());
+        let is_known = cycle.each_panel(coefficients, ratio, |panel, torques, speeds| {
+            let between = |x: f64| {
+                let point = at(0.0, [torques.at(x), speeds.at(x)]);
+                [point.root * point.root, point.other]
+            };
+            let known = torques.known().iter().zip(speeds.known());
+            let known = known.map(|(torque, speed)| at(0.0, [*torque, *speed]));
+            let known: Vec<[f64; 2]> = known.map(|p| [p.root * p.root, p.other]).collect();
+            let parts = (2.0 * panel.half() / longest).ceil().clamp(1.0, MOST_PARTS);
+            pieces.extend(pieces_of(panel, &known, &between, parts));
         });
-        Course::new(points.collect(), cycle.duration())
+        if is_known {
+            return Course::of_pieces(pieces, cycle.duration());
+        }
+        let points: Vec<Point> = (cycle.samples().iter())
+            .map(|sample| {
+                let torque = coefficients.torque(&sample.loads());
+                at(sample.t, [torque, sample.speed() * ratio])
+            })
+            .collect();
+        Course::new(&points, cycle.duration())
     }
 
     /// The losses of a motor at a time (s), a torque (N·m) and a speed of its own (rad/s).
@@ -342,6 +363,53 @@ impl Model {
             ripple,
         })
     }
+}
+
+/// Error of the moments of the losses over a panel that are taken from its samples, as a share of the losses.
+const KNOWN: f64 = 1e-10;
+
+/// The losses over a panel in so many pieces: their moments by the rule of the panel, of the losses at its samples or `between` them. Where they bend
+/// within a piece it is halved.
+fn pieces_of(
+    panel: &Panel,
+    known: &[[f64; 2]],
+    between: &impl Fn(f64) -> [f64; 2],
+    parts: f64,
+) -> Vec<Piece> {
+    let rule = panel.rule();
+    let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
+    let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
+    let least = KNOWN * (estimates[0].size + estimates[1].size);
+    let constant = known.iter().all(|losses| losses == &known[0]);
+    let parts = if constant { 1.0 } else { parts };
+    let mut pieces = Vec::with_capacity(parts as usize);
+    let mut k = 0.0;
+    while k < parts {
+        let [a, b] = [k, k + 1.0].map(|k| 2.0 * k / parts - 1.0);
+        // On −½ to ½.
+        let share = |x: f64| (x - a.midpoint(b)) / (b - a);
+        let moments = |which: usize| {
+            if parts <= 1.0 {
+                let found = estimates[which];
+                if found.error <= least || !found.error.is_finite() {
+                    let values = values(which);
+                    let places = rule.places().iter().zip(rule.weights()).zip(&values);
+                    return places.fold([0.0; 3], |[m, first, second], ((x, weight), value)| {
+                        let (x, part) = (0.5 * x, 0.5 * weight * value);
+                        [m + part, first + part * x, second + part * x * x]
+                    });
+                }
+            }
+            [0, 1, 2].map(|power| {
+                let f = |x: f64| between(x)[which] * share(x).powi(power);
+                rule.adaptive([a, b], (KNOWN, least), &f) / (b - a)
+            })
+        };
+        let time = panel.half() * (b - a);
+        pieces.push(Piece::of_moments(time, moments(0), moments(1)));
+        k += 1.0;
+    }
+    pieces
 }
 
 /// Allowed rise (K, or as a share of the rated rise). `None`: no data.

@@ -32,7 +32,7 @@ fn steps(steps: &[(f64, f64, f64)], duration: f64) -> Course {
                 other,
             })
         });
-    Course::new(points.collect(), duration)
+    Course::new(&points.collect::<Vec<_>>(), duration)
 }
 
 fn rise(course: &Course, network: &Network, operation: &Operation) -> [f64; 2] {
@@ -208,7 +208,7 @@ fn two_bodies_by_another_integration() {
                 other: other(t),
             }
         });
-        Course::new(points.collect(), duration)
+        Course::new(&points.collect::<Vec<_>>(), duration)
     };
     let found = rise(&course(2000), &known.network(), &Operation::Continuous);
     near("winding", found[0], most[0], budget::THERMAL_STEPS);
@@ -308,7 +308,7 @@ fn short_cycles_lose_no_digits() {
             other: 4.0,
         }
     });
-    let course = Course::new(points.collect(), 1e-3);
+    let course = Course::new(&points.collect::<Vec<_>>(), 1e-3);
     let found = rise(&course, &network, &Operation::Continuous);
     let expected = steady(resistances, course.mean(), growth).unwrap();
     near("winding", found[0], expected[0], budget::MANY_STEPS);
@@ -395,7 +395,7 @@ fn a_ramp_is_followed() {
                 other: at(others),
             }
         });
-        Course::new(points.collect(), 100.0)
+        Course::new(&points.collect::<Vec<_>>(), 100.0)
     };
     for (roots, others) in [
         ([0.0, 10.0], [20.0, 20.0]),

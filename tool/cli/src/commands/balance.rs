@@ -2,7 +2,7 @@
 
 use miette::{Report, Result, miette};
 
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::{Done, print_parts};
 use crate::options;
 use jred_machine::model::machine::MachineFile;
@@ -32,7 +32,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
         goal: options.least,
         counterweights: counterweights.collect::<Result<_>>()?,
         springs: Vec::new(),
-        steps: options.steps as usize,
+        sampling: options.sampling.sampling(),
     };
     for name in &options.spring {
         let number = spring(name, &file)?;
@@ -73,6 +73,7 @@ fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) 
     let name = plain::path(&options.file);
     match fault {
         Fault::Machine(error) => core_report(*error),
+        Fault::Duty(fault) => duty_report(fault.clone()),
         Fault::NoMotion => miette!(
             help = "add a [motion], or give --least holding or --least inertia, which need none",
             "{name} has no [motion], over which the torque is to be least"

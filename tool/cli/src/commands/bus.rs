@@ -7,10 +7,10 @@ use miette::{Result, miette};
 use indicatif::ProgressBar;
 
 use crate::busy;
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::duty_report;
 use crate::commands::{Done, print};
 use crate::options::bus::Bus as Options;
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::site::Site;
 use jred_machine::model::supply::Supply;
@@ -60,7 +60,14 @@ pub fn run(options: &Options) -> Result<Done> {
         file.site.bus_voltage = own.bus_voltage;
         file.site.mains_voltage = own.mains_voltage;
         file.site.supply = common.supply;
-        axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
+        axes.push(axis(
+            path,
+            file,
+            &own,
+            &catalogue,
+            name,
+            options.sampling.sampling(),
+        )?);
     }
     // Drawn on standard error, and only where that is a terminal.
     busy::rows(0, 0);
@@ -87,7 +94,7 @@ const MOST_STEPS: usize = 2_000_000;
 
 /// Refuses more axes than memory is meant for at so many steps.
 fn bounded(options: &Options) -> Result<()> {
-    let (axes, steps) = (options.files.len(), options.steps as usize);
+    let (axes, steps) = (options.files.len(), options.sampling.sampling().steps);
     if axes * steps <= MOST_STEPS {
         return Ok(());
     }
@@ -176,13 +183,13 @@ fn axis(
     bus: &Site,
     catalogue: &Catalogue,
     name: Option<&str>,
-    steps: u32,
+    sampling: Sampling,
 ) -> Result<Axis> {
     variator::refuse(file, "bus")?;
     let motion = file.required_motion()?;
     let mut own = catalogue.clone();
     fit_input(&mut own, file)?;
-    let duty = Duty::new(file, motion, steps as usize).map_err(core_report)?;
+    let duty = Duty::new(file, motion, sampling).map_err(duty_report)?;
     let cycle = Cycle::new(&duty);
     let motors = own.prepare(&file.site);
     let selection = Selection::parallel(&own, &motors, &cycle, &file.site, &file.rules);

@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::busy;
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::{Done, print, warn};
 use crate::options;
 use crate::output;
@@ -218,7 +218,12 @@ fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
         _ => {}
     }
     let motion = file.motion_or("the table needs a largest speed: give --omega, or ")?;
-    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).map_err(core_report)?;
+    let duty = Duty::new(
+        file,
+        motion,
+        jred_machine::analysis::duty::Sampling::default(),
+    )
+    .map_err(duty_report)?;
     let [omega, alpha] = given;
     let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();

@@ -109,7 +109,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let made = match chosen.drive.as_ref().filter(|_| by_rules) {
         None => make(&limits, rms).map(|(cycle, warmth)| (cycle, warmth, None)),
         Some(drive) => {
-            let judge = Judge::new(&file, drive.drive(), options.supply.steps());
+            let judge = Judge::new(&file, drive.drive(), options.supply.course.sampling());
             let heat = rms.is_some() || warmth.is_some();
             let found = ruled(&judge, (&limits, rms), heat, make);
             found.map(|(cycle, warmth, judged)| (cycle, warmth, Some(judged)))
@@ -300,7 +300,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
             &options.file,
             &options.supply,
             &filter,
-            options.supply.steps(),
+            options.supply.course.sampling(),
         )?;
         ChosenDrive::choose(&study, None, &filter, None)?
     };

@@ -2,7 +2,7 @@
 
 use miette::{Result, miette};
 
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::duty_report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, print};
 use crate::options::search::Ratio;
@@ -40,7 +40,8 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         ));
     }
     jred_sizing::select::fit::fit_input(&mut catalogue, &file)?;
-    let duty = Duty::new(&file, motion, options.supply.steps()).map_err(core_report)?;
+    let duty = Duty::new(&file, motion, options.supply.course.with(&options.accuracy))
+        .map_err(duty_report)?;
     let gear = Gear {
         inertia: options.gearbox_inertia.unwrap_or(0.0),
         efficiency: options.efficiency,

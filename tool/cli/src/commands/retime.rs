@@ -4,7 +4,7 @@ use std::path::Path;
 
 use miette::{Report, Result, miette};
 
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
 use crate::commands::{Done, drive_asked, print_parts, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
@@ -57,7 +57,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
         copper: drive.as_ref().and_then(retime::copper),
         goal: options.objective,
         ramp: ramp(options)?,
-        steps: options.steps as usize,
+        sampling: options.sampling.sampling(),
     };
     let retimed = retime::retime(&file, motion, &request)
         .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
@@ -83,9 +83,9 @@ pub fn retime(options: &Retime) -> Result<Done> {
     )?;
     let checks = match drive {
         None => Vec::new(),
-        Some(drive) => Judge::new(&file, drive, request.steps)
+        Some(drive) => Judge::new(&file, drive, request.sampling)
             .checks(&retimed.trace)
-            .map_err(core_report)?,
+            .map_err(duty_report)?,
     };
     let broken = broken(&file, &retimed.trace).map_err(core_report)?;
     let mut shown = list::retime::Shown {
@@ -134,6 +134,7 @@ pub(super) fn report(
     let name = plain::path(path);
     match obstacle {
         Obstacle::Machine(error) => core_report(*error),
+        Obstacle::Duty(fault) => duty_report(fault.clone()),
         Obstacle::NoMoves(NoMoves::Still) => miette!(
             help = "give a motion with at least one move",
             "nothing moves in the motion of {name}"

@@ -17,7 +17,7 @@ use jred_sizing::study::sensitivity::{Reach, Sensitivity};
 /// Bad input.
 pub fn sensitivity(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let sampling = options.supply.of_neighbours();
+    let sampling = options.supply.course.with(&options.accuracy);
     let study = study(&options.file, &options.supply, &filter, sampling)?;
     options.search.check(&study.catalogue, &[])?;
     let one = ChosenDrive::choose(

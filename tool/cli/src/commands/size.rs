@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 use serde_json::Value;
 
-use crate::commands::core_error::core_report;
+use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::retime::report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, print};
@@ -62,7 +62,7 @@ pub fn size(options: &Size) -> Result<Done> {
             own: motion,
             catalogue: &catalogue,
             motors: &motors,
-            steps: options.supply.steps(),
+            sampling: options.supply.course.with(&options.accuracy),
             narrow: &narrow,
         };
         let (best, says) = suited(&judging, options)?;
@@ -70,7 +70,8 @@ pub fn size(options: &Size) -> Result<Done> {
         made = Some(says);
     }
     let motion = file.required_motion()?;
-    let duty = Duty::new(&file, motion, options.supply.steps()).map_err(core_report)?;
+    let duty = Duty::new(&file, motion, options.supply.course.with(&options.accuracy))
+        .map_err(duty_report)?;
     let cycle = Cycle::new(&duty);
     let warnings = warnings(&file).map_err(core_report)?;
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);

@@ -22,7 +22,7 @@ use jred_sizing::study::tolerance::{Samples, Scatter};
 /// Bad input, or a file that cannot be written.
 pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let sampling = options.supply.of_neighbours();
+    let sampling = options.supply.course.sampling();
     let study = study(&options.file, &options.supply, &filter, sampling)?;
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;

@@ -77,7 +77,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         &options.file,
         &options.supply,
         &filter,
-        options.supply.steps(),
+        options.supply.course.with(&options.accuracy),
     )?;
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::MOST_STEPS;
+use super::sampling::SamplingOptions;
 use super::word::word;
 use jred_motion::balance::Goal;
 use jred_report::list::inspection::Format;
@@ -29,7 +29,7 @@ pub struct Balance {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// Number of time steps per cycle.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=MOST_STEPS))]
-    pub steps: u32,
+    /// How finely the motion is sampled.
+    #[command(flatten)]
+    pub sampling: SamplingOptions,
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::sampling::SamplingOptions;
 use super::word::word;
 use jred_report::table::output::Format;
 
@@ -25,9 +26,9 @@ pub struct Bus {
     /// All axes start their cycles together, as in the files: check only this case.
     #[arg(long)]
     pub in_step: bool,
-    /// Number of time steps per cycle.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
-    pub steps: u32,
+    /// How finely the motion is sampled.
+    #[command(flatten)]
+    pub sampling: SamplingOptions,
     /// Output format; CSV contains power and voltage over time with all axes in step.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::output_file;
 use super::plan::PlanFile;
+use super::sampling::SamplingOptions;
 use super::word::word;
-use super::{MOST_STEPS, output_file};
 use jred_motion::retime::Goal;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
@@ -60,9 +61,9 @@ pub struct Retime {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// Number of time steps per cycle, of the figures in the table.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=MOST_STEPS))]
-    pub steps: u32,
+    /// How finely the motion is sampled.
+    #[command(flatten)]
+    pub sampling: SamplingOptions,
     /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the torque is that at the input of the drive train.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,

@@ -6,8 +6,8 @@ use clap::Args;
 use glob::Pattern;
 
 use super::catalogue::CatalogueFiles;
+use super::sampling::{Accuracy, Steps};
 use super::word::word;
-use jred_machine::analysis::duty::{STEPS, Sampling};
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::words::Word as _;
 use jred_machine::number::words::counted;
@@ -30,22 +30,9 @@ pub struct SizingOptions {
     /// apply.
     #[arg(long, value_name = "SET")]
     pub rules: Option<String>,
-    /// Number of time steps per cycle; by default 2000, for `sensitivity` and `tolerance` 250.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
-    pub steps: Option<u32>,
-}
-
-impl SizingOptions {
-    /// Number of time steps of a machine's cycle.
-    pub fn steps(&self) -> usize {
-        self.steps.map_or(STEPS, |steps| steps as usize)
-    }
-
-    /// How the many neighbours of a machine are sampled.
-    pub fn of_neighbours(&self) -> Sampling {
-        let given = self.steps.map(|steps| Sampling::from(steps as usize));
-        given.unwrap_or(Sampling::OF_NEIGHBOURS)
-    }
+    /// Instants of the course.
+    #[command(flatten)]
+    pub course: Steps,
 }
 
 /// Which drives are considered and how they are ranked.
@@ -263,6 +250,9 @@ pub struct Vary {
     /// Catalogue and time steps.
     #[command(flatten)]
     pub supply: SizingOptions,
+    /// Error of the integrals.
+    #[command(flatten)]
+    pub accuracy: Accuracy,
     /// Rows.
     #[command(flatten)]
     pub rows: Rows,
@@ -293,6 +283,9 @@ pub struct Ratio {
     /// Catalogue and time steps.
     #[command(flatten)]
     pub supply: SizingOptions,
+    /// Error of the integrals.
+    #[command(flatten)]
+    pub accuracy: Accuracy,
     /// Efficiency of the gearbox, above 0 to 1.
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
@@ -343,6 +336,9 @@ pub struct Sensitivity {
     /// Catalogue and time steps.
     #[command(flatten)]
     pub supply: SizingOptions,
+    /// Error of the integrals.
+    #[command(flatten)]
+    pub accuracy: Accuracy,
     /// Which drives.
     #[command(flatten)]
     pub search: Search,

@@ -272,7 +272,7 @@ fn the_drives() {
             drive,
             motor,
             gearbox,
-            [budget::DEFAULT_STEPS, budget::DEFAULT_PEAK],
+            [budget::FINE_STEPS, budget::DEFAULT_PEAK],
         );
     }
     println!("{direct} of them coupled directly");

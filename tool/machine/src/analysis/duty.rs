@@ -1,24 +1,26 @@
 //! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
 use jred::machine::TorqueTerms;
-use jred::machine::motion::State;
-use jred::mechanism::TrainOutput;
-use jred::{Error, Reduction};
 
 use crate::analysis::mechanics::{Held, Mechanics, Rest, constant_loads};
-use crate::model::drive_train::DriveTrain;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
-use crate::model::schedule::Now;
 use crate::number::figures::Figures;
 
+mod fault;
+mod integrands;
+mod moving;
+mod panels;
 mod refined;
 mod smooth;
 mod stretches;
 
-use refined::{MOST_INSTANTS, MOST_PARTS, insert_extremes, refine_bends};
-pub use smooth::{MOST_RAISED, Smooth};
-use stretches::{Part, parts};
+pub use fault::Fault;
+use moving::Moving;
+pub use panels::MOST_INSTANTS;
+use panels::Panels;
+use refined::insert_extremes;
+pub use smooth::{MOST_RAISED, Panel, Smooth, Values};
 pub(crate) use stretches::{passages, smooth_stretches};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
@@ -67,38 +69,38 @@ pub struct Duty {
     pub smooth: Smooth,
 }
 
-/// Default number of time steps of a cycle.
+/// Default number of instants of a cycle, at least, about.
 pub const STEPS: usize = 2000;
 
 /// The ends of a smooth stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
 pub(crate) const INSIDE: f64 = 1e-9;
 
-/// Share of a stretch after which a move that begins from rest has a speed; at its start it has this share of that speed at most.
-const SLIGHTLY: f64 = 1e-3;
-
 /// How finely a motion is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Time steps of a cycle, about.
+    /// Error of the integrals over the cycle, as a share of themselves.
+    pub tolerance: f64,
+    /// Instants of a cycle, at least, about: those of its course.
     pub steps: usize,
-    /// Share of the largest input torque by which the straight line between two instants may miss a peak.
-    pub missed: f64,
 }
 
-impl Sampling {
-    /// Of the many neighbours of a machine whose shares of limits are compared: sums are of fourth order in the step, and a peak is that of
-    /// the parabola through three instants (test `neighbours_are_sampled_finely_enough`).
-    pub const OF_NEIGHBOURS: Self = Self {
-        steps: 250,
-        missed: 1e-3,
-    };
+/// Default error of the integrals, as a share of themselves.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Least error that can be asked for: rounding is not far below.
+pub const LEAST_TOLERANCE: f64 = 1e-12;
+
+impl Default for Sampling {
+    fn default() -> Self {
+        STEPS.into()
+    }
 }
 
 impl From<usize> for Sampling {
     fn from(steps: usize) -> Self {
         Self {
             steps,
-            missed: 1e-5,
+            tolerance: TOLERANCE,
         }
     }
 }
@@ -107,176 +109,27 @@ impl From<usize> for Sampling {
 /// and cogging hold that.
 const UNHELD: f64 = 0.01;
 
-/// The direction of the move that begins from rest with this stretch, if static friction has to be overcome there.
-fn starts(file: &MachineFile, motion: &Motion, [from, to]: [f64; 2]) -> Option<f64> {
-    if !file.schedule.has_static_friction() {
-        return None;
-    }
-    let speed = |share: f64| motion.at(from + share * (to - from)).omega;
-    let ahead = speed(SLIGHTLY);
-    (speed(0.0).abs() <= SLIGHTLY * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
-}
-
-/// The machine in its motion. A dwell asks for one position at every step of time: the last one is kept.
-struct Moving<'a> {
-    file: &'a MachineFile,
-    motion: &'a Motion,
-    last: Option<(f64, usize, Reduction)>,
-}
-
-impl Moving<'_> {
-    /// The reduced link, and the torque with which carriages resist by their motion along their guides, which is not among its process
-    /// loads.
-    fn parts(&mut self, now: &Now, phi: f64) -> Result<(Reduction, f64), Error> {
-        if !self.file.schedule.flows() {
-            return Ok((self.reduction(now, phi)?, 0.0));
-        }
-        let machine = self.file.machine_at(now, phi)?;
-        let reduction = self.file.reduction_of(&machine, phi)?;
-        self.file.apart(&machine, reduction, phi)
-    }
-
-    fn reduction(&mut self, now: &Now, phi: f64) -> Result<Reduction, Error> {
-        let number = self.file.schedule.number(now);
-        if let Some((place, known, reduction)) = &self.last
-            && place.to_bits() == phi.to_bits()
-            && *known == number
-        {
-            return Ok(*reduction);
-        }
-        let reduction = self.file.bare_reduction_at(now, phi)?;
-        self.last = Some((phi, number, reduction));
-        Ok(reduction)
-    }
-}
-
-impl Instant {
-    /// The machine at time `t` of its motion.
-    fn new(moving: &mut Moving, t: f64, weight: f64) -> Result<Self, Error> {
-        let state = moving.motion.at(t);
-        let (reduction, carriages) = moving.parts(&Now::of(t, state.omega), state.phi)?;
-        let mut terms = reduction.torque(state.omega, state.alpha);
-        terms.velocity += carriages;
-        Ok(Self::with(moving, t, weight, state, &reduction, terms))
-    }
-
-    /// The moment before a move in this `direction` begins from rest: static friction, without acceleration. It has no weight.
-    fn breakaway(moving: &mut Moving, t: f64, direction: f64) -> Result<Self, Error> {
-        let state = State {
-            omega: 0.0,
-            alpha: 0.0,
-            ..moving.motion.at(t)
-        };
-        let (reduction, carriages) = moving.parts(&Now::starting(t, direction), state.phi)?;
-        let terms = TorqueTerms {
-            coulomb: reduction.coulomb * direction,
-            velocity: carriages,
-            ..reduction.torque(0.0, 0.0)
-        };
-        let instant = Self::with(moving, t, 0.0, state, &reduction, terms);
-        Ok(instant.towards(&moving.file.drive_train, direction))
-    }
-
-    /// The same with a drive train that is about to move in this direction, which decides on the side of its losses.
-    fn towards(mut self, train: &DriveTrain, direction: f64) -> Self {
-        self.direction = direction;
-        let input = train.input(&TrainOutput {
-            torque: self.terms.total(),
-            torque_per_alpha: self.inertia,
-            omega: self.omega,
-            alpha: self.alpha,
-            direction,
-        });
-        self.input_torque = input.torque;
-        self
-    }
-
-    fn with(
-        moving: &Moving,
-        t: f64,
-        weight: f64,
-        state: State<f64>,
-        reduction: &Reduction,
-        terms: TorqueTerms,
-    ) -> Self {
-        let train = &moving.file.drive_train;
-        let ratio = train.ratio();
-        let inertia = reduction.inertia;
-        let input = train.input(&TrainOutput {
-            torque: terms.total(),
-            torque_per_alpha: inertia,
-            omega: state.omega,
-            alpha: state.alpha,
-            direction: state.omega,
-        });
-        Self {
-            t,
-            weight,
-            phi: state.phi,
-            omega: state.omega,
-            alpha: state.alpha,
-            direction: state.omega,
-            inertia,
-            terms,
-            input_torque: input.torque,
-            input_speed: state.omega * ratio,
-            input_alpha: state.alpha * ratio,
-            input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
-        }
-    }
-}
-
 impl Duty {
-    /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion, also cut where its acceleration bends,
-    /// is cut into an even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
+    /// Samples the machine's motion so that the error of every integral over it is known, and not above the tolerance: by Gauss and Kronrod's
+    /// rule on panels, each in a smooth part of the motion, which are halved until it is. The ends of a stretch are taken from inside, so that a
     /// jump of the acceleration belongs to both sides.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Those of the machine; integrals that do not reach the tolerance; energy that does not balance.
     pub fn new(
         file: &MachineFile,
         motion: &Motion,
         sampling: impl Into<Sampling>,
-    ) -> Result<Self, Error> {
-        let Sampling { steps, missed } = sampling.into();
+    ) -> Result<Self, Fault> {
         let duration = motion.duration();
-        let mut instants = Vec::with_capacity(steps + 1024);
-        let mut smooth = Smooth::default();
-        let mut moving = Moving {
-            file,
-            motion,
-            last: None,
-        };
-        let parts = parts(file, motion, Sampling { steps, missed });
-        let all: usize = parts.iter().map(|part| part.steps).sum();
-        let most_parts = (MOST_INSTANTS / all as f64).clamp(1.0, MOST_PARTS);
-        for Part {
-            from,
-            to,
-            steps: n,
-            inside,
-        } in parts
-        {
-            let span = to - from;
-            let step = span / n as f64;
-            if let Some(direction) = starts(file, motion, [from, to]) {
-                smooth.begin(instants.len());
-                instants.push(Instant::breakaway(&mut moving, from, direction)?);
-            }
-            let first = instants.len();
-            smooth.begin(first);
-            for k in 0..=n {
-                let weight = match k {
-                    _ if k == 0 || k == n => 1.0,
-                    _ if k % 2 == 1 => 4.0,
-                    _ => 2.0,
-                } * step
-                    / 3.0;
-                let place = (k as f64 / n as f64).clamp(inside, 1.0 - inside);
-                instants.push(Instant::new(&mut moving, from + place * span, weight)?);
-            }
-            refine_bends(&mut moving, first, (missed, most_parts), &mut instants)?;
-        }
+        let mut moving = Moving::new(file, motion);
+        let stretches = smooth_stretches(file, motion);
+        let panels = Panels::new(&mut moving, &stretches, sampling.into())?;
+        let Panels {
+            mut instants,
+            mut smooth,
+            ..
+        } = panels;
         insert_extremes(&mut moving, &mut instants, &mut smooth)?;
         let ratio = file.drive_train.ratio();
         let (mut weights, mut unheld) = (Vec::new(), 0.0f64);
@@ -343,13 +196,21 @@ impl Duty {
 
     /// The same of what a motor changes: its extremes lie between the instants.
     pub fn figures_between(&self, values: &[f64]) -> Figures {
-        let time = |k: usize| self.instants[k].t;
         let between = |k: usize, sign: f64| {
-            let value = |k: usize| sign * values[k];
-            let peak = self.smooth.peak(k, self.instants.len(), time, value)?;
-            Some(sign * peak.value)
+            let panel = self.panel_of(k)?;
+            let over = panel.values(|k| sign * values[k]);
+            let time = |k: usize| self.instants[k].t;
+            let (_, value) = panel.peak(k, time, |k| sign * values[k], |x| over.at(x))?;
+            Some(sign * value)
         };
         self.figures_at(|k| values[k], between)
+    }
+
+    /// The panel of an instant.
+    fn panel_of(&self, k: usize) -> Option<Panel> {
+        let range = self.smooth.panel_of(k, self.instants.len())?;
+        let at = |k: usize| [self.instants[k].t, self.instants[k].weight];
+        Panel::of(range, at)
     }
 
     fn figures_at(

@@ -19,6 +19,7 @@ mod largest;
 mod points;
 mod reactions;
 
+pub(crate) use largest::between_edges;
 pub use largest::{Largest, largest};
 pub use reactions::joints_with_force;
 

@@ -182,7 +182,7 @@ impl DriveTrain {
     }
 
     /// Whether a stage has losses, whose sense changes with that of its power.
-    pub fn has_losses(&self) -> bool {
+    pub fn is_lossy(&self) -> bool {
         let branches = self
             .branches
             .iter()
@@ -191,8 +191,9 @@ impl DriveTrain {
         all.any(|stage| stage.efficiency() < 1.0)
     }
 
-    /// The torque that each stage with losses delivers, in the chain and in the branches, always in the same order.
-    pub fn delivered_with_losses(&self, output: &TrainOutput) -> Vec<f64> {
+    /// The torque (N·m) that each stage with losses delivers, in the chain and in the branches, always in the same order: while the shafts turn
+    /// one way, the torque at the input bends where one of these changes its sign.
+    pub fn lossy_flows(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::new();
         self.walk(output, |of, torque| {
             let (Of::Chain(stage) | Of::Branch(stage)) = of;

@@ -10,7 +10,6 @@ use crate::number::numerics;
 use crate::number::spline::Fault;
 use piece::{Kind, Piece};
 
-mod bends;
 mod course;
 mod limits;
 mod nodes;
@@ -49,6 +48,9 @@ const STANDSTILL: f64 = 1e-6;
 
 /// Parts of a polynomial of seventh degree in which it is looked for a point where it turns back.
 const TURNS: u32 = 64;
+
+/// The same between two rows of a recorded motion, where the speed is of third degree at most.
+const TURNS_OF_ROWS: u32 = 4;
 
 /// Parts of a recorded motion at whose ends it is looked at.
 const RECORDED: u32 = 10_000;
@@ -313,17 +315,51 @@ impl Motion {
         stretches
     }
 
-    /// A part of the motion cut where its rows stand, if it goes through nodes: there its jerk jumps. Times (s) with both ends.
-    pub(crate) fn cut_at_rows(&self, [from, to]: [f64; 2]) -> Vec<f64> {
-        let rows = self.pieces.iter().filter_map(|piece| match &piece.kind {
-            Kind::Nodes(nodes) => Some(nodes),
-            _ => None,
-        });
-        let inner = rows.flatten().map(|node| node.t);
-        let inner = inner.filter(|t| from < *t && *t < to);
-        let mut cuts: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
-        cuts.dedup();
-        cuts
+    /// The times (s) strictly within a part of the motion at which its rows stand, in order: there a derivative jumps. None of a motion that
+    /// is not recorded, nor computed.
+    pub(crate) fn rows_within(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let first = self.pieces.partition_point(|piece| piece.end() <= from);
+        let pieces = self.pieces.iter().skip(first);
+        let mut rows = Vec::new();
+        for piece in pieces.take_while(|piece| piece.start < to) {
+            piece.rows_between([from, to], &mut rows);
+        }
+        rows.dedup();
+        rows
+    }
+
+    /// A part of the motion cut where its rows stand. Times (s) with both ends.
+    pub(crate) fn cut_at_rows(&self, span: [f64; 2]) -> Vec<f64> {
+        let [from, to] = span;
+        let inner = self.rows_within(span);
+        [from].into_iter().chain(inner).chain([to]).collect()
+    }
+
+    /// Times (s) of a part of the motion, in order with both ends, between two of which the drive link turns back once at most, but for
+    /// roundings.
+    pub(crate) fn turning(&self, span: [f64; 2]) -> Vec<f64> {
+        let [from, to] = span;
+        let first = self.pieces.partition_point(|piece| piece.end() <= from);
+        let pieces = self.pieces.iter().skip(first);
+        let mut places = vec![from];
+        for piece in pieces.take_while(|piece| piece.start < to) {
+            let parts = match piece.kind {
+                // It goes one way.
+                Kind::Move(_) => 1,
+                Kind::Polynomial { .. } => TURNS,
+                Kind::Positions { .. } | Kind::Speeds { .. } | Kind::Nodes(_) => TURNS_OF_ROWS,
+            };
+            let mut ends = vec![piece.start.max(from)];
+            piece.rows_between([from, to], &mut ends);
+            ends.push(piece.end().min(to));
+            for ends in ends.windows(2) {
+                let part = |k: u32| ends[0] + (ends[1] - ends[0]) * f64::from(k) / f64::from(parts);
+                places.extend((1..=parts).map(part));
+            }
+        }
+        places.push(to);
+        places.dedup_by(|next, before| *next <= *before);
+        places
     }
 
     /// The same motion, prescribed for a coordinate of the tool.

@@ -38,26 +38,6 @@ impl Parabola {
         let [a, b] = self.times;
         (self.bend < 0.0).then(|| a.midpoint(b) - 0.5 * self.slope / self.bend)
     }
-
-    /// Its integral from `a` to `b`, by Simpson's rule, which is exact for it.
-    pub fn integral(&self, a: f64, b: f64) -> f64 {
-        (b - a) / 6.0 * (self.at(a) + 4.0 * self.at(a.midpoint(b)) + self.at(b))
-    }
-
-    /// The times between `a` and `b` at which it is zero, in order.
-    pub fn zeros(&self, a: f64, b: f64) -> impl Iterator<Item = f64> {
-        // About the middle of the interval: y = u + v·x + bend·x².
-        let middle = a.midpoint(b);
-        let [first, second] = self.times;
-        let v = self.slope + self.bend * (2.0 * middle - first - second);
-        let u = self.at(middle);
-        let root = (v * v - 4.0 * self.bend * u).sqrt();
-        // Neither root is a difference of nearly equal numbers.
-        let q = -0.5 * (v + root.copysign(v));
-        let mut zeros = [middle + q / self.bend, middle + u / q];
-        zeros.sort_by(f64::total_cmp);
-        zeros.into_iter().filter(move |t| a < *t && *t < b)
-    }
 }
 
 /// The place of the largest value of `f` near three places in order, of which none outside is larger than the middle one: by

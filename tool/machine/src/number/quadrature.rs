@@ -1,4 +1,7 @@
 //! Gauss and Legendre's rules, on 0 to 1 unless they are centred: places and weights. A rule of n points is exact to degree 2n − 1.
+//! Rules with an estimate of their error, and the polynomial through their places: [`kronrod`].
+
+pub mod kronrod;
 
 /// Two points.
 pub const GAUSS_2: [[f64; 2]; 2] = [

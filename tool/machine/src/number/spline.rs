@@ -153,6 +153,13 @@ impl Spline {
         }
     }
 
+    /// The knots strictly between two arguments of the range, in order.
+    pub(crate) fn knots_between(&self, [low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
+        let first = self.knots.partition_point(|knot| *knot <= low);
+        let after = self.knots.iter().skip(first).copied();
+        after.take_while(move |knot| *knot < high)
+    }
+
     /// The piece at `x`, the place in it, and whole periods before it.
     fn place(&self, x: f64) -> (usize, f64, f64) {
         let [from, to] = self.range();

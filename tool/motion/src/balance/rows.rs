@@ -2,7 +2,7 @@
 
 use jred::machine::{Element, Frames, MassProperties, Mechanism as _};
 use jred::{Error, Link, Reducible as _};
-use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::analysis::duty::{Duty, Instant, Sampling};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 
@@ -121,7 +121,11 @@ fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
     if matches!(request.goal, Goal::Rms | Goal::Peak) {
         let motion = file.motion.as_ref().ok_or(Fault::NoMotion)?;
         let finer = if request.goal == Goal::Peak { FINER } else { 1 };
-        let duty = Duty::new(file, motion, finer * request.steps)?;
+        let sampling = Sampling {
+            steps: finer * request.sampling.steps,
+            ..request.sampling
+        };
+        let duty = Duty::new(file, motion, sampling)?;
         let train = file.train_inertia();
         let place = |i: &Instant| Place {
             weight: i.weight / duty.duration,

@@ -4,6 +4,7 @@ mod cure;
 mod words;
 
 use jred::Error;
+use jred_machine::analysis::duty;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -22,6 +23,8 @@ use super::track::Track;
 pub enum NoMotion {
     /// The mechanism cannot be placed somewhere.
     Machine(Error),
+    /// The duty of a motion is not known.
+    Duty(Box<duty::Fault>),
     /// Start and end are one, or not numbers.
     NoWay,
     /// The motor's peak torque is not known; its unit is N of a motor that slides.
@@ -200,6 +203,15 @@ pub struct Empty {
 impl From<Error> for NoMotion {
     fn from(error: Error) -> Self {
         Self::Machine(error)
+    }
+}
+
+impl From<duty::Fault> for NoMotion {
+    fn from(fault: duty::Fault) -> Self {
+        match fault {
+            duty::Fault::Machine(error) => Self::Machine(error),
+            fault => Self::Duty(Box::new(fault)),
+        }
     }
 }
 

@@ -8,8 +8,7 @@
 //! With such a cap the motion is the fastest one within constant limits; for the cubic mean or the mean speed another one may be faster, which uses torque and
 //! speed unevenly over the way.
 
-use jred::Error;
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Fault, Sampling};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Motion;
 use jred_machine::model::rule::Rule;
@@ -124,21 +123,21 @@ pub struct Judge<'a> {
     file: &'a MachineFile,
     drive: Drive<'a>,
     prepared: Prepared,
-    steps: usize,
+    sampling: Sampling,
 }
 
 impl<'a> Judge<'a> {
-    /// Of a drive in a machine; its duty is taken in so many time steps.
-    pub fn new(file: &'a MachineFile, drive: Drive<'a>, steps: usize) -> Self {
+    /// Of a drive in a machine; its duty is sampled like this.
+    pub fn new(file: &'a MachineFile, drive: Drive<'a>, sampling: Sampling) -> Self {
         Self {
             file,
             drive,
             prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
-            steps,
+            sampling,
         }
     }
 
-    fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, Error> {
+    fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, Fault> {
         // As a profile that is read back.
         let cyclic = self.file.motion.as_ref().is_none_or(|own| own.cyclic);
         let motion = Motion::nodes(trace.nodes(), cyclic);
@@ -146,7 +145,7 @@ impl<'a> Judge<'a> {
             motion: Some(motion.clone()),
             ..self.file.clone()
         };
-        let duty = Duty::new(&file, &motion, self.steps)?;
+        let duty = Duty::new(&file, &motion, self.sampling)?;
         let cycle = jred_sizing::cycle::Cycle::new(&duty);
         let context = Context::new(&cycle, &file.site, self.drive, &self.prepared);
         Ok(of(&context))
@@ -155,16 +154,16 @@ impl<'a> Judge<'a> {
     /// The findings of all rules in a motion.
     ///
     /// # Errors
-    /// The mechanism cannot be placed somewhere.
-    pub fn findings(&self, trace: &Trace) -> Result<Findings, Error> {
+    /// Those of the duty.
+    pub fn findings(&self, trace: &Trace) -> Result<Findings, Fault> {
         self.with(trace, |context| context.findings(&self.file.rules))
     }
 
     /// The same under the rules, with words.
     ///
     /// # Errors
-    /// The mechanism cannot be placed somewhere.
-    pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, Error> {
+    /// Those of the duty.
+    pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, Fault> {
         self.with(trace, |context| context.checks(&self.file.rules))
     }
 

@@ -144,7 +144,7 @@ impl Winding {
     /// What is missing.
     pub fn known(&self) -> Result<(), Unknown> {
         let model = self.model(1.0)?;
-        let course = Course::new(Vec::new(), 1.0);
+        let course = Course::new(&[], 1.0);
         self.heating(&model, &course, 0.0)?;
         self.unit(&model).map(|_| ())
     }
@@ -177,7 +177,7 @@ impl Winding {
                 points.push(model.point(&self.motor, &self.prepared, t, [torque, speed]));
             }
         }
-        Ok(Course::new(points, trace.duration()))
+        Ok(Course::new(&points, trace.duration()))
     }
 
     /// The hottest rises of losses; at rest beside the cycle the motor gives `held` (N·m).

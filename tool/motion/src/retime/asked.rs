@@ -2,7 +2,7 @@
 
 use jred::Error;
 use jred::machine::motion::{End, Law, Polynomial};
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{self, Duty};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Phase, Segment};
 use jred_machine::number::quadrature::GAUSS_3;
@@ -162,8 +162,8 @@ impl<'a> Asked<'a> {
         motion.map_err(|(_, error)| error.into())
     }
 
-    pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, Error> {
-        let cycle = Cycle::new(&Duty::new(self.file, motion, self.request.steps)?);
+    pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, duty::Fault> {
+        let cycle = Cycle::new(&Duty::new(self.file, motion, self.request.sampling)?);
         Ok(self.request.figures(&cycle))
     }
 
@@ -205,7 +205,7 @@ impl<'a> Asked<'a> {
     }
 
     /// The laws; of a rotation without rest the classical motions. Between speeds there is no law: there it is the polynomial of fifth degree.
-    pub(super) fn beside(&self) -> Result<Vec<Row>, Error> {
+    pub(super) fn beside(&self) -> Result<Vec<Row>, duty::Fault> {
         if self.endless {
             return self.classical();
         }
@@ -231,7 +231,7 @@ impl<'a> Asked<'a> {
     }
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
-    fn classical(&self) -> Result<Vec<Row>, Error> {
+    fn classical(&self) -> Result<Vec<Row>, duty::Fault> {
         let mut rows = Vec::new();
         for name in ["constant speed", EVEN_ENERGY] {
             let mut phases = Vec::new();

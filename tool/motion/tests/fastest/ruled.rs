@@ -62,7 +62,7 @@ fn made(
         ..Limits::default()
     };
     let limits = limits.with_reserve(Reserve::of(&file.rules));
-    let judge = Judge::new(file, drive, STEPS);
+    let judge = Judge::new(file, drive, STEPS.into());
     let make = |limits: &Limits, rms: Option<Rms>| {
         let made = if chain.endless {
             let step = chain.parts.iter().find_map(Part::step).unwrap().0;

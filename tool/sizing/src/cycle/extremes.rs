@@ -14,7 +14,7 @@ use super::tree::{Direction, Node, Tree};
 use super::{Peak, Sample};
 use crate::cycle::form::{Coefficients, LOADS};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::Smooth;
+use jred_machine::analysis::duty::{Panel, Smooth};
 
 /// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -156,26 +156,35 @@ impl Stretches<'_> {
             let sample = &self.samples[k];
             (c.torque(&sample.loads()), sample.speed() * ratio)
         };
-        let score = |k: usize| {
-            let (torque, speed) = at(k);
-            used(torque, speed)
-        };
-        let time = |k: usize| self.samples[k].t;
-        let peak = self.smooth.peak(k, self.samples.len(), time, score)?;
+        let panel = self.panel(k).filter(|_| self.smooth.knows_peaks())?;
         let kind = |k: usize| {
             let [_, driving, back, _, sign] = self.samples[k].loads();
             [driving, back, sign].map(|x| x != 0.0)
         };
-        let [a, b, d] = peak.around;
-        let same_kind = kind(a) == kind(b) && kind(b) == kind(d);
-        let torque = peak.other(peak.around.map(|k| at(k).0));
-        let speed = peak.other(peak.around.map(|k| at(k).1));
-        let found = Peak {
-            used: used(torque, speed),
-            torque,
-            speed,
+        let (first, rest) = panel.indices().split_first()?;
+        if rest.iter().any(|k| kind(*k) != kind(*first)) {
+            return None;
+        }
+        let score = |k: usize| {
+            let (torque, speed) = at(k);
+            used(torque, speed)
         };
-        (same_kind && found.used > score(k)).then_some(found)
+        let torques = panel.values(|k| at(k).0);
+        let speeds = panel.values(|k| at(k).1);
+        let time = |k: usize| self.samples[k].t;
+        let value = |x: f64| used(torques.at(x), speeds.at(x));
+        let (x, used) = panel.peak(k, time, score, value)?;
+        Some(Peak {
+            used,
+            torque: torques.at(x),
+            speed: speeds.at(x),
+        })
+    }
+
+    /// The panel of the sample `k`.
+    pub(super) fn panel(self, k: usize) -> Option<Panel> {
+        let range = self.smooth.panel_of(k, self.samples.len())?;
+        Panel::of(range, |k| [self.samples[k].t, self.samples[k].weight])
     }
 
     pub(super) fn slack(self, c: &Coefficients) -> f64 {

@@ -1,32 +1,42 @@
 //! Signs of the power over a cycle: energy put in and taken back, by stretches of the [tree](super::tree).
 
+use std::convert::Infallible;
+
 use super::Sample;
 use super::extremes::Stretches;
 use super::tree::Direction;
 use crate::cycle::form::{Coefficients, LOADS};
-use jred_machine::number::parabola::Parabola;
+use jred_machine::number::numerics;
+
+/// Work put in and taken back (J), in the order of time.
+#[derive(Default)]
+struct Work {
+    sums: [f64; 2],
+    /// The first sample of the last panel in which the power changes its sign.
+    mended: Option<usize>,
+}
 
 impl Stretches<'_> {
     /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its
-    /// sign over a stretch its work is a linear form; samples are looked at only around its zeros. There Simpson's rule does not
-    /// hold for either part: those of the parabola through its three samples are taken.
+    /// sign over a stretch its work is a linear form; samples are looked at only around its zeros. In a panel with a zero the rule does not hold for
+    /// either part: those of the polynomial through its samples are taken.
     pub(super) fn energies(self, c: &Coefficients, ratio: f64) -> [f64; 2] {
-        let mut sums = [0.0; 2];
+        let mut work = Work::default();
         if !self.tree.nodes.is_empty() {
-            self.add_energy(c, self.slack(c), 0, &mut sums);
+            self.add_energy(c, self.slack(c), 0, &mut work);
         }
-        sums.map(|sum| sum * ratio)
+        work.sums.map(|sum| sum * ratio)
     }
 
-    fn add_energy(self, c: &Coefficients, slack: f64, index: usize, sums: &mut [f64; 2]) {
+    fn add_energy(self, c: &Coefficients, slack: f64, index: usize, work: &mut Work) {
         let node = &self.tree.nodes[index];
         if node.speed[1] == 0.0 {
             return;
         }
-        let mut add = |work: f64| {
-            let [motoring, regenerative] = sums;
-            *motoring += work.max(0.0);
-            *regenerative += (-work).max(0.0);
+        let mut add = |energy: f64| {
+            let [motoring, regenerative] = &mut work.sums;
+            *motoring += energy.max(0.0);
+            *regenerative += (-energy).max(0.0);
         };
         let ends = self.ends(node, c);
         let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
@@ -36,68 +46,68 @@ impl Stretches<'_> {
             add(c.torque(&node.energy));
         } else if node.second == 0 {
             for sample in &self.samples[node.first as usize..=node.last as usize] {
-                add(sample.weight * sample.speed() * c.torque(&sample.loads()));
+                add(sample.weight * sample.power(c));
             }
             for k in node.first..node.last {
-                self.mend(c, k as usize, sums);
+                self.mend(c, k as usize, work);
             }
         } else {
-            self.add_energy(c, slack, index + 1, sums);
-            self.mend(c, self.tree.nodes[index + 1].last as usize, sums);
-            self.add_energy(c, slack, node.second as usize, sums);
+            self.add_energy(c, slack, index + 1, work);
+            self.mend(c, self.tree.nodes[index + 1].last as usize, work);
+            self.add_energy(c, slack, node.second as usize, work);
         }
     }
 
-    /// Where the power changes its sign between the sample `k` and the next: adds to both parts what they differ by from what
-    /// Simpson's rule makes of them.
-    fn mend(self, c: &Coefficients, k: usize, sums: &mut [f64; 2]) {
-        let power = |k: usize| {
-            let sample = &self.samples[k];
-            sample.speed() * c.torque(&sample.loads())
-        };
-        let sign = |k: usize| power(k).partial_cmp(&0.0);
-        let changes = |k: usize| sign(k) != sign(k + 1);
-        if !changes(k) {
+    /// Where the power changes its sign between the sample `k` and the next: adds to both parts what they differ by from what the rule of the panel
+    /// makes of them.
+    fn mend(self, c: &Coefficients, k: usize, work: &mut Work) {
+        let power = |k: usize| self.samples[k].power(c);
+        let [before, after] = [power(k), power(k + 1)];
+        // Zero itself may be a sample.
+        if (before > 0.0) == (after > 0.0) {
             return;
         }
-        let Some([a, b, d]) = self.simpson(k) else {
+        let count = self.samples.len();
+        // Between a panel's left border, which is the last sample of the one before, and its first sample too.
+        let Some(range) = self.smooth.panel_of(k + 1, count) else {
             return;
         };
-        // Once for three samples.
-        if (a..k).any(changes) {
+        // Once for a panel.
+        if work.mended.replace(range.start) == Some(range.start) {
             return;
         }
-        let three = [a, b, d];
-        let times = three.map(|k| self.samples[k].t);
-        let powers = three.map(power);
-        let parabola = Parabola::through(times, powers);
-        let [from, _, to] = times;
-        let zeros: Vec<f64> = parabola.zeros(from, to).collect();
-        let ends: Vec<f64> = [from].into_iter().chain(zeros).chain([to]).collect();
-        let parts = ends.windows(2).map(|w| parabola.integral(w[0], w[1]));
-        let exact = parts.fold([0.0; 2], |[plus, minus], part| {
+        let Some(panel) = self.panel(k + 1) else {
+            return;
+        };
+        let over = panel.values(power);
+        let mut places = vec![-1.0];
+        places.extend(range.map(|k| panel.place(self.samples[k].t)));
+        places.push(1.0);
+        let mut ends = vec![-1.0];
+        for pair in places.windows(2) {
+            let powers = [over.at(pair[0]), over.at(pair[1])];
+            if powers[1] == 0.0 {
+                ends.push(pair[1]);
+            } else if powers[0] * powers[1] < 0.0 {
+                let at = |x: f64| Ok::<f64, Infallible>(over.at(x));
+                let Ok(zero) = numerics::zero(at, [pair[0], pair[1]], powers, f64::EPSILON);
+                ends.push(zero);
+            }
+        }
+        ends.push(1.0);
+        let mut exact = [0.0; 2];
+        for pair in ends.windows(2) {
+            let part = panel.half() * panel.rule().over([pair[0], pair[1]], |x| over.at(x));
+            exact[0] += part.max(0.0);
+            exact[1] += (-part).max(0.0);
+        }
+        let weighed = panel.indices().iter();
+        let weighed = weighed.map(|k| self.samples[*k].weight * power(*k));
+        let ruled = weighed.fold([0.0; 2], |[plus, minus], part| {
             [plus + part.max(0.0), minus + (-part).max(0.0)]
         });
-        let weight = (to - from) / 6.0;
-        for (sum, (sign, exact)) in sums.iter_mut().zip([1.0, -1.0].into_iter().zip(exact)) {
-            let [a, b, d] = powers.map(|power| (sign * power).max(0.0));
-            *sum += exact - weight * (a + 4.0 * b + d);
-        }
-    }
-
-    /// The three samples of Simpson's rule that the step from the sample `k` to the next belongs to. Samples between them, which
-    /// have no weight, only resolve a peak.
-    fn simpson(self, k: usize) -> Option<[usize; 3]> {
-        let stretch = self.smooth.stretch(k, self.samples.len())?;
-        let weighs = |k: &usize| self.samples[*k].weight > 0.0;
-        let before = |k: usize| (stretch.start..k).rev().find(weighs);
-        let after = |k: usize| (k..stretch.end).find(weighs);
-        let (left, right) = (before(k + 1)?, after(k + 1)?);
-        // The middle of the three has four times the weight of an end, or twice that of one that two threes share.
-        if self.samples[left].weight > self.samples[right].weight {
-            Some([before(left)?, left, right])
-        } else {
-            Some([left, right, after(right + 1)?])
+        for ((sum, exact), ruled) in work.sums.iter_mut().zip(exact).zip(ruled) {
+            *sum += exact - ruled;
         }
     }
 

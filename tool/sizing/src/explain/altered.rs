@@ -119,7 +119,10 @@ impl<'a> Altered<'a> {
     /// needs no time course violates it over all instants.
     pub fn outline(&self, by: Alteration) -> Option<Duty> {
         let some = self.outline.as_ref()?;
-        Some(self.of(some.iter().copied(), by))
+        Some(Duty {
+            smooth: self.duty.smooth.among(some),
+            ..self.of(some.iter().copied(), by)
+        })
     }
 
     /// The altered duty at some of its instants.
@@ -147,7 +150,6 @@ impl<'a> Altered<'a> {
             hold_torque,
             duration,
             instants,
-            // Of some instants only, nothing is known between them.
             smooth: Smooth::default(),
         }
     }

@@ -18,8 +18,90 @@ pub struct Point {
 /// The losses over one cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    points: Vec<Point>,
+    pieces: Vec<Piece>,
     duration: f64,
+}
+
+/// The losses over a piece of the cycle: parabolas c₀ + c₁·x + c₂·x² over the time as a share of the piece, −½ ≤ x ≤ ½.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Its length (s).
+    pub time: f64,
+    /// Copper loss (W) with the winding at the temperature of the surroundings.
+    pub copper: [f64; 3],
+    /// Other losses (W).
+    pub other: [f64; 3],
+}
+
+impl Piece {
+    /// From these moments ∫xᵏ·P dx of the copper loss and of the others, k = 0, 1, 2: mean, slope and bend are those of the losses.
+    pub fn of_moments(time: f64, copper: [f64; 3], other: [f64; 3]) -> Self {
+        let parabola = |[mean, first, second]: [f64; 3]| {
+            let bend = 180.0 * (second - mean / 12.0);
+            [mean - bend / 12.0, 12.0 * first, bend]
+        };
+        Self {
+            time,
+            copper: parabola(copper),
+            other: parabola(other),
+        }
+    }
+
+    /// From one point to another.
+    fn straight(a: Point, b: Point) -> Self {
+        let [middle, step] = [0.5 * (a.root + b.root), b.root - a.root];
+        Self {
+            time: b.t - a.t,
+            copper: [middle * middle, 2.0 * middle * step, step * step],
+            other: [0.5 * (a.other + b.other), b.other - a.other, 0.0],
+        }
+    }
+
+    /// What lies between two shares of its time, from 0 to 1.
+    fn between(&self, from: f64, to: f64) -> Self {
+        let (middle, length) = (from.midpoint(to) - 0.5, to - from);
+        let part = |[a, b, c]: [f64; 3]| {
+            [
+                a + middle * (b + middle * c),
+                length * (b + 2.0 * middle * c),
+                length * length * c,
+            ]
+        };
+        Self {
+            time: length * self.time,
+            copper: part(self.copper),
+            other: part(self.other),
+        }
+    }
+
+    fn mean(&self) -> Losses {
+        let mean = |[a, _, c]: [f64; 3]| a + c / 12.0;
+        Losses {
+            copper: mean(self.copper),
+            other: mean(self.other),
+        }
+    }
+
+    fn varies(&self) -> bool {
+        let varies = |[a, b, c]: [f64; 3]| b.abs().max(c.abs()) > 1e-9 * a.abs();
+        varies(self.copper) || varies(self.other)
+    }
+
+    /// Change of the rises by the piece: constant losses over one half and over the other, of which the means differ by two thirds of the slope. With
+    /// losses that vary that is of fourth order in the time (E. Celledoni, A. Marthinsen, B. Owren, Commutator-free Lie group methods, Future Generation
+    /// Computer Systems 19 (2003) 341).
+    fn change(&self, network: &Network) -> Change {
+        let mean = self.mean();
+        if !self.varies() {
+            return network.change(mean, self.time);
+        }
+        let half = |sign: f64| Losses {
+            copper: mean.copper + sign / 3.0 * self.copper[1],
+            other: mean.other + sign / 3.0 * self.other[1],
+        };
+        let [first, second] = [-1.0, 1.0].map(|sign| network.change(half(sign), 0.5 * self.time));
+        first.then(&second)
+    }
 }
 
 /// The hottest rises above the surroundings (K).
@@ -31,31 +113,51 @@ pub enum Hottest {
     Runaway,
 }
 
-/// Longest part of a stretch of changing losses, as a share of the network's fastest time constant: what is missed by taking
-/// the losses as constant over a part falls with its square.
-const PART: f64 = 0.02;
+/// Longest part of a piece of changing losses, as a share of the network's fastest time constant: what is missed falls with its fourth power.
+pub(super) const PART: f64 = 0.02;
 
-/// The most parts of one stretch between two instants.
-const MOST_PARTS: f64 = 4096.0;
+/// The most parts of one piece, or of one panel of the integrals.
+pub(super) const MOST_PARTS: f64 = 4096.0;
 
 /// Times the slowest time constant after which nothing is left of a rise.
 const COLD: f64 = 50.0;
 
 impl Course {
-    /// Losses at the instants of a cycle of `duration` (s), in order of time.
-    pub const fn new(points: Vec<Point>, duration: f64) -> Self {
-        Self { points, duration }
+    /// Losses at the instants of a cycle of `duration` (s), in order of time. The cycle closes from the last instant to its end with the last
+    /// instant's losses, and begins with the first one's.
+    pub fn new(points: &[Point], duration: f64) -> Self {
+        let mut pieces = Vec::with_capacity(points.len() + 1);
+        if let Some((first, last)) = points.first().zip(points.last()) {
+            let end = Point {
+                t: duration,
+                ..*last
+            };
+            let mut before = Point { t: 0.0, ..*first };
+            for point in points.iter().chain([&end]) {
+                if point.t > before.t {
+                    pieces.push(Piece::straight(before, *point));
+                }
+                before = *point;
+            }
+        }
+        Self::of_pieces(pieces, duration)
+    }
+
+    /// Of pieces one after the other.
+    pub const fn of_pieces(pieces: Vec<Piece>, duration: f64) -> Self {
+        Self { pieces, duration }
     }
 
     /// The same with all torques in a proportion; other losses stay.
     #[must_use]
     pub fn scaled(&self, proportion: f64) -> Self {
-        let point = |point: &Point| Point {
-            root: proportion * point.root,
-            ..*point
+        let square = proportion * proportion;
+        let piece = |piece: &Piece| Piece {
+            copper: piece.copper.map(|c| square * c),
+            ..*piece
         };
         Self {
-            points: self.points.iter().map(point).collect(),
+            pieces: self.pieces.iter().map(piece).collect(),
             duration: self.duration,
         }
     }
@@ -63,9 +165,10 @@ impl Course {
     /// Mean losses.
     pub fn mean(&self) -> Losses {
         let mut sum = Losses::default();
-        self.pieces(self.duration, |losses, time| {
-            sum.copper += losses.copper * time;
-            sum.other += losses.other * time;
+        self.up_to(self.duration, |piece| {
+            let mean = piece.mean();
+            sum.copper += mean.copper * piece.time;
+            sum.other += mean.other * piece.time;
         });
         Losses {
             copper: sum.copper / self.duration,
@@ -73,67 +176,41 @@ impl Course {
         }
     }
 
-    /// The straight pieces of the cycle up to `until` (s): the points at their ends. The cycle closes from the last instant
-    /// to its end with the last instant's losses, and begins with the first one's.
-    fn stretches(&self, until: f64, mut take: impl FnMut(Point, Point)) {
-        let Some((first, last)) = self.points.first().zip(self.points.last()) else {
-            return;
-        };
-        let start = Point { t: 0.0, ..*first };
-        let end = Point {
-            t: self.duration,
-            ..*last
-        };
-        let ends = self.points.iter().chain(std::iter::once(&end));
-        let mut before = start;
-        for point in ends {
-            if point.t <= before.t {
-                before = *point;
-                continue;
-            }
-            if point.t >= until {
-                let part = (until - before.t) / (point.t - before.t);
-                if part > 0.0 {
-                    take(
-                        before,
-                        Point {
-                            t: until,
-                            root: before.root + part * (point.root - before.root),
-                            other: before.other + part * (point.other - before.other),
-                        },
-                    );
+    /// The pieces of the cycle up to `until` (s).
+    fn up_to(&self, until: f64, mut take: impl FnMut(Piece)) {
+        let mut t = 0.0;
+        let last = self.pieces.len().saturating_sub(1);
+        for (k, piece) in self.pieces.iter().enumerate() {
+            let next = t + piece.time;
+            // The sum of all is the cycle, but for roundings.
+            if next > until && !(k == last && until >= self.duration) {
+                let share = (until - t) / piece.time;
+                if share > 0.0 {
+                    take(piece.between(0.0, share));
                 }
                 return;
             }
-            take(before, *point);
-            before = *point;
+            take(*piece);
+            t = next;
         }
     }
 
-    /// The same with the mean losses of each piece and its length (s).
-    fn pieces(&self, until: f64, mut take: impl FnMut(Losses, f64)) {
-        self.stretches(until, |a, b| take(between(a, b), b.t - a.t));
-    }
-
-    /// Pieces so short that their losses can be taken as constant.
-    fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(Losses, f64)) {
+    /// Parts so short that the method holds.
+    fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(Piece)) {
         let longest = PART * network.fastest();
-        self.stretches(until, |a, b| {
-            let time = b.t - a.t;
-            let changes = differ(a.root.abs(), b.root.abs()) || differ(a.other, b.other);
-            let parts = if changes {
-                (time / longest).ceil().clamp(1.0, MOST_PARTS)
+        self.up_to(until, |piece| {
+            let parts = if piece.varies() {
+                (piece.time / longest).ceil().clamp(1.0, MOST_PARTS)
             } else {
                 1.0
             };
-            let at = |k: f64| Point {
-                t: a.t + time * k / parts,
-                root: a.root + (b.root - a.root) * k / parts,
-                other: a.other + (b.other - a.other) * k / parts,
-            };
+            if parts <= 1.0 {
+                take(piece);
+                return;
+            }
             let mut k = 0.0;
             while k < parts {
-                take(between(at(k), at(k + 1.0)), time / parts);
+                take(piece.between(k / parts, (k + 1.0) / parts));
                 k += 1.0;
             }
         });
@@ -142,8 +219,8 @@ impl Course {
     /// Change of the rises by the cycle up to `until` (s).
     pub fn change(&self, network: &Network, until: f64) -> Change {
         let mut change = Change::default();
-        self.parts(network, until, |losses, time| {
-            change = change.then(&network.change(losses, time));
+        self.parts(network, until, |piece| {
+            change = change.then(&piece.change(network))
         });
         change
     }
@@ -151,9 +228,9 @@ impl Course {
     /// The hottest rises of the cycle up to `until` (s), from these on, and those at its end.
     pub fn follow(&self, network: &Network, from: Rise, until: f64) -> (Rise, Rise) {
         let (mut now, mut hottest) = (from, from);
-        self.parts(network, until, |losses, time| {
-            let next = network.change(losses, time).of(now);
-            let there = network.hottest(losses, time, now, next);
+        self.parts(network, until, |piece| {
+            let next = piece.change(network).of(now);
+            let there = network.hottest(piece.mean(), piece.time, now, next);
             hottest = most(hottest, there);
             now = next;
         });
@@ -165,9 +242,9 @@ impl Course {
         let mut now = self.change(network, self.duration).periodic()?;
         let mut t = 0.0;
         let mut course = vec![(t, now)];
-        self.parts(network, self.duration, |losses, time| {
-            now = network.change(losses, time).of(now);
-            t += time;
+        self.parts(network, self.duration, |piece| {
+            now = piece.change(network).of(now);
+            t += piece.time;
             course.push((t, now));
         });
         Some(course)
@@ -244,16 +321,4 @@ fn after(network: &Network, rest: Losses, pause: f64, end: Rise, hottest: Rise) 
 
 fn most(a: Rise, b: Rise) -> Rise {
     [a[0].max(b[0]), a[1].max(b[1])]
-}
-
-/// The mean losses between two points.
-fn between(a: Point, b: Point) -> Losses {
-    Losses {
-        copper: (a.root * a.root + a.root * b.root + b.root * b.root) / 3.0,
-        other: 0.5 * (a.other + b.other),
-    }
-}
-
-fn differ(a: f64, b: f64) -> bool {
-    (a - b).abs() > 1e-9 * a.abs().max(b.abs())
 }

@@ -1,6 +1,6 @@
 //! Mean losses over a cycle, for motors without time constants.
 //!
-//! The mean is the sum over the instants with their weights in the integral over the cycle, as that of the RMS torque is: where
+//! The mean is the integral over the cycle, as that of the RMS torque is, also where it bends within a panel of the integral: where
 //! the S1 torque loses nothing to speed the relative model's mean is (T_rms/M₀)² to the last digits. Parts:
 //!
 //! - copper, and its share of the rated loss, from the RMS of torque or current ([`Cycle::rms_torque`], [`rms_current`]);
@@ -10,7 +10,7 @@
 use super::network::Losses;
 use super::{Load, Model};
 use crate::cycle::Cycle;
-use crate::cycle::form::Coefficients;
+use crate::cycle::form::{Coefficients, LOADS};
 use crate::cycle::speeds::Form;
 use crate::motor::envelope::{Envelope, Prepared, Segment};
 
@@ -56,26 +56,26 @@ pub fn rms_current(
     prepared: &Prepared,
 ) -> Option<f64> {
     let curve = prepared.torques?;
+    let bent = cycle.bent(coefficients, ratio);
+    let straight = cycle.rms_torque(coefficients) / curve.torque_constant();
+    let whole = straight * straight * cycle.duration();
     if prepared.circuit.as_ref().is_some_and(|c| c.weakens) {
-        // An instant without weight adds nothing, even where no current gives its torque.
-        let weighed = cycle.samples().iter().filter(|sample| sample.weight > 0.0);
-        let squares = weighed.map(|sample| {
-            let torque = coefficients.torque(&sample.loads());
-            let current = prepared.current(torque, sample.speed() * ratio);
-            sample.weight * current.unwrap_or(f64::NAN).powi(2)
+        let squares = bent.over_all(whole, |torque, speed| {
+            let current = prepared.current(torque, speed);
+            current.unwrap_or(f64::NAN).powi(2)
         });
-        return Some((squares.sum::<f64>() / cycle.duration()).sqrt());
+        return Some((squares / cycle.duration()).sqrt());
     }
-    let constant = curve.torque_constant();
-    let straight = cycle.rms_torque(coefficients) / constant;
     let mut more = 0.0;
     if curve.saturates() {
-        cycle.beyond(coefficients, curve.knee(), |sample, torque| {
-            if sample.weight == 0.0 {
-                return;
-            }
-            let (current, along) = (curve.current(torque), torque.abs() / constant);
-            more += sample.weight * (current - along) * (current + along);
+        let mut beyond = Vec::new();
+        cycle.beyond(coefficients, curve.knee(), |k| beyond.push(k));
+        more = bent.over(&beyond, whole, |torque, _| {
+            let (current, along) = (
+                curve.current(torque),
+                torque.abs() / curve.torque_constant(),
+            );
+            (current - along) * (current + along)
         });
     }
     Some((straight * straight + more / cycle.duration()).sqrt())
@@ -108,5 +108,11 @@ fn lost_to_speed(cycle: &Cycle, ratio: f64, envelope: &Envelope, standstill: f64
         let s1 = envelope.continuous_torque(speed * ratio) / standstill;
         (1.0 - s1 * s1).max(0.0)
     };
-    cycle.speeds().sum(on, at) / cycle.duration()
+    let sum = cycle.speeds().sum(on, at);
+    // Where the S1 torque bends within a panel.
+    let open = cycle.at_speeds(&|speeds| on(speeds).is_none());
+    let still = Coefficients([0.0; LOADS]);
+    let bent = cycle.bent(&still, 1.0);
+    let more = bent.more(&open, cycle.duration(), |_, speed| at(speed.abs()));
+    (sum + more) / cycle.duration()
 }

@@ -238,7 +238,7 @@ fn moves_between_two_weighted_instants_count() {
         ..Alteration::default()
     };
     let outline = altered.outline(by).unwrap();
-    assert!(2 * outline.instants.len() < duty.instants.len());
+    assert!(outline.instants.len() < duty.instants.len());
     let turns = outline.instants.windows(2);
     let turns = turns
         .filter(|two| two[0].omega * two[1].omega < 0.0)

@@ -6,7 +6,7 @@ use jred::machine::Mechanism as _;
 use jred::{Error, Reducible as _};
 
 use super::{OneWay, Parted};
-use crate::analysis::duty::{STEPS, smooth_stretches};
+use crate::analysis::duty::smooth_stretches;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
@@ -85,7 +85,7 @@ fn smallest(
 ) -> Result<(f64, f64), Error> {
     let mut best = (0.0, f64::INFINITY);
     let span = file.machine.domain().span();
-    for (from, to) in smooth_stretches(file, motion, STEPS) {
+    for (from, to) in smooth_stretches(file, motion) {
         let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
         let count = (samples * share).ceil().clamp(FEWEST, MOST);
         // Between stretches the acceleration may jump: a hair inside.

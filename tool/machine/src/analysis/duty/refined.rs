@@ -2,57 +2,49 @@
 
 use jred::Error;
 
-use super::{Instant, Moving, Smooth};
+use super::moving::Moving;
+use super::{Instant, Smooth};
 use crate::number::parabola;
 
+/// Share of the largest input torque by which the straight line between two instants may miss a peak.
+const MISSED: f64 = 1e-5;
+
 /// Most parts of a step where the torque bends sharply.
-pub(super) const MOST_PARTS: f64 = 64.0;
+const MOST_PARTS: f64 = 64.0;
 
-/// Most instants of a motion, unless it has more stretches and steps: those of two cycles fit into 500 MB.
-pub(super) const MOST_INSTANTS: f64 = 1e6;
+/// As long as there are no more instants than this, a step where the torque bends may have all its parts. Beyond, peaks between the instants are
+/// those of the polynomial through them.
+const MANY: f64 = 200_000.0;
 
-/// Inserts instants of zero weight where the input torque bends sharply, starting at index `first`. Between instants at a
-/// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it. A step is
-/// cut into at most so many parts.
-pub(super) fn refine_bends(
-    moving: &mut Moving,
-    first: usize,
-    (missed, most_parts): (f64, f64),
-    instants: &mut Vec<Instant>,
-) -> Result<(), Error> {
-    let stretch = instants.get(first..).unwrap_or_default();
-    let torques = stretch.iter().map(|i| i.input_torque.abs());
-    let most = missed * torques.fold(0.0, f64::max);
-    let mut fine = Vec::new();
-    let bend = |three: &[Instant]| {
+/// Most parts of a step of about so many.
+pub(super) fn most_parts(count: usize) -> f64 {
+    (MANY / count as f64).clamp(1.0, MOST_PARTS)
+}
+
+/// In how many parts each step between instants, their times and torques, is cut. Between instants at a distance h any peak stands out by at most
+/// T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32> {
+    let bend = |three: &[(f64, f64)]| {
         let [x, y, z] = three else {
             return 0.0;
         };
-        (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
+        let slope = |a: &(f64, f64), b: &(f64, f64)| (b.1 - a.1) / (b.0 - a.0);
+        let bend = 2.0 * ((slope(y, z) - slope(x, y)) / (z.0 - x.0)).abs();
+        // Two instants at one time bend nothing.
+        if bend.is_finite() { bend } else { 0.0 }
     };
-    // Of three instants only, the bend over them is that of both steps.
-    let least = usize::from(stretch.len() != 3);
-    for k in least..stretch.len().saturating_sub(1 + least) {
-        let [b, c] = [&stretch[k], &stretch[k + 1]];
-        let bends = stretch[k.saturating_sub(1)..].windows(3).take(2).map(bend);
-        let missed = bends.fold(0.0, f64::max) / 8.0;
-        // A stretch without torque misses nothing.
-        let parts = if missed > most {
-            (missed / most).sqrt().ceil().min(most_parts) as u32
+    let of_step = |k: usize| {
+        let bends = torques[k.saturating_sub(1)..].windows(3).take(2).map(bend);
+        let step = torques[k + 1].0 - torques[k].0;
+        let missed = bends.fold(0.0, f64::max) * step * step / 8.0;
+        // A motion without torque misses nothing.
+        if missed > MISSED * largest {
+            (missed / (MISSED * largest)).sqrt().ceil().min(most) as u32
         } else {
             1
-        };
-        for k in 1..parts {
-            let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
-            fine.push(Instant::new(moving, t, 0.0)?);
         }
-    }
-    instants.extend(fine);
-    if let Some(stretch) = instants.get_mut(first..) {
-        // Stable sorting takes half as much memory again.
-        stretch.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
-    }
-    Ok(())
+    };
+    (0..torques.len().saturating_sub(1)).map(of_step).collect()
 }
 
 /// Inserts instants of zero weight at the extremes of what no motor changes, each where it is between the instants.
@@ -78,11 +70,11 @@ pub(super) fn insert_extremes(
                 (count, |k| value(&instants[k])),
                 |k| smooth.around(k, count),
                 |k| instants[k].t,
-                |t| Ok::<_, Error>(value(&Instant::new(moving, t, 0.0)?)),
+                |t| Ok::<_, Error>(value(&moving.at(t)?.instant)),
                 most.unwrap_or(f64::INFINITY),
             )?;
             if let Some((_, t)) = found {
-                let peak = Instant::new(moving, t, 0.0)?;
+                let peak = moving.at(t)?.instant;
                 let place = instants.partition_point(|i| i.t < t);
                 smooth.insert(place);
                 instants.insert(place, peak);

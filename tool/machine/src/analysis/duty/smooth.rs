@@ -1,21 +1,25 @@
-//! Between the instants of a duty: a quantity over three neighbouring instants of one smooth stretch is nearly a parabola.
-//!
-//! The largest of the instants lies below the true peak by the second power of the step, the vertex of the parabola differs from
-//! it by the fourth.
+//! Between the instants of a duty: over a panel a quantity is the polynomial through its weighed instants.
 
 use std::ops::Range;
 
-use crate::number::parabola::Parabola;
+use crate::number::quadrature::kronrod::{MOST_PLACES, Rule};
 
-/// A bend that raises the vertex of the parabola over the largest instant by more than this share is no smooth peak (noise, a corner):
-/// the instant stands.
+/// The most by which a quantity between two instants may be larger than at them, as a share of it: a polynomial that rises higher is none of a
+/// smooth curve (noise, a corner), and the instant stands.
 pub const MOST_RAISED: f64 = 0.01;
 
-/// Where the smooth stretches of a duty begin. Without any, nothing is known between the instants.
+/// Steps of the search for a peak.
+const STEPS: u32 = 40;
+
+/// Where the smooth stretches of a duty begin, and the panels of the integrals. Without any, nothing is known between the instants.
 #[derive(Clone, Debug, Default)]
 pub struct Smooth {
     /// Index of the first instant of each stretch.
     firsts: Vec<u32>,
+    /// Index of the first instant of each panel.
+    panels: Vec<u32>,
+    /// Whether instants were left out: between those that are left nothing is known of a peak.
+    is_outline: bool,
 }
 
 impl Smooth {
@@ -24,19 +28,56 @@ impl Smooth {
         self.firsts.push(first as u32);
     }
 
+    /// A panel begins with the instant `first`; the first one of a stretch with that.
+    pub(super) fn panel(&mut self, first: usize) {
+        let stretch = self.firsts.last().copied().unwrap_or(0);
+        let begun = self.panels.last().is_some_and(|last| *last >= stretch);
+        let first = if begun { first as u32 } else { stretch };
+        self.panels.push(first);
+    }
+
     /// One instant more lies before the instant `k`, in the same stretch.
     pub(super) fn insert(&mut self, k: usize) {
-        for first in &mut self.firsts {
-            *first += u32::from(*first as usize >= k);
+        for firsts in [&mut self.firsts, &mut self.panels] {
+            for first in firsts {
+                *first += u32::from(*first as usize >= k);
+            }
         }
+    }
+
+    /// That of some of the instants, in order, among them all that have a weight.
+    #[must_use]
+    pub fn among(&self, kept: &[usize]) -> Self {
+        let place = |first: &u32| kept.partition_point(|k| *k < *first as usize) as u32;
+        Self {
+            firsts: self.firsts.iter().map(place).collect(),
+            panels: self.panels.iter().map(place).collect(),
+            is_outline: true,
+        }
+    }
+
+    /// Whether a peak may lie between the instants.
+    pub const fn knows_peaks(&self) -> bool {
+        !self.is_outline
     }
 
     /// The stretch of the instant `k` of `count`.
     pub fn stretch(&self, k: usize, count: usize) -> Option<Range<usize>> {
-        let next = self.firsts.partition_point(|&first| first as usize <= k);
-        let first = *self.firsts.get(next.checked_sub(1)?)?;
-        let end = self.firsts.get(next).map_or(count, |&end| end as usize);
-        Some(first as usize..end)
+        group(&self.firsts, k, count)
+    }
+
+    /// The instants of the panel of the instant `k` of `count`: those with weights are the places of a rule.
+    pub fn panel_of(&self, k: usize, count: usize) -> Option<Range<usize>> {
+        let panel = group(&self.panels, k, count)?;
+        let stretch = self.stretch(k, count)?;
+        let panel = panel.start.max(stretch.start)..panel.end.min(stretch.end);
+        (!panel.is_empty()).then_some(panel)
+    }
+
+    /// The instants of every panel of `count` instants, in order.
+    pub fn panels(&self, count: usize) -> impl Iterator<Item = Range<usize>> {
+        let firsts = self.panels.iter();
+        firsts.filter_map(move |&first| self.panel_of(first as usize, count))
     }
 
     /// The instant `k` and its neighbours in its stretch, in order; at an end of the stretch the two next to it.
@@ -49,48 +90,146 @@ impl Smooth {
         let first = k.saturating_sub(1).clamp(stretch.start, last);
         Some([first, first + 1, first + 2])
     }
+}
 
-    /// Where a quantity that is largest at the instant `k` of `count` is larger still: the parabolas of its neighbours, and the time
-    /// of the vertex. `time` and `value` are those of an instant.
+/// The group of the index `k` of `count`, of which the first ones are known.
+fn group(firsts: &[u32], k: usize, count: usize) -> Option<Range<usize>> {
+    let next = firsts.partition_point(|&first| first as usize <= k);
+    let first = *firsts.get(next.checked_sub(1)?)?;
+    let end = firsts.get(next).map_or(count, |&end| end as usize);
+    Some(first as usize..end)
+}
+
+/// A panel of the integrals, with what a quantity is at its weighed instants.
+#[derive(Clone, Copy, Debug)]
+pub struct Panel {
+    rule: &'static Rule,
+    indices: [usize; MOST_PLACES],
+    /// Times of its middle and half its length (s).
+    middle: f64,
+    half: f64,
+    /// Its instants.
+    first: usize,
+    end: usize,
+}
+
+impl Panel {
+    /// Of a range of instants, whose times and weights are asked for. `None`: they are none of a panel.
+    pub fn of(range: Range<usize>, at: impl Fn(usize) -> [f64; 2]) -> Option<Self> {
+        let mut indices = [0; MOST_PLACES];
+        let mut count = 0;
+        for k in range.clone() {
+            if at(k)[1] > 0.0 {
+                *indices.get_mut(count)? = k;
+                count += 1;
+            }
+        }
+        let rule = Rule::of_count(count)?;
+        let centre = count / 2;
+        let [middle, weight] = at(indices[centre]);
+        Some(Self {
+            rule,
+            indices,
+            middle,
+            half: weight / rule.weights()[centre],
+            first: range.start,
+            end: range.end,
+        })
+    }
+
+    /// The rule of its integrals.
+    pub const fn rule(&self) -> &'static Rule {
+        self.rule
+    }
+
+    /// Half its length (s).
+    pub const fn half(&self) -> f64 {
+        self.half
+    }
+
+    /// Its ends (s).
+    pub fn span(&self) -> [f64; 2] {
+        [self.middle - self.half, self.middle + self.half]
+    }
+
+    /// The weighed instants, in order.
+    pub fn indices(&self) -> &[usize] {
+        &self.indices[..self.rule.places().len()]
+    }
+
+    /// A quantity at the weighed instants.
+    pub fn values(&self, value: impl Fn(usize) -> f64) -> Values {
+        let mut values = [0.0; MOST_PLACES];
+        for (place, k) in values.iter_mut().zip(self.indices()) {
+            *place = value(*k);
+        }
+        Values {
+            rule: self.rule,
+            values,
+        }
+    }
+
+    /// Place on −1 to 1 of a time (s).
+    pub fn place(&self, t: f64) -> f64 {
+        ((t - self.middle) / self.half).clamp(-1.0, 1.0)
+    }
+
+    /// Where a quantity that is largest of all instants at the instant `k` of this panel is larger still: the place on −1 to 1 and its value there.
+    /// `known` is the quantity at an instant, `value` between the instants.
     pub fn peak(
         &self,
         k: usize,
-        count: usize,
         time: impl Fn(usize) -> f64,
-        value: impl Fn(usize) -> f64,
-    ) -> Option<Peak> {
-        let around = self.around(k, count)?;
-        let times = around.map(time);
-        let most = value(k);
-        let parabola = Parabola::through(times, around.map(value));
-        let at = parabola.vertex()?;
-        let value = parabola.at(at);
-        let inside = times[0] < at && at < times[2];
-        let raised = value > most && value - most <= MOST_RAISED * most.abs();
-        (inside && raised).then_some(Peak {
-            around,
-            times,
-            at,
-            value,
-        })
+        known: impl Fn(usize) -> f64,
+        value: impl Fn(f64) -> f64,
+    ) -> Option<(f64, f64)> {
+        const SECTION: f64 = 0.381_966_011_250_105_1;
+        let most = known(k);
+        let before = k.checked_sub(1).filter(|j| *j >= self.first);
+        let after = Some(k + 1).filter(|j| *j < self.end);
+        let neighbour = |j: Option<usize>, end: f64| j.map_or(end, |j| self.place(time(j)));
+        let (mut low, mut high) = (neighbour(before, -1.0), neighbour(after, 1.0));
+        if high <= low {
+            return None;
+        }
+        let at = |x: f64| (x, value(x));
+        let mut left = at(low + SECTION * (high - low));
+        let mut right = at(high - SECTION * (high - low));
+        for _ in 0..STEPS {
+            if left.1 > right.1 {
+                high = right.0;
+                right = left;
+                left = at(low + SECTION * (high - low));
+            } else {
+                low = left.0;
+                left = right;
+                right = at(high - SECTION * (high - low));
+            }
+            if (right.1 - left.1).abs() <= 1e-15 * right.1.abs() {
+                break;
+            }
+        }
+        let best = if left.1 > right.1 { left } else { right };
+        let raised = best.1 > most && best.1 - most <= MOST_RAISED * most.abs();
+        raised.then_some(best)
     }
 }
 
-/// A peak between instants.
+/// A quantity over a panel: the polynomial through its values at the weighed instants.
 #[derive(Clone, Copy, Debug)]
-pub struct Peak {
-    /// The three instants around it.
-    pub around: [usize; 3],
-    times: [f64; 3],
-    /// Its time (s).
-    pub at: f64,
-    /// The quantity there.
-    pub value: f64,
+pub struct Values {
+    rule: &'static Rule,
+    values: [f64; MOST_PLACES],
 }
 
-impl Peak {
-    /// Another quantity at the same time, from its values at the three instants.
-    pub fn other(&self, values: [f64; 3]) -> f64 {
-        Parabola::through(self.times, values).at(self.at)
+impl Values {
+    /// At the weighed instants.
+    pub fn known(&self) -> &[f64] {
+        &self.values[..self.rule.places().len()]
+    }
+
+    /// At a place on −1 to 1.
+    pub fn at(&self, x: f64) -> f64 {
+        self.rule.at(self.known(), x)
     }
 }

@@ -1,12 +1,13 @@
-//! The smooth stretches of a motion: cut where its law bends, where the drive link passes an edge of a load or a cam, and where a load
-//! begins or ends in time or with the direction of travel, or a payload is picked up or set down.
+//! The smooth stretches of a motion: cut where its law bends, where the drive link turns back or comes to rest, where it passes an edge of a load or
+//! a cam, and where a load begins or ends in time or with the direction of travel, or a payload is picked up or set down.
 
 use jred::{Domain, Reducible as _};
 
-use super::{INSIDE, Sampling};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
-use crate::model::schedule::Now;
+
+/// Cuts nearer to each other than this share of the time are one: rounding.
+const SHORTEST: f64 = 8.0 * f64::EPSILON;
 
 /// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
 fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
@@ -37,10 +38,10 @@ pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     passed.fold(0, u64::saturating_add)
 }
 
-/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns. `from` and
-/// `to` are times with their sides.
+/// Adds the times at which a number changes, by bisection, one of them for each value between those at both ends. `from` and `to` are times with
+/// their numbers.
 fn crossings(
-    side: &impl Fn(f64) -> i64,
+    number: &impl Fn(f64) -> i64,
     [from, to]: [(f64, i64); 2],
     least: f64,
     cuts: &mut Vec<f64>,
@@ -53,55 +54,51 @@ fn crossings(
         cuts.push(to.0);
         return;
     }
-    let middle = (middle, side(middle));
-    crossings(side, [from, middle], least, cuts);
-    crossings(side, [middle, to], least, cuts);
+    let middle = (middle, number(middle));
+    crossings(number, [from, middle], least, cuts);
+    crossings(number, [middle, to], least, cuts);
 }
 
-/// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
-/// its own instants, and where the machine changes by its schedule.
-pub(crate) fn smooth_stretches(
-    file: &MachineFile,
-    motion: &Motion,
-    steps: usize,
-) -> Vec<(f64, f64)> {
+/// The direction of the drive link.
+fn direction(motion: &Motion, t: f64) -> i64 {
+    let omega = motion.at(t).omega;
+    i64::from(omega > 0.0) - i64::from(omega < 0.0)
+}
+
+/// The stretches of the motion in which the drive link goes one way or rests, also cut where it passes an edge of a load's window, so that a
+/// short load has its own instants, and where the machine changes by its schedule.
+pub(crate) fn smooth_stretches(file: &MachineFile, motion: &Motion) -> Vec<(f64, f64)> {
     let edges = edges(file);
-    let least = 1e-13 * motion.duration();
+    let times = file.schedule.times();
     let mut stretches = Vec::new();
     for (from, to) in motion.stretches() {
-        if edges.is_empty() && file.schedule.is_empty() {
-            stretches.push((from, to));
-            continue;
+        let least = SHORTEST * to.abs();
+        // The end of a stretch may belong to the next.
+        let last = to.next_down().max(from);
+        let inside = |t: f64| t.min(last);
+        let mut cuts: Vec<f64> = times.clone();
+        let way = |t: f64| direction(motion, inside(t));
+        let places = motion.turning([from, to]);
+        let mut turns = Vec::new();
+        for pair in places.windows(2) {
+            let ends = [pair[0], pair[1]].map(|t| (t, way(t)));
+            crossings(&way, ends, least, &mut turns);
         }
-        let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
-        let mut cuts = file.schedule.times();
-        let machine_at = |t: f64| {
-            // At its end a stretch still belongs to itself.
-            let inside = t.clamp(from, (to - least).max(from));
-            file.schedule
-                .number(&Now::of(inside, motion.at(inside).omega)) as i64
-        };
-        let place = |k: usize| {
-            let t = from + (to - from) * k as f64 / n as f64;
-            (t, motion.at(t).phi)
-        };
-        let mut start = place(0);
-        for k in 1..=n {
-            let end = place(k);
+        let one_way: Vec<f64> = ([from].into_iter().chain(turns.iter().copied()))
+            .chain([to])
+            .collect();
+        for pair in one_way.windows(2) {
             for &edge in &edges {
-                let step = [start, end].map(|(t, phi)| (t, side(file, phi, edge)));
-                let at = |t: f64| side(file, motion.at(t).phi, edge);
-                crossings(&at, step, least, &mut cuts);
+                let at = |t: f64| side(file, motion.at(inside(t)).phi, edge);
+                let ends = [pair[0], pair[1]].map(|t| (t, at(t)));
+                crossings(&at, ends, least, &mut cuts);
             }
-            let step = [start.0, end.0].map(|t| (t, machine_at(t)));
-            crossings(&machine_at, step, least, &mut cuts);
-            start = end;
         }
+        cuts.extend(turns);
         cuts.sort_by(f64::total_cmp);
-        let shortest = 1e-9 * motion.duration();
         let mut start = from;
         for cut in cuts {
-            if cut - start > shortest && to - cut > shortest {
+            if cut - start > least && to - cut > least {
                 stretches.push((start, cut));
                 start = cut;
             }
@@ -109,48 +106,4 @@ pub(crate) fn smooth_stretches(
         stretches.push((start, to));
     }
     stretches
-}
-
-/// Fewest steps of a smooth stretch; of a part of one, which is short, two.
-const FEWEST: f64 = 16.0;
-
-/// Share of what a peak of the torque may be missed by, by which the acceleration of a part may differ from a parabola.
-const OF_MISSED: f64 = 0.1;
-
-/// Most of a part's share by which its ends are taken from inside.
-const MOST_INSIDE: f64 = 1e-3;
-
-/// A part of the motion with equal steps.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
-    /// Its ends (s).
-    pub(super) from: f64,
-    pub(super) to: f64,
-    /// An even number.
-    pub(super) steps: usize,
-    /// Share of it by which its ends are taken from inside: that of its stretch, as in less time there is no speed but a rounding.
-    pub(super) inside: f64,
-}
-
-/// The parts of the motion, one after another: its smooth stretches, and those of a profile of states cut at the rows where its acceleration
-/// bends. A parabola through three instants around a corner is higher than the corner, by more the longer the steps.
-pub(super) fn parts(file: &MachineFile, motion: &Motion, sampling: Sampling) -> Vec<Part> {
-    let Sampling { steps, missed } = sampling;
-    let stretches = smooth_stretches(file, motion, steps);
-    let cuts = motion.cut_at_bends(&stretches, OF_MISSED * missed);
-    let mut parts = Vec::with_capacity(stretches.len());
-    for ((from, to), cuts) in stretches.into_iter().zip(cuts) {
-        let pairs = (steps as f64 * (to - from) / motion.duration() / 2.0).max(FEWEST / 2.0);
-        for ends in cuts.windows(2) {
-            let share = (ends[1] - ends[0]) / (to - from);
-            let pairs = (pairs * share).ceil().max(1.0);
-            parts.push(Part {
-                from: ends[0],
-                to: ends[1],
-                steps: 2 * pairs as usize,
-                inside: (INSIDE / share).min(MOST_INSIDE),
-            });
-        }
-    }
-    parts
 }

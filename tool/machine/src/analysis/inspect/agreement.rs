@@ -8,21 +8,28 @@ use jred::{Error, Machine, Reducible as _};
 use serde::Serialize;
 
 use crate::analysis::duty;
+use crate::analysis::reduce::between_edges;
 use crate::model::carriage::Carriage;
 use crate::model::coordinate::whole_range;
 use crate::model::machine::{MachineFile, Machines};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
-use crate::number::numerics;
+use crate::number::{numerics, parabola};
 
 /// Positions or instants that are compared.
 const STEPS: usize = 360;
 
+/// Fewest steps of a part.
+const FEWEST: usize = 16;
+
+/// Tolerance of a mean, as a share of the largest value.
+const OF_MEAN: f64 = 1e-10;
+
 /// Parts of the motion that its work is integrated over, each halved where it must be.
 const PANELS: u32 = 96;
 
-/// Parts of a motion of states, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
+/// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
 const ROW_PANELS: usize = 8192;
 
 /// Tolerance of the work, as a share of the energy that the drive moves.
@@ -62,11 +69,14 @@ pub(super) fn inertia(
     machine: &Machine<AnyMechanism>,
     machines: &Machines,
 ) -> Result<Inertia, Error> {
-    let over_range = whole_range(machine.domain(), STEPS)
-        .map(|phi| Ok(machine.bare_reduction(phi)?.inertia))
-        .collect::<Result<Vec<f64>, Error>>()?;
+    let domain = machine.domain();
+    let over_range = |phi: f64| Ok(machine.bare_reduction(phi)?.inertia);
+    let parts: Vec<(Span, usize)> = between_edges(file)
+        .into_iter()
+        .map(|(from, to)| ([from, to], steps_of((to - from) / domain.span())))
+        .collect();
     Ok(Inertia {
-        reduced: extremes(&over_range),
+        reduced: extremes(&parts, &over_range)?,
         laden: laden_inertia(file, machines)?,
         flywheel: machine.flywheel(),
         mass: machine
@@ -78,19 +88,64 @@ pub(super) fn inertia(
     })
 }
 
-/// Least, mean and largest of values at equal steps, both ends among them.
-fn extremes(values: &[f64]) -> [f64; 3] {
-    // The trapezoidal rule: over a turn both ends are the same position.
-    let ends = values
-        .first()
-        .zip(values.last())
-        .map_or(0.0, |(a, b)| 0.5 * (a + b));
-    let steps = values.len().saturating_sub(1).max(1);
-    [
-        values.iter().copied().fold(f64::INFINITY, f64::min),
-        (values.iter().sum::<f64>() - ends) / steps as f64,
-        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-    ]
+/// Where a part begins and ends.
+type Span = [f64; 2];
+
+/// Steps of a part that is so many turns or strokes.
+fn steps_of(turns: f64) -> usize {
+    ((STEPS as f64 * turns).ceil() as usize).max(FEWEST)
+}
+
+/// Least, mean and largest of a quantity over parts, one after the other, in each of which it is smooth: each is looked at in so many steps, and the
+/// extremes are sought between these.
+fn extremes(
+    parts: &[(Span, usize)],
+    f: &impl Fn(f64) -> Result<f64, Error>,
+) -> Result<[f64; 3], Error> {
+    let (mut places, mut firsts) = (Vec::new(), Vec::new());
+    for ([from, to], steps) in parts {
+        let hair = HAIR * (to - from);
+        for k in 0..=*steps {
+            firsts.push(places.len() - k);
+            let even = from + (to - from) * k as f64 / *steps as f64;
+            places.push(even.clamp(from + hair, to - hair));
+        }
+    }
+    let values = places
+        .iter()
+        .map(|x| f(*x))
+        .collect::<Result<Vec<_>, Error>>()?;
+    let count = values.len();
+    let around = |k: usize| {
+        let first = *firsts.get(k)?;
+        let end = firsts.partition_point(|other| *other <= first);
+        let middle = k.saturating_sub(1).clamp(first, end - 3);
+        Some([middle, middle + 1, middle + 2])
+    };
+    let mut most = [0.0; 2];
+    for (most, sign) in most.iter_mut().zip([-1.0, 1.0]) {
+        let known = values.iter().map(|value| sign * value);
+        let known = known.fold(f64::NEG_INFINITY, f64::max);
+        let peak = parabola::highest(
+            (count, |k| sign * values[k]),
+            around,
+            |k| places[k],
+            |x| Ok::<_, Error>(sign * f(x)?),
+            known,
+        )?;
+        *most = match peak {
+            Some((_, x)) => f(x)?,
+            None => sign * known,
+        };
+    }
+    let [least, largest] = most;
+    let all: f64 = parts.iter().map(|([from, to], _)| to - from).sum();
+    let mut sum = 0.0;
+    for ([from, to], _) in parts {
+        let tolerance = OF_MEAN * largest.abs() * (to - from);
+        sum += numerics::integral(f, [*from, *to], 4, tolerance)?;
+    }
+    Ok([least, sum / all, largest])
 }
 
 /// Over the time of the motion, with payloads and carriages; `None` without these.
@@ -101,14 +156,21 @@ fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64;
     else {
         return Ok(None);
     };
-    let values = (0..=STEPS).map(|k| {
-        let t = motion.duration() * k as f64 / STEPS as f64;
+    let parts: Vec<(Span, usize)> = duty::smooth_stretches(file, motion)
+        .into_iter()
+        .map(|(from, to)| {
+            let [a, b] = [from, to].map(|t| motion.at(t).phi);
+            let turns = (b - a).abs() / file.machine.domain().span();
+            let time = (to - from) / motion.duration();
+            ([from, to], steps_of(turns.max(time)))
+        })
+        .collect();
+    let at = |t: f64| {
         let state = motion.at(t);
         let machine = machines.at(&Now::of(t, state.omega), state.phi)?;
         Ok(machine.bare_reduction(state.phi)?.inertia)
-    });
-    let values = values.collect::<Result<Vec<f64>, Error>>()?;
-    Ok(Some(extremes(&values)))
+    };
+    Ok(Some(extremes(&parts, &at)?))
 }
 
 /// Of a machine file, and its machines with the drive train.
@@ -157,13 +219,13 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
 
 /// The energy balance over the motion, stretch by stretch: a payload brings its energy with it, and takes it away.
 fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
-    let stretches = duty::smooth_stretches(file, motion, STEPS);
+    let stretches = duty::smooth_stretches(file, motion);
     let parts: Vec<Part> = stretches
         .into_iter()
         .map(|(from, to)| Part::new(file, machines, motion, [from, to]))
         .collect();
     let duration = motion.duration();
-    // Between two rows of a motion of states, where it is smooth.
+    // Between two rows of a recorded or computed motion, where it is smooth.
     let over = |part: &Part, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
         let cuts = motion.cut_at_rows(part.span);
         let least = if cuts.len() > 2 {
@@ -173,23 +235,27 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         };
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
-            let share = (pair[1] - pair[0]) / duration;
-            let panels = (f64::from(PANELS) * share).ceil().max(least as f64) as u32;
+            let panels = f64::from(PANELS) * (pair[1] - pair[0]) / duration;
+            let panels = panels.ceil().max(least as f64) as u32;
+            let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
             sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
         }
         Ok::<f64, Error>(sum)
     };
-    let mut moved = 0.0;
-    for part in &parts {
-        // Only a scale: the rule without halvings.
-        moved += over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY)?;
-    }
+    // Only scales: the rule without halvings.
+    let moved = (parts.iter())
+        .map(|part| over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY))
+        .collect::<Result<Vec<f64>, Error>>()?;
+    let all: f64 = moved.iter().sum();
     let (mut work, mut gain) = (0.0, 0.0);
-    for part in &parts {
+    for (part, moved) in parts.iter().zip(moved) {
         let [from, to] = part.span;
-        work += over(part, &|t| part.power(t), SHARE * moved)?;
+        // Of its own energy, or by the time: in a short part of a long motion that would be less than rounding.
+        let tolerance = SHARE * moved.max(all * (to - from) / duration);
+        work += over(part, &|t| part.power(t), tolerance)?;
         gain += part.energy(to)? - part.energy(from)?;
     }
+    let moved = all;
     let off = (work - gain).abs();
     Ok(if moved > 0.0 { off / moved } else { off })
 }

@@ -30,7 +30,8 @@ impl Moves {
     pub(super) fn of(instants: &[Instant], duration: f64, cyclic: bool) -> Self {
         let peak = instants.iter().map(|i| i.omega.abs()).fold(0.0, f64::max);
         let direction = |instant: &Instant| {
-            if instant.omega.abs() <= AT_REST * peak {
+            let is_end = instant.weight == 0.0 && instant.omega.abs() <= AT_REST * peak;
+            if instant.omega == 0.0 || is_end {
                 0i8
             } else {
                 instant.omega.signum() as i8

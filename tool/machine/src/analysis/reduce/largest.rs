@@ -18,6 +18,9 @@ use crate::number::rounding::short;
 /// Positions that are searched at least: the quarter degrees of a turn.
 const SEARCHED: usize = 1440;
 
+/// Fewest steps of a turn, or of a stroke, in a motion of many.
+const OF_TURN: f64 = 180.0;
+
 /// Fewest steps of a smooth stretch.
 const FEWEST: usize = 16;
 
@@ -173,14 +176,19 @@ impl<'f> Course<'f> {
     /// What is smooth, in about so many steps.
     fn stretches(&self, source: &Source, steps: usize) -> Vec<Stretch> {
         let parts = match self {
-            Self::Motion(motion) => smooth_stretches(source.file, motion, SEARCHED),
+            Self::Motion(motion) => smooth_stretches(source.file, motion),
             Self::State(_) => between_edges(source.file),
         };
         let whole: f64 = parts.iter().map(|(from, to)| to - from).sum();
-        let stretch = |(from, to): (f64, f64)| Stretch {
-            from,
-            to,
-            steps: ((steps as f64 * (to - from) / whole).ceil() as usize).max(FEWEST),
+        let span = source.file.machine.domain().span();
+        let stretch = |(from, to): (f64, f64)| {
+            let way = (self.state(to).phi - self.state(from).phi).abs() / span;
+            let even = steps as f64 * (to - from) / whole;
+            Stretch {
+                from,
+                to,
+                steps: (even.max(OF_TURN * way).ceil() as usize).max(FEWEST),
+            }
         };
         parts.into_iter().map(stretch).collect()
     }
@@ -209,7 +217,7 @@ impl Stretch {
 }
 
 /// The range of the drive link, cut where a load begins or ends or the segments of a cam meet.
-fn between_edges(file: &MachineFile) -> Vec<(f64, f64)> {
+pub(crate) fn between_edges(file: &MachineFile) -> Vec<(f64, f64)> {
     let domain = file.machine.domain();
     let [from, to] = [0.0, 1.0].map(|part| domain.position(part));
     let edges = (0..).map_while(|k| file.machine.edge(k));

@@ -280,9 +280,9 @@ impl run::Plant<7> for Plant<'_> {
             bends.extend([now.slip, fastest - CreepContact::SLOW]);
             bends.extend(contact.bends().into_iter().map(|slip| now.slip - slip));
         }
-        if moment.direction != 0.0 && self.file.drive_train.has_losses() {
+        if moment.direction != 0.0 && self.file.drive_train.is_lossy() {
             let accelerating = now.inertia * now.alpha[2];
-            let delivered = self.file.drive_train.delivered_with_losses(&TrainOutput {
+            let delivered = self.file.drive_train.lossy_flows(&TrainOutput {
                 torque: accelerating + now.resisting,
                 torque_per_alpha: 0.0,
                 omega: now.omega[1],

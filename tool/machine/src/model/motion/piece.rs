@@ -56,6 +56,22 @@ impl Piece {
         )
     }
 
+    /// Adds the times of the motion strictly between two at which rows stand.
+    pub(super) fn rows_between(&self, [from, to]: [f64; 2], rows: &mut Vec<f64>) {
+        match &self.kind {
+            Kind::Polynomial { .. } | Kind::Move(_) => {}
+            Kind::Positions { curve, .. } | Kind::Speeds { curve, .. } => {
+                let within = [from - self.start, to - self.start];
+                rows.extend(curve.knots_between(within).map(|knot| self.start + knot));
+            }
+            Kind::Nodes(nodes) => {
+                let first = nodes.partition_point(|node| node.t <= from);
+                let after = nodes.iter().skip(first).map(|node| node.t);
+                rows.extend(after.take_while(|t| *t < to));
+            }
+        }
+    }
+
     /// The third derivative at `t` (s) after its start; `None`: the acceleration jumps within the piece or at its ends.
     pub(super) fn jerk(&self, t: f64) -> Option<f64> {
         match &self.kind {

@@ -53,6 +53,7 @@ impl NoMotion {
     /// What to do about it.
     pub fn cure(&self) -> String {
         match self {
+            Self::Duty(fault) => fault.cure(),
             Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
             Self::NoWay => "give two different positions".to_owned(),
             Self::NoTorqueLimit(unit) => format!(

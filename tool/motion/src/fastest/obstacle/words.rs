@@ -248,6 +248,7 @@ impl fmt::Display for NoMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
+            Self::Duty(fault) => fault.fmt(f),
             Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
             Self::Stops { .. } => self.stops(f),
             Self::Stiff { phi, axis } => write!(

@@ -33,7 +33,7 @@ impl Bends {
             |action| matches!(action, Action::OpposingForce(_) | Action::OpposingMoment(_));
         Self {
             speeds: motor.bends(),
-            losses: (machines.all()).any(|machine| machine.file.drive_train.has_losses()),
+            losses: (machines.all()).any(|machine| machine.file.drive_train.is_lossy()),
             gearbox: driving.total_cmp(&back).is_ne(),
             opposing: machines.all().any(|machine| {
                 let mut loads = machine.file.machine.loads().iter();
@@ -111,7 +111,7 @@ impl<'a, M: Motor> Plant<'a, M> {
             let size = ((inertia + own) * alpha).abs() + resisting.abs();
             let size = f64::MIN_POSITIVE + size + (now.motor_torque * self.ratio() / ratio).abs();
             all += size * ratio.abs();
-            let delivered = train.delivered_with_losses(&TrainOutput {
+            let delivered = train.lossy_flows(&TrainOutput {
                 torque: inertia * alpha + resisting,
                 torque_per_alpha: 0.0,
                 omega,

@@ -1,0 +1,122 @@
+//! Why there is no duty.
+
+use std::fmt;
+
+use jred::Error;
+
+use crate::number::rounding::short;
+
+/// A duty whose error is not known to be small enough is no duty.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// An error of the machine.
+    Machine(Error),
+    /// The integrals need more instants than fit into memory.
+    Fine {
+        /// Up to where they were found (s).
+        until: f64,
+        /// The length of the motion (s).
+        duration: f64,
+        /// The tolerance.
+        tolerance: f64,
+        /// The most instants.
+        most: usize,
+    },
+    /// The integrals do not reach the tolerance, however small the steps.
+    Rough {
+        /// The stretch of time with the largest error (s).
+        span: [f64; 2],
+        /// The error that was reached, as a share of the quantity.
+        reached: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// Energy appears or vanishes.
+    Unbalanced {
+        /// Work at the input of the drive train (J).
+        work: f64,
+        /// What becomes of it (J).
+        spent: f64,
+        /// What the energy differs by, as a share of the energy that is moved.
+        share: f64,
+        /// The stretch of time with the largest difference (s).
+        span: [f64; 2],
+    },
+}
+
+impl<E: Into<Error>> From<E> for Fault {
+    fn from(error: E) -> Self {
+        Self::Machine(error.into())
+    }
+}
+
+impl Fault {
+    /// What to do about it; empty where nothing can be advised.
+    pub fn cure(&self) -> String {
+        match self {
+            Self::Machine(error) => error.cure().to_string(),
+            Self::Fine { .. } => "describe one cycle that repeats, with fewer turns or rows; or allow a larger error, such as \
+                 --tolerance 1e-6"
+                .to_owned(),
+            Self::Rough { reached, .. } => format!(
+                "look at the motion and the loads at that time: a segment far shorter than the cycle is lost in the rounding of the \
+                 time; or allow a larger error, --tolerance {}",
+                short(2.0 * reached)
+            ),
+            Self::Unbalanced { .. } => "look at the motion at that time: its position, speed and acceleration must belong \
+                 together; if they do, please report the machine file as a fault of this program"
+                .to_owned(),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Machine(error) => error.fmt(f),
+            Self::Fine {
+                until,
+                duration,
+                tolerance,
+                most,
+            } => write!(
+                f,
+                "the load of the cycle needs more than {most} instants at a tolerance of {tolerance:e}: they reach to {} s of {} s",
+                short(*until),
+                short(*duration)
+            ),
+            Self::Rough {
+                span: [from, to],
+                reached,
+                tolerance,
+            } => write!(
+                f,
+                "the integrals over the cycle reach an error of {} of themselves, not {tolerance:e}: most of it arises between {from} s and \
+                 {to} s",
+                short(*reached)
+            ),
+            Self::Unbalanced {
+                work,
+                spent,
+                share,
+                span: [from, to],
+            } => write!(
+                f,
+                "the energy of the cycle does not balance: the work at the input is {} J, but the gain of energy, losses and process work \
+                 are {} J; they differ by {} of the energy moved, most of it between {from} s and {to} s",
+                short(*work),
+                short(*spent),
+                short(*share)
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl miette::Diagnostic for Fault {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let cure = self.cure();
+        (!cure.is_empty()).then(|| Box::new(cure) as Box<dyn fmt::Display>)
+    }
+}

@@ -1,0 +1,165 @@
+//! What is integrated over a panel, and the errors of it.
+//!
+//! The integrands are the quantities that every later sum consists of: torque, speed, acceleration and inertia at the input and their products in
+//! pairs, power and its square, the cubic mean torque's |n|·|T|³, losses, and the powers of the energy balance.
+
+use super::moving::Evaluated;
+use crate::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
+
+/// Number of integrands.
+pub(super) const COUNT: usize = 18;
+
+/// Places of those of the energy balance.
+const WORK: usize = 4;
+const LOSS: usize = 13;
+const GAIN: usize = 14;
+const FRICTION: usize = 16;
+const PROCESS: usize = 17;
+
+/// Roundings of a torque, as a share of the sum of its terms' magnitudes.
+const ROUNDING: f64 = 1e-13;
+
+/// Share of the tolerance of a whole integral that one panel may add, where its curve jumps unseen.
+const OF_WHOLE: f64 = 1e-3;
+
+/// The integrands at an instant, and their roundings.
+pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
+    let Evaluated {
+        instant,
+        loss,
+        magnitude,
+        ratio,
+        ..
+    } = now;
+    let (torque, speed) = (instant.input_torque, instant.input_speed);
+    let (alpha, inertia) = (instant.input_alpha, instant.input_inertia);
+    let (terms, omega) = (&instant.terms, instant.omega);
+    let link = terms.total();
+    let power = torque * speed;
+    let off = ROUNDING * magnitude;
+    let twice = 2.0 * torque.abs() * off + off * off;
+    let of_power = speed.abs() * off;
+    let exact = |value: f64| [value, ROUNDING * value.abs()];
+    [
+        [torque, off],
+        [torque * torque, twice],
+        exact(alpha * alpha),
+        exact(speed * speed),
+        [power, of_power],
+        [
+            power * power,
+            2.0 * power.abs() * of_power + of_power * of_power,
+        ],
+        exact(alpha * alpha * speed * speed),
+        [
+            speed.abs() * torque.abs().powi(3),
+            speed.abs() * 1.5 * torque.abs() * twice,
+        ],
+        exact(inertia),
+        exact(inertia * inertia),
+        [alpha * torque, alpha.abs() * off],
+        exact(speed),
+        [link * link, 2.0 * link.abs() * off * ratio.abs()],
+        [*loss, of_power],
+        [(terms.acceleration + terms.velocity) * omega, of_power],
+        [terms.potential * omega, of_power],
+        [(terms.viscous + terms.coulomb) * omega, of_power],
+        [terms.process * omega, of_power],
+    ]
+}
+
+/// Integrals and their errors.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums(pub(super) [Estimate; COUNT]);
+
+/// What is allowed of a panel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed<'s> {
+    pub(super) tolerance: f64,
+    /// ∫|f| of each integrand over the motion, about.
+    pub(super) sizes: &'s [f64; COUNT],
+    /// The panel's share of the time.
+    pub(super) share: f64,
+}
+
+impl Sums {
+    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and the largest error as a share of what is allowed, where it is not
+    /// rounding.
+    pub(super) fn over(
+        rule: &Rule,
+        places: &[Evaluated],
+        half: f64,
+        allowed: Allowed,
+    ) -> (Self, f64) {
+        let mut values = [[0.0; MOST_PLACES]; COUNT];
+        let mut roundings = [0.0; COUNT];
+        for (place, (now, weight)) in places.iter().zip(rule.weights()).enumerate() {
+            for (j, [value, rounding]) in integrands(now).into_iter().enumerate() {
+                values[j][place] = value;
+                roundings[j] += weight * rounding;
+            }
+        }
+        let mut sums = Self::default();
+        let mut excess = 0.0f64;
+        for (j, values) in values.iter().enumerate() {
+            let found = rule.estimate(&values[..places.len()]);
+            let Estimate {
+                integral,
+                error,
+                size,
+            } = found;
+            let [error, size] = [half * error, half * size];
+            let whole = allowed.sizes[j] * allowed.share.max(OF_WHOLE);
+            let most = (0.5 * allowed.tolerance * size.max(whole)).max(half * roundings[j]);
+            if error > 0.0 {
+                excess = excess.max(error / most);
+            }
+            sums.0[j] = Estimate {
+                integral: half * integral,
+                // What is rounding is not made smaller by smaller panels.
+                error: (error - half * roundings[j]).max(0.0),
+                size,
+            };
+        }
+        (sums, excess)
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        for (sum, other) in self.0.iter_mut().zip(&other.0) {
+            sum.integral += other.integral;
+            sum.error += other.error;
+            sum.size += other.size;
+        }
+    }
+
+    /// ∫|f| of each integrand.
+    pub(super) fn sizes(&self) -> [f64; COUNT] {
+        self.0.map(|sum| sum.size)
+    }
+
+    /// The largest error as a share of ∫|f|, of these sizes.
+    pub(super) fn error(&self, sizes: &[f64; COUNT]) -> f64 {
+        let shares = self.0.iter().zip(sizes).map(|(sum, size)| {
+            if sum.error > 0.0 {
+                sum.error / size
+            } else {
+                0.0
+            }
+        });
+        shares.fold(0.0, f64::max)
+    }
+
+    /// Work at the input, and what loads and losses take of it (J).
+    pub(super) fn work(&self) -> [f64; 2] {
+        let of = |j: usize| self.0[j].integral;
+        [of(WORK), of(LOSS) + of(FRICTION) + of(PROCESS)]
+    }
+
+    /// The energy that is moved to and fro (J).
+    pub(super) fn moved(&self) -> f64 {
+        [WORK, LOSS, GAIN, GAIN + 1, FRICTION, PROCESS]
+            .into_iter()
+            .map(|j| self.0[j].size)
+            .fold(0.0, f64::max)
+    }
+}

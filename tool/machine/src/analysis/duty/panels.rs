@@ -1,0 +1,552 @@
+//! The instants of a motion: those of Gauss and Kronrod's rule on panels that are halved until the errors of all integrals are known to be small.
+//!
+//! A smooth stretch of the motion begins with panels that hold about as many instants as steps are asked for, and some for each turn. A panel in
+//! which the power through a stage with losses, or at the input, changes its sign is cut there. One that holds rows of a recorded motion is cut
+//! at a row, until it holds none.
+
+use jred::Reducible as _;
+
+use super::fault::Fault;
+use super::integrands::{Allowed, COUNT, Sums, integrands};
+use super::moving::{Evaluated, Moving};
+use super::{INSIDE, Instant, Sampling, Smooth, refined};
+use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
+use crate::number::numerics;
+use crate::number::parabola::Parabola;
+use crate::number::quadrature::GAUSS_3;
+use crate::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
+
+/// Most instants of a duty: with what is made of them they take 200 bytes each.
+pub const MOST_INSTANTS: usize = 4_000_000;
+
+/// Panels of a turn at the beginning, and of one among very many.
+const OF_TURN: [f64; 2] = [2.0, 8.0];
+
+/// As long as there are no more instants for the turns than this, they have the larger number.
+const FOR_TURNS: f64 = 1e6;
+
+/// Most panels that are looked at for the size of the integrals.
+const LOOKED_AT: usize = 256;
+
+/// A torque that is a smaller share of the largest is no torque whose sign counts: rounding.
+const UNSIGNED: f64 = 1e-11;
+
+/// Most cuts of a panel at changes of sign; with more it is halved first.
+const MOST_CUTS: usize = 16;
+
+/// Panels are cut where a torque that does not change its sign may do so between the instants: where the parabola through three of them comes
+/// nearer to zero than this share of the middle one.
+const NEAR_ZERO: f64 = 0.1;
+
+/// A smooth stretch of the motion.
+struct Stretch {
+    from: f64,
+    to: f64,
+    /// Its times are taken from inside.
+    inside: [f64; 2],
+    /// Whether torques have a sign that counts.
+    moves: bool,
+    rows: Vec<f64>,
+}
+
+/// An end of a panel.
+#[derive(Clone, Copy)]
+struct End {
+    t: f64,
+    now: Evaluated,
+    /// Whether a torque is zero there: then its sign is a rounding.
+    is_zero: bool,
+}
+
+/// How a panel came about.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Halvings.
+    depth: u32,
+    /// The last ones of them that made the error little smaller.
+    idle: u32,
+    /// The error as a multiple of what is allowed.
+    excess: f64,
+}
+
+impl Default for Way {
+    fn default() -> Self {
+        Self {
+            depth: 0,
+            idle: 0,
+            excess: f64::INFINITY,
+        }
+    }
+}
+
+impl Way {
+    fn further(self, excess: f64) -> Self {
+        let is_idle = excess > LITTLE * self.excess;
+        Self {
+            depth: self.depth + 1,
+            idle: if is_idle { self.idle + 1 } else { 0 },
+            excess,
+        }
+    }
+}
+
+/// The duty in the making.
+pub(super) struct Panels<'a, 'm> {
+    moving: &'a mut Moving<'m>,
+    tolerance: f64,
+    duration: f64,
+    pub(super) instants: Vec<Instant>,
+    pub(super) smooth: Smooth,
+    sizes: [f64; COUNT],
+    /// The largest torque of each flow of power.
+    flows: Vec<f64>,
+    /// The largest torque at the input.
+    largest: f64,
+    most_parts: f64,
+    pub(super) sums: Sums,
+    /// The panel with the largest error, and that.
+    worst: ([f64; 2], f64),
+    /// Gain of energy (J).
+    gain: f64,
+    /// The stretch with the largest difference of work and energy (J).
+    unbalanced: ([f64; 2], f64),
+}
+
+impl Stretch {
+    fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
+        let hair = INSIDE * (to - from);
+        let mut rows = motion.rows_within([from, to]);
+        for carriage in file.schedule.carriages() {
+            rows.extend(carriage.motion.rows_within([from, to]));
+        }
+        rows.sort_by(f64::total_cmp);
+        Self {
+            from,
+            to,
+            inside: [from + hair, (to - hair).min(to.next_down().max(from))],
+            moves: motion.at(from.midpoint(to)).omega != 0.0,
+            rows,
+        }
+    }
+
+    fn clamp(&self, t: f64) -> f64 {
+        let [first, last] = self.inside;
+        t.max(first).min(last)
+    }
+
+    /// The rows strictly between two times.
+    fn between(&self, [from, to]: [f64; 2]) -> &[f64] {
+        let first = self.rows.partition_point(|row| *row <= from);
+        let end = self.rows.partition_point(|row| *row < to);
+        self.rows.get(first..end).unwrap_or_default()
+    }
+
+    /// Where panels begin and end at first: about so many.
+    fn borders(&self, count: f64) -> Vec<f64> {
+        let mut borders = vec![self.from];
+        let mut k = 1.0;
+        while k < count {
+            let even = self.from + (self.to - self.from) * (k / count);
+            let next = self.rows.partition_point(|row| *row < even);
+            let row = self.rows.get(next).copied();
+            let border = if self.rows.is_empty() {
+                Some(even)
+            } else {
+                row
+            };
+            // Between two rows they are even.
+            let last = borders[borders.len() - 1];
+            let border = border.filter(|t| *t > last && *t < self.to);
+            let even = (even > last && even < self.to).then_some(even);
+            let crowded = self.rows.len() as f64 >= count;
+            borders.extend(if crowded { border } else { even });
+            k += 1.0;
+        }
+        borders.push(self.to);
+        borders
+    }
+}
+
+/// How many turns, or strokes, the drive link makes in a smooth stretch.
+fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
+    let [a, b] = [from, to].map(|t| motion.at(t).phi);
+    (b - a).abs() / file.machine.domain().span()
+}
+
+impl<'a, 'm> Panels<'a, 'm> {
+    /// The instants of a motion whose smooth stretches these are.
+    pub(super) fn new(
+        moving: &'a mut Moving<'m>,
+        stretches: &[(f64, f64)],
+        sampling: Sampling,
+    ) -> Result<Self, Fault> {
+        let (file, motion) = (moving.file, moving.motion);
+        let duration = motion.duration();
+        let each: Vec<f64> = stretches.iter().map(|s| turns(file, motion, *s)).collect();
+        let all: f64 = each.iter().sum();
+        let of_turn = (FOR_TURNS / 15.0 / all).clamp(OF_TURN[0], OF_TURN[1]);
+        let fewest = (15.0 * OF_TURN[0] * all).max(15.0 * stretches.len() as f64);
+        if fewest > MOST_INSTANTS as f64 {
+            return Err(Fault::Fine {
+                until: duration * MOST_INSTANTS as f64 / fewest,
+                duration,
+                tolerance: sampling.tolerance,
+                most: MOST_INSTANTS,
+            });
+        }
+        let borders: Vec<(Stretch, Vec<f64>)> = (stretches.iter().zip(&each))
+            .map(|(stretch, turns)| {
+                let (from, to) = *stretch;
+                let by_time = sampling.steps as f64 / 15.0 * (to - from) / duration;
+                let count = by_time.max(turns * of_turn).ceil().max(1.0);
+                let stretch = Stretch::new(file, motion, *stretch);
+                let borders = stretch.borders(count);
+                (stretch, borders)
+            })
+            .collect();
+        let count: usize = borders.iter().map(|(_, borders)| borders.len() - 1).sum();
+        let mut panels = Self {
+            moving,
+            tolerance: sampling.tolerance,
+            duration,
+            instants: Vec::with_capacity(20 * count.min(MOST_INSTANTS / 20)),
+            smooth: Smooth::default(),
+            sizes: [0.0; COUNT],
+            flows: Vec::new(),
+            largest: 0.0,
+            most_parts: refined::most_parts(15 * count),
+            sums: Sums::default(),
+            worst: ([0.0, duration], 0.0),
+            gain: 0.0,
+            unbalanced: ([0.0, duration], 0.0),
+        };
+        panels.look(&borders, count)?;
+        for (stretch, borders) in &borders {
+            panels.stretch(stretch, borders)?;
+        }
+        panels.judge()?;
+        Ok(panels)
+    }
+
+    /// The sizes of the integrals and the largest torques, about.
+    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), Fault> {
+        let stride = count.div_ceil(LOOKED_AT);
+        let mut number = 0;
+        let mut noise = 0.0f64;
+        for (stretch, borders) in borders {
+            for ends in borders.windows(2) {
+                number += 1;
+                if (number - 1) % stride != 0 {
+                    continue;
+                }
+                let span = ends[1] - ends[0];
+                for [place, weight] in GAUSS_3 {
+                    let now = self.moving.at(stretch.clamp(ends[0] + place * span))?;
+                    let weight = weight * span * stride as f64;
+                    for (size, [value, _]) in self.sizes.iter_mut().zip(integrands(&now)) {
+                        *size += weight * value.abs();
+                    }
+                    let torque = now.instant.input_torque.abs();
+                    self.largest = self.largest.max(torque);
+                    noise = noise.max(now.magnitude * now.ratio.abs().min(1.0));
+                    let flows = self.flows_of(&now.instant);
+                    self.flows.resize(flows.len(), 0.0);
+                    for (most, flow) in self.flows.iter_mut().zip(flows) {
+                        *most = most.max(flow.abs());
+                    }
+                }
+            }
+        }
+        for most in &mut self.flows {
+            if *most < UNSIGNED * noise {
+                *most = f64::INFINITY;
+            }
+        }
+        Ok(())
+    }
+
+    /// The torques whose signs decide on the sides of losses: those of the stages with losses, and that at the input.
+    fn flows_of(&self, instant: &Instant) -> Vec<f64> {
+        let mut flows = vec![instant.input_torque];
+        let train = &self.moving.file.drive_train;
+        if train.is_lossy() {
+            flows.extend(train.lossy_flows(&instant.output()));
+        }
+        flows
+    }
+
+    /// A flow at a time.
+    fn flow(&mut self, t: f64, which: usize) -> Result<f64, Fault> {
+        let now = self.moving.at(t)?;
+        Ok(self
+            .flows_of(&now.instant)
+            .get(which)
+            .copied()
+            .unwrap_or(0.0))
+    }
+
+    fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<End, Fault> {
+        let now = self.moving.at(stretch.clamp(t))?;
+        Ok(End { t, now, is_zero })
+    }
+
+    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), Fault> {
+        let span = [stretch.from, stretch.to];
+        let before = self.sums;
+        if let Some(direction) = self.moving.starts(span) {
+            self.smooth.begin(self.instants.len());
+            let breakaway = self.moving.breakaway(stretch.from, direction)?;
+            self.instants.push(breakaway);
+        }
+        self.smooth.begin(self.instants.len());
+        let first = self.end(stretch, stretch.from, false)?;
+        self.instants.push(first.now.instant);
+        let mut left = first;
+        for border in borders.get(1..).unwrap_or_default() {
+            let right = self.end(stretch, *border, false)?;
+            self.panel(stretch, [&left, &right], Way::default())?;
+            left = right;
+        }
+        if stretch.moves {
+            let gain = left.now.energy - first.now.energy;
+            self.gain += gain;
+            let [work, spent] = self.sums.work();
+            let [work_before, spent_before] = before.work();
+            let off = (work - work_before) - (spent - spent_before) - gain;
+            if off.abs() > self.unbalanced.1 {
+                self.unbalanced = (span, off.abs());
+            }
+        } else {
+            // What creeps below the speed that counts as standstill does no work.
+            let [work, spent] = self.sums.work();
+            let [work_before, spent_before] = before.work();
+            self.gain += (work - work_before) - (spent - spent_before);
+        }
+        Ok(())
+    }
+
+    /// Adds a panel, or its parts.
+    fn panel(&mut self, stretch: &Stretch, ends: [&End; 2], way: Way) -> Result<(), Fault> {
+        let [from, to] = ends.map(|end| end.t);
+        let inner = stretch.between([from, to]);
+        let by_rows = !stretch.rows.is_empty() && inner.is_empty();
+        let rule: &Rule = if by_rows { &KRONROD_7 } else { &KRONROD_15 };
+        let (middle, half) = (from.midpoint(to), 0.5 * (to - from));
+        let mut places = [ends[0].now; 15];
+        let places = &mut places[..rule.places().len()];
+        for (place, x) in places.iter_mut().zip(rule.places()) {
+            *place = self.moving.at(stretch.clamp(middle + half * x))?;
+        }
+        let is_short = half <= 4.0 * f64::EPSILON * to.abs() || way.depth > DEEPEST;
+        if stretch.moves && !is_short {
+            let cuts = self.changes(stretch, ends, places)?;
+            if (1..=MOST_CUTS).contains(&cuts.len()) {
+                return self.parts(stretch, ends, &cuts, true, way.further(f64::INFINITY));
+            }
+            if cuts.len() > MOST_CUTS {
+                return self.parts(stretch, ends, &[middle], false, way.further(f64::INFINITY));
+            }
+        }
+        let allowed = Allowed {
+            tolerance: self.tolerance,
+            sizes: &self.sizes,
+            share: (to - from) / self.duration,
+        };
+        let (sums, excess) = Sums::over(rule, places, half, allowed);
+        let way = way.further(excess);
+        let is_noise = way.idle >= IDLE && excess * self.tolerance <= NOISE;
+        if excess > 1.0 && !is_short && !is_noise {
+            let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
+            return self.parts(stretch, ends, &[cut], false, way);
+        }
+        self.accept(stretch, ends, rule, places, &sums)
+    }
+
+    /// The panel cut at these times.
+    fn parts(
+        &mut self,
+        stretch: &Stretch,
+        [first, last]: [&End; 2],
+        cuts: &[f64],
+        is_zero: bool,
+        way: Way,
+    ) -> Result<(), Fault> {
+        let mut left = *first;
+        for cut in cuts {
+            let right = self.end(stretch, *cut, is_zero)?;
+            self.panel(stretch, [&left, &right], way)?;
+            left = right;
+        }
+        self.panel(stretch, [&left, last], way)
+    }
+
+    /// The times within the panel at which the power through a stage with losses, or at the input, changes its sign.
+    fn changes(
+        &mut self,
+        stretch: &Stretch,
+        [first, last]: [&End; 2],
+        places: &[Evaluated],
+    ) -> Result<Vec<f64>, Fault> {
+        let mut times = vec![first.t];
+        times.extend(places.iter().map(|now| now.instant.t));
+        times.push(last.t);
+        let rows: Vec<Vec<f64>> = ([&first.now].into_iter())
+            .chain(places)
+            .chain([&last.now])
+            .map(|now| self.flows_of(&now.instant))
+            .collect();
+        let mut cuts = Vec::new();
+        for which in 0..self.flows.len() {
+            let least = UNSIGNED * self.flows[which];
+            if least.is_infinite() {
+                continue;
+            }
+            let value = |k: usize| {
+                let is_rounding = k == 0 && first.is_zero || k + 1 == rows.len() && last.is_zero;
+                let value = rows[k].get(which).copied().unwrap_or(0.0);
+                (!is_rounding && value.abs() > least).then_some(value)
+            };
+            let known: Vec<(f64, f64)> = (0..rows.len())
+                .filter_map(|k| Some((times[k], value(k)?)))
+                .collect();
+            let mut brackets: Vec<[(f64, f64); 2]> = (known.windows(2))
+                .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
+                .map(|pair| [pair[0], pair[1]])
+                .collect();
+            for three in known.windows(3) {
+                let [a, b, c] = [three[0], three[1], three[2]];
+                let touches =
+                    b.1.abs() <= a.1.abs().min(c.1.abs()) && a.1 * b.1 > 0.0 && b.1 * c.1 > 0.0;
+                if !touches {
+                    continue;
+                }
+                let sign = -b.1.signum();
+                let parabola =
+                    Parabola::through([a.0, b.0, c.0], [sign * a.1, sign * b.1, sign * c.1]);
+                let Some(at) = parabola.vertex().filter(|at| a.0 < *at && *at < c.0) else {
+                    continue;
+                };
+                if parabola.at(at) > -NEAR_ZERO * b.1.abs() {
+                    let beyond = self.flow(stretch.clamp(at), which)?;
+                    if beyond * b.1 < 0.0 && beyond.abs() > least {
+                        brackets.push([a, (at, beyond)]);
+                        brackets.push([(at, beyond), c]);
+                    }
+                }
+            }
+            for [a, b] in brackets {
+                let f = |t: f64| {
+                    let mut moving = Moving::new(self.moving.file, self.moving.motion);
+                    let now = moving.at(stretch.clamp(t))?;
+                    Ok::<f64, Fault>(self.flows_of(&now.instant)[which])
+                };
+                cuts.push(numerics::zero(f, [a.0, b.0], [a.1, b.1], f64::EPSILON)?);
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        // Those that two stages share are one.
+        let near = 1e-9 * (last.t - first.t);
+        cuts.dedup_by(|next, before| *next - *before <= near.max(4.0 * f64::EPSILON * next.abs()));
+        cuts.retain(|t| *t - first.t > near && last.t - *t > near);
+        Ok(cuts)
+    }
+
+    fn accept(
+        &mut self,
+        stretch: &Stretch,
+        [left, right]: [&End; 2],
+        rule: &Rule,
+        places: &[Evaluated],
+        sums: &Sums,
+    ) -> Result<(), Fault> {
+        let span = [left.t, right.t];
+        let half = 0.5 * (right.t - left.t);
+        self.sums.add(sums);
+        let error = sums.error(&self.sizes);
+        if error > self.worst.1 {
+            self.worst = (span, error);
+        }
+        self.smooth.panel(self.instants.len());
+        let mut before = left.now.instant;
+        let mut row = Vec::with_capacity(places.len() + 1);
+        for (now, weight) in places.iter().zip(rule.weights()) {
+            row.push(Instant {
+                weight: half * weight,
+                ..now.instant
+            });
+            self.largest = self.largest.max(now.instant.input_torque.abs());
+        }
+        row.push(right.now.instant);
+        let torques: Vec<(f64, f64)> = ([&before].into_iter().chain(&row))
+            .map(|i| (i.t, i.input_torque))
+            .collect();
+        let parts = refined::parts(&torques, self.largest, self.most_parts);
+        for (next, parts) in row.into_iter().zip(parts) {
+            for k in 1..parts {
+                let t = before.t + (next.t - before.t) * f64::from(k) / f64::from(parts);
+                let now = self.moving.at(stretch.clamp(t))?;
+                self.instants.push(now.instant);
+            }
+            self.instants.push(next);
+            before = next;
+        }
+        if self.instants.len() > MOST_INSTANTS {
+            return Err(Fault::Fine {
+                until: right.t,
+                duration: self.duration,
+                tolerance: self.tolerance,
+                most: MOST_INSTANTS,
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether the errors are as small as asked for, and the energy balances.
+    fn judge(&self) -> Result<(), Fault> {
+        let reached = self.sums.error(&self.sums.sizes());
+        if reached > MOST_OF_TOLERANCE * self.tolerance {
+            return Err(Fault::Rough {
+                span: self.worst.0,
+                reached,
+                tolerance: self.tolerance,
+            });
+        }
+        let [work, spent] = self.sums.work();
+        let spent = spent + self.gain;
+        let moved = self.sums.moved();
+        let share = if moved > 0.0 {
+            (work - spent).abs() / moved
+        } else {
+            0.0
+        };
+        // Carriages bring energy of their own.
+        let is_whole = !self.moving.file.schedule.flows();
+        if is_whole && share > UNBALANCED + self.tolerance {
+            return Err(Fault::Unbalanced {
+                work,
+                spent,
+                share,
+                span: self.unbalanced.0,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth.
+const LITTLE: f64 = 0.3;
+
+/// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
+const IDLE: u32 = 3;
+const NOISE: f64 = 1e-9;
+
+/// Halvings of a panel at most.
+const DEEPEST: u32 = 60;
+
+/// The sum of the errors of all panels may be larger than the tolerance by this factor: each estimate is cautious.
+const MOST_OF_TOLERANCE: f64 = 4.0;
+
+/// Share of the energy that is moved by which it may not balance: that of the ends of stretches, which are taken from inside, and of recorded
+/// speeds that count as standstill.
+const UNBALANCED: f64 = 1e-6;

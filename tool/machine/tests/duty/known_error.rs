@@ -1,0 +1,285 @@
+//! Integrals over the cycle against closed forms, at any number of instants: over many turns, through stages with losses, over recorded rows; and
+//! duties that cannot be found.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::support::{Folder, budget, near, press_text, within};
+use jred_machine::analysis::duty::{Duty, Fault, Sampling};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::{Motion, Node};
+use jred_machine::read;
+
+/// 3 kg at 200 mm of a table of 20 kg, which turns about a level axis.
+const DRUM: &str = r#"
+gravity = ["0 m/s^2", "-9.81 m/s^2"]
+[mechanism]
+type = "rotary-table"
+table = { diameter = "500 mm", mass = "20 kg" }
+[[mass]]
+on = "table"
+mass = "3 kg"
+at = ["200 mm", "0 mm"]
+"#;
+
+/// Its largest torque (N·m).
+const TORQUE: f64 = 3.0 * 9.81 * 0.2;
+
+/// Its moment of inertia (kg·m²): a disc of 250 mm radius and a point.
+const INERTIA: f64 = 20.0 * 0.25 * 0.25 / 2.0 + 3.0 * 0.2 * 0.2;
+
+fn turning(degrees: f64, more: &str) -> MachineFile {
+    let text = format!(
+        "{DRUM}{more}[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"constant-speed\"\nmove = \"{degrees} deg\"\nspeed = \"600 rpm\"\n"
+    );
+    read::parse("drum.toml", &text, Path::new("")).unwrap()
+}
+
+fn duty(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Duty, Fault> {
+    Duty::new(file, file.motion.as_ref().unwrap(), sampling)
+}
+
+/// The weight of an unbalanced drum is a sine over the turn, however many turns there are.
+#[test]
+fn a_thousand_turns_have_the_load_of_one() {
+    for (turns, steps) in [(1.0, 16), (1.0, 2000), (10.0, 16), (1000.0, 2000)] {
+        let duty = duty(&turning(360.0 * turns, ""), steps).unwrap();
+        let figures = duty.figures(|i| i.input_torque);
+        near("RMS", figures.rms, TORQUE / 2f64.sqrt(), budget::DUTY);
+        within("mean", figures.mean, 0.0, budget::DUTY * TORQUE);
+        near("most", figures.max, TORQUE, budget::DUTY);
+        near("least", figures.min, -TORQUE, budget::DUTY);
+        let power = duty.figures(|i| i.input_torque * i.input_speed);
+        near(
+            "power",
+            power.rms,
+            TORQUE * 20.0 * PI / 2f64.sqrt(),
+            budget::DUTY,
+        );
+        // ⟨|sin|³⟩ = 4/(3π).
+        let cubes = duty.integral(|i| i.input_torque.abs().powi(3)) / duty.duration;
+        near(
+            "cubes",
+            cubes,
+            TORQUE.powi(3) * 4.0 / (3.0 * PI),
+            budget::DUTY,
+        );
+    }
+}
+
+/// A sine through stages with losses: T/(i·η) where power flows to the drum, T·η/i where it flows back.
+#[test]
+fn losses_change_sides_with_the_power() {
+    let stages = |count: usize| {
+        let stage = "{ driver = { teeth = 20, inertia = \"0 kg m^2\" }, driven = { teeth = 40, inertia = \"0 kg m^2\" }, efficiency = \"90 %\" }";
+        format!(
+            "[[drive_train]]\ntype = \"gear-train\"\nstage = [{}]\n",
+            vec![stage; count].join(", ")
+        )
+    };
+    for count in [1, 2] {
+        let eta = 0.9f64.powi(count as i32);
+        let ratio = 2f64.powi(count as i32);
+        for (turns, steps) in [(1.0, 16), (1.0, 2000), (100.0, 16)] {
+            let duty = duty(&turning(360.0 * turns, &stages(count)), steps).unwrap();
+            let figures = duty.figures(|i| i.input_torque.abs());
+            let [most, mean] = [TORQUE / ratio, TORQUE / ratio / PI];
+            near("mean", figures.mean, mean * (1.0 / eta + eta), budget::DUTY);
+            let rms = most * ((1.0 / (eta * eta) + eta * eta) / 4.0).sqrt();
+            near("RMS", figures.rms, rms, budget::DUTY);
+            // The sign of the speed at the input is that of the gear train.
+            let work = duty.integral(|i| i.input_torque * i.input_speed);
+            let lost = 2.0 * TORQUE * turns * (1.0 / eta - eta);
+            near("lost", work, lost, budget::DUTY);
+        }
+    }
+}
+
+/// With an inertia on the shaft between two stages each turns its power at a time of its own: the work at the input is what the stages lose, each by
+/// what it delivers.
+#[test]
+fn each_stage_turns_at_its_own_time() {
+    let train = "[[drive_train]]\ntype = \"gear-train\"\nstage = [{ driver = { teeth = 20, inertia = \"0.1 kg m^2\" }, driven = { teeth = 40, \
+                 inertia = \"0 kg m^2\" }, efficiency = \"90 %\" }, { driver = { teeth = 20, inertia = \"0.05 kg m^2\" }, driven = { teeth = 40, \
+                 inertia = \"0 kg m^2\" }, efficiency = \"80 %\" }]\n";
+    let text = format!(
+        "{DRUM}{train}[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"720 deg\"\nduration = \"2 s\"\n"
+    );
+    let file = read::parse("drum.toml", &text, Path::new("")).unwrap();
+    // By trapezoids over the closed form of law and weight: an integrand that vanishes with two derivatives at both ends.
+    let count = 1_000_000;
+    let mut sums = [0.0; 2];
+    for k in 0..count {
+        let z = f64::from(k) / f64::from(count);
+        let phi = 2.0 * (TAU * z - (TAU * z).sin());
+        let omega = TAU * (1.0 - (TAU * z).cos());
+        let alpha = PI * TAU * (TAU * z).sin();
+        let mut torque = INERTIA * alpha + TORQUE * phi.cos();
+        let (mut speed, mut rate) = (omega, alpha);
+        for (eta, inertia) in [(0.8, 0.05), (0.9, 0.1)] {
+            let side = if torque * speed < 0.0 { eta } else { 1.0 / eta };
+            (speed, rate) = (-2.0 * speed, -2.0 * rate);
+            torque = -torque / 2.0 * side + inertia * rate;
+        }
+        sums[0] += torque * torque / f64::from(count);
+        sums[1] += torque * speed * 2.0 / f64::from(count);
+    }
+    for steps in [16, 500, 2000] {
+        let duty = duty(&file, steps).unwrap();
+        let figures = duty.figures(|i| i.input_torque);
+        // The inertia on the driver's side of the first stage and that of the file's teeth are as written.
+        near("RMS", figures.rms, sums[0].sqrt(), budget::QUADRATURE);
+        let work = duty.integral(|i| i.input_torque * i.input_speed);
+        near("work", work, sums[1], budget::QUADRATURE);
+    }
+}
+
+/// A torque of forty periods a turn, at few instants: it is found all the same.
+#[test]
+fn a_torque_of_many_periods_a_turn() {
+    let folder = Folder::new();
+    let mut csv = "phi [deg],moment [N m]\n".to_owned();
+    for k in 0..=3600 {
+        let phi = f64::from(k) / 10.0;
+        let _ = writeln!(
+            csv,
+            "{phi:.1},{:.12}",
+            7.0 * (40.0 * phi.to_radians()).sin()
+        );
+    }
+    folder.file("teeth.csv", csv);
+    let text = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { diameter = \"500 mm\", mass = \"20 kg\" }\n\
+                [[load]]\non = \"table\"\ntable = \"teeth.csv\"\n[motion]\ntype = \"constant-speed\"\nspeed = \"60 rpm\"\n";
+    let file = read::parse("teeth.toml", text, folder.path("")).unwrap();
+    for steps in [16, 2000] {
+        let figures = duty(&file, steps).unwrap().figures(|i| i.input_torque);
+        // The curve through 90 rows a period: 5/384·(TAU/90)⁴ of the amplitude.
+        near("RMS", figures.rms, 7.0 / 2f64.sqrt(), 1e-6);
+        within("mean", figures.mean, 0.0, budget::DUTY * 7.0);
+    }
+}
+
+/// A recorded speed, in few instants and many: a sine of 36 periods, whose torque is J·α.
+#[test]
+fn rows_are_seen() {
+    let folder = Folder::new();
+    let (base, most, rate) = (20.0, 5.0, 0.72);
+    let mut csv = "t [s],omega [rad/s]\n".to_owned();
+    for k in 0..=5000 {
+        let t = f64::from(k) / 100.0;
+        let _ = writeln!(csv, "{t:.6},{:.12}", base + most * (TAU * rate * t).sin());
+    }
+    folder.file("record.csv", csv);
+    let text = format!(
+        "{}[motion]\ntype = \"profile\"\nfile = \"record.csv\"\ncyclic = false\n",
+        DRUM.split("[[mass]]").next().unwrap()
+    );
+    let file = read::parse("table.toml", &text, folder.path("")).unwrap();
+    let of = |sampling: Sampling| duty(&file, sampling).unwrap().figures(|i| i.input_torque);
+    let fine = of(Sampling {
+        tolerance: 1e-12,
+        steps: 20_000,
+    });
+    let inertia = 20.0 * 0.25 * 0.25 / 2.0;
+    let exact = inertia * most * TAU * rate / 2f64.sqrt();
+    // The slope of the curve through 139 rows a period is off by the fourth power of the step in the mean of its square.
+    near("RMS", fine.rms, exact, 1e-6);
+    for steps in [16, 2000] {
+        near("RMS", of(steps.into()).rms, fine.rms, budget::DUTY);
+        within("mean", of(steps.into()).mean, 0.0, budget::DUTY * exact);
+    }
+}
+
+/// What comes out does not depend on the tolerance, but for that.
+#[test]
+fn a_smaller_tolerance_changes_nothing() {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let of = |tolerance: f64, steps: usize| {
+        let duty = duty(&file, Sampling { tolerance, steps }).unwrap();
+        let torque = duty.figures(|i| i.input_torque);
+        let power = duty.figures(|i| i.input_torque * i.input_speed);
+        let cubes = duty.integral(|i| i.input_speed.abs() * i.input_torque.abs().powf(10.0 / 3.0));
+        [torque.mean, torque.rms, power.mean, power.rms, cubes]
+    };
+    let fine = of(1e-12, 20_000);
+    for (tolerance, steps) in [(1e-9, 16), (1e-9, 2000), (1e-12, 16), (1e-6, 16)] {
+        for (found, fine) in of(tolerance, steps).into_iter().zip(fine) {
+            near("integral", found, fine, tolerance.max(1e-11));
+        }
+    }
+}
+
+/// More turns than fit into memory are an error that says so, at once.
+#[test]
+fn too_many_turns_are_refused() {
+    let fault = duty(&turning(360e6, ""), 2000).unwrap_err();
+    assert!(matches!(fault, Fault::Fine { .. }), "{fault}");
+    let words = format!("{fault}; {}", fault.cure());
+    for part in ["4000000 instants", "of 100000 s", "one cycle that repeats"] {
+        assert!(words.contains(part), "{words}");
+    }
+}
+
+/// A nanosecond in an hour is resolved, or is an error that names it.
+#[test]
+fn a_nanosecond_in_an_hour() {
+    let text = |tiny: &str| {
+        format!(
+            "{DRUM}[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"360 deg\"\nduration = \"3600 s\"\n\
+             [[motion.segment]]\n{tiny}\n"
+        )
+    };
+    let of = |tiny: &str| {
+        let file = read::parse("drum.toml", &text(tiny), Path::new("")).unwrap();
+        duty(&file, 2000)
+    };
+    let still = of("dwell = \"1e-9 s\"")
+        .unwrap()
+        .figures(|i| i.input_torque)
+        .rms;
+    let without = of("dwell = \"1e-6 s\"")
+        .unwrap()
+        .figures(|i| i.input_torque)
+        .rms;
+    near("RMS", still, without, 1e-9);
+    // A whole turn in that time: its acceleration is all that counts, 2π·2π/T² in the sine, and the time is known to 4e-4 of it.
+    match of("law = \"cycloidal\"\nmove = \"360 deg\"\nduration = \"1e-9 s\"") {
+        Ok(duty) => {
+            let squares = duty.integral(|i| i.input_torque * i.input_torque);
+            let most = INERTIA * TAU * TAU / 1e-18;
+            near("T²", squares, most * most * 0.5e-9, 1e-2);
+        }
+        Err(fault) => {
+            let words = fault.to_string();
+            assert!(words.contains("between 3600"), "{words}");
+        }
+    }
+}
+
+/// Positions that do not belong to the speeds: the weight would give energy from nowhere.
+#[test]
+fn energy_from_nowhere_is_an_error() {
+    let file = turning(360.0, "");
+    let node = |t: f64, phi: f64| Node {
+        t,
+        step: if t > 0.0 { 0.5 } else { 0.0 },
+        phi,
+        omega: 1.0,
+        alpha: [0.0; 2],
+    };
+    // 1 rad/s for 1 s is 1 rad, not 1.2 rad.
+    let right = Motion::nodes(&[node(0.0, 0.0), node(0.5, 0.5), node(1.0, 1.0)], false);
+    assert!(Duty::new(&file, &right, 2000).is_ok());
+    let wrong = Motion::nodes(&[node(0.0, 0.0), node(0.5, 0.5), node(1.0, 1.2)], false);
+    let fault = Duty::new(&file, &wrong, 2000).unwrap_err();
+    let Fault::Unbalanced { work, spent, .. } = fault else {
+        panic!("{fault}");
+    };
+    near("gain", spent, TORQUE * 1.2f64.sin(), 1e-8);
+    assert!((work - spent).abs() > 1e-3, "{work} {spent}");
+    let words = format!("{fault}; {}", fault.cure());
+    for part in ["does not balance", "between 0", "must belong together"] {
+        assert!(words.contains(part), "{words}");
+    }
+}
