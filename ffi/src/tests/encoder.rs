@@ -205,7 +205,7 @@ fn the_header_computes_the_bits_of_rust() {
 
 #[test]
 fn an_encoder_is_that_of_the_header() {
-    assert_eq!(size_of::<Encoder>(), 32);
+    assert_eq!(size_of::<Encoder>(), 24);
     assert_eq!(size_of::<StrokeEncoder>(), 48);
     assert_eq!(size_of::<Scaled>(), 24);
     assert_eq!(

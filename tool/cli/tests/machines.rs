@@ -60,7 +60,17 @@ fn tables_need_as_many_cells_as_documented() {
     for (error, cells) in [("0.1", 66), ("0.01", 797)] {
         let asked = format!("{error} N m");
         let (path, out) = (machine("geneva.toml"), folder.path("table.img"));
-        let run = jred([&"export", &path, &"--torque-error", &asked, &"--out", &out]).ends(0);
+        let run = jred([
+            &"export",
+            &path,
+            &"--torque-error",
+            &asked,
+            &"--layout",
+            &"spline",
+            &"--out",
+            &out,
+        ])
+        .ends(0);
         assert!(run.out.contains(&format!("{cells} cells")), "{}", run.out);
         assert!(
             doc.contains(&format!("{cells} cells for {error} N·m")),
@@ -73,6 +83,8 @@ fn tables_need_as_many_cells_as_documented() {
         &path,
         &"--torque-error",
         &"0.01 N m",
+        &"--layout",
+        &"spline",
         &"--pieces",
         &"auto",
     ])

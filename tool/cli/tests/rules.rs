@@ -70,7 +70,7 @@ fn the_command_line() {
         .ends(0)
         .out;
     assert!(
-        csv.starts_with("rule,key,limit,warning,source\nRMS torque,rms_torque,80 %,,"),
+        csv.starts_with("rule,key,limit,warning,unit,sense,state,source\nRMS torque,rms_torque,80,,%,at most,on,"),
         "{csv}"
     );
     assert_eq!(

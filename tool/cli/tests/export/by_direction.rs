@@ -8,6 +8,10 @@ use super::{export_of, words_of};
 use crate::support::{Folder, press_file};
 
 const TABLE: &str = include_str!("friction_by_direction.toml");
+/// A motion in both directions, in place of one that turns.
+const BOTH_WAYS: &str = "type = \"cycle\"\n\
+    [[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"90 deg\"\nduration = \"0.5 s\"\n\
+    [[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"-90 deg\"\nduration = \"0.5 s\"";
 /// m·d²/8 of the table.
 const INERTIA: f64 = 20.0 * 0.3 * 0.3 / 8.0;
 const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
@@ -98,10 +102,7 @@ fn a_slider_has_its_friction_in_both_directions() {
             "opposing_force = \"40 N\"",
             "opposing_force = \"40 N\"\ndirection = \"forward\"",
         )
-        .replace(
-            "opposing_moment = \"0.3 N m\"",
-            "opposing_moment = \"0.3 N m\"",
-        );
+        .replace("type = \"constant-speed\"\nspeed = \"240 rpm\"", BOTH_WAYS);
     std::fs::write(&file, text).unwrap();
     let out = folder.path("slider.jred");
     let more = [

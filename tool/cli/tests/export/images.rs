@@ -310,7 +310,7 @@ fn load(words: &[u32]) -> Result<f32, ImageError> {
 #[test]
 fn a_damaged_file_is_refused() {
     let folder = Folder::new();
-    let words = image(&folder, &["--torque-error", "2 N m"]);
+    let words = image(&folder, &["--torque-error", "2 N m", "--layout", "spline"]);
     let whole: &[u8] = bytemuck::cast_slice(&words);
     load(&words).unwrap();
     for length in 0..words.len() {

@@ -174,6 +174,8 @@ fn steep_edges_that_are_no_whole_phases_hold_their_error() {
         "auto",
         "--torque-error",
         "0.1 N m",
+        "--layout",
+        "spline",
         "--format",
         "json",
     ];
@@ -195,7 +197,14 @@ fn a_single_piece_begins_at_its_edge() {
     // Where a turn from the edge on is rounded up, and where not.
     for degrees in [60, 104] {
         let edge = format!("{degrees} deg");
-        let arguments = ["--pieces", &edge, "--torque-error", "2 N m"];
+        let arguments = [
+            "--pieces",
+            &edge,
+            "--torque-error",
+            "2 N m",
+            "--layout",
+            "spline",
+        ];
         let run = export_of(
             &press_file(),
             &[&arguments[..], &["--format", "json"]].concat(),
@@ -263,6 +272,8 @@ fn a_stroke_in_pieces_holds_its_error() {
     let arguments = [
         "--torque-error",
         "2 N",
+        "--layout",
+        "spline",
         "--pieces",
         "150 mm, 172.5 mm, 130 mm",
         "--format",

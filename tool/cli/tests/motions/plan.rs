@@ -39,6 +39,8 @@ fn a_plan_is_the_motion() {
         press,
         "--torque-error",
         "2 N m",
+        "--layout",
+        "spline",
         "--out",
         table.to_str().unwrap(),
     ])

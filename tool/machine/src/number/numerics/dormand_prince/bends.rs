@@ -142,11 +142,12 @@ impl Sides {
         for (which, own) in self.sides.iter().enumerate() {
             for three in seen.windows(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| three[k].1[which] * own);
-                let nears = a > b && c > b && b > 0.0;
                 let bow = a - 2.0 * b + c;
-                // The vertex of the parabola, and its value.
+                // The vertex of the parabola, which may lie on either side of the middle, and its value.
                 let shift = 0.5 * (a - c) / bow;
-                if nears && b - 0.125 * (a - c).powi(2) / bow < 0.1 * b {
+                let least = a.min(b).min(c);
+                let bottom = b - 0.125 * (a - c).powi(2) / bow;
+                if bow > 0.0 && shift.abs() < 1.0 && least > 0.0 && bottom < 0.1 * least {
                     let share = three[1].0 + shift * (three[2].0 - three[1].0);
                     found.push((share, at(share)?));
                 }
