@@ -277,8 +277,8 @@ torque = "0.001 N m"
     let [process, losses] =
         ["process work [J]", "losses [J]"].map(|name| *found.get(name).last().unwrap());
     assert!((losses / (2.0 * way) - 1.0).abs() < 1e-9, "{losses} {way}");
-    // Four whole windows of 80° by half their ramps.
-    let turns = (way / TAU).floor();
+    // Whole windows of 80° by half their ramps: one has passed after half of a turn.
+    let turns = (way / TAU + 0.5).floor();
     assert!(
         (process / (-30.0 * 80.0 / 360.0 * TAU * turns) - 1.0).abs() < 1e-9,
         "{process} {turns}"
