@@ -66,7 +66,7 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
         swing,
         1e-9,
     );
-    near("fluctuation", figures.fluctuation, swing, 1e-5);
+    near("fluctuation", figures.fluctuation, swing, 1e-9);
     // The flywheel: δ·J·ω² = swing with (ω_max + ω_min)/2; with the mean over the time it differs in the second order of δ.
     let request = Request {
         delta: Some(0.01),

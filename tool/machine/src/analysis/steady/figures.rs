@@ -77,8 +77,8 @@ impl Figures {
             }
             nodes.push((x, y));
         }
-        let fastest = extreme(turning, &nodes, begin, 1.0)?;
-        let slowest = extreme(turning, &nodes, begin, -1.0)?;
+        let fastest = extreme_speed(turning, &nodes, begin, 1.0)?;
+        let slowest = extreme_speed(turning, &nodes, begin, -1.0)?;
         let Some((_, [_, period, motor, process, losses, torques, squares])) =
             nodes.last().copied()
         else {
@@ -96,12 +96,10 @@ impl Figures {
         let mut course = Columns::new(heads(plant.columns(), Terms::default()));
         let mut start = None;
         let (mut imbalance, mut turned_over) = (0.0f64, 0.0f64);
-        let mut kinetic = [f64::INFINITY, 0.0f64];
+        let [most, least] = [1.0, -1.0].map(|side| extreme(turning, &nodes, begin, side, kinetic));
+        let fluctuation = most?[0] - least?[0];
         let mut listed = listed.into_iter().peekable();
         for (k, (x, y)) in nodes.iter().enumerate() {
-            let [inertia, _] = plant.inertia(turning.at(*x))?;
-            let now = inertia * y[0];
-            kinetic = [kinetic[0].min(now), kinetic[1].max(now)];
             if listed.next_if_eq(&k).is_none() {
                 continue;
             }
@@ -149,7 +147,7 @@ impl Figures {
             power: [motor / period, torque_time(&power)],
             motor_speed,
             works: [motor, process, losses],
-            fluctuation: kinetic[1] - kinetic[0],
+            fluctuation,
             imbalance: imbalance / turned_over,
             course,
             nodes,
@@ -187,27 +185,55 @@ pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
         Reached::End([_, period, ..]) => period,
         Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
     };
-    let fastest = extreme(turning, &nodes, begin, 1.0)?;
-    let slowest = extreme(turning, &nodes, begin, -1.0)?;
+    let fastest = extreme_speed(turning, &nodes, begin, 1.0)?;
+    let slowest = extreme_speed(turning, &nodes, begin, -1.0)?;
     Ok((fastest[0] - slowest[0]) * period / turning.span())
 }
 
+/// ½ω² at a place, and its slope along the way.
+fn squares(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
+    let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
+    Ok([z, alpha * turning.direction])
+}
+
+/// The kinetic energy ½Jω² of all that moves (J), and its slope along the way.
+fn kinetic(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
+    let [inertia, slope] = turning.plant.inertia(turning.at(x))?;
+    let [_, along] = squares(turning, x, z)?;
+    Ok([inertia * z, inertia * along + turning.direction * slope * z])
+}
+
 /// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the cycle it is.
-fn extreme(
+fn extreme_speed(
     turning: &Turning,
     nodes: &[(f64, State)],
     begin: f64,
     side: f64,
 ) -> Result<[f64; 2], SteadyError> {
-    let mut best = (0, f64::NEG_INFINITY);
-    for (k, (_, y)) in nodes.iter().enumerate() {
-        if side * y[0] > best.1 {
-            best = (k, side * y[0]);
+    let [most, x] = extreme(turning, nodes, begin, side, squares)?;
+    Ok([(2.0 * most).sqrt(), x])
+}
+
+/// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², which is given with its slope, and how far from the start
+/// of the cycle it is.
+fn extreme(
+    turning: &Turning,
+    nodes: &[(f64, State)],
+    begin: f64,
+    side: f64,
+    quantity: impl Fn(&Turning, f64, f64) -> Result<[f64; 2], SteadyError>,
+) -> Result<[f64; 2], SteadyError> {
+    let of = |x: f64, z: f64| Ok(quantity(turning, x, z)?.map(|value| side * value));
+    let known: Result<Vec<[f64; 2]>, SteadyError> =
+        nodes.iter().map(|(x, y)| of(*x, y[0])).collect();
+    let known = known?;
+    let mut found = [f64::NEG_INFINITY, 0.0];
+    for ((x, _), [value, _]) in nodes.iter().zip(&known) {
+        if *value > found[0] {
+            found = [*value, *x];
         }
     }
-    let (k, _) = best;
-    let mut found = (nodes[k].0, nodes[k].1[0]);
-    for pair in nodes.windows(2) {
+    for (pair, ends) in nodes.windows(2).zip(known.windows(2)) {
         let [from, to] = [pair[0], pair[1]];
         let z = |x: f64| -> Result<f64, SteadyError> {
             if x <= from.0 {
@@ -218,22 +244,18 @@ fn extreme(
                 Reached::Stopped(_) => Ok(0.0),
             }
         };
-        let slope = |x: f64, z: f64| -> Result<f64, SteadyError> {
-            let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
-            Ok(alpha * turning.direction * side)
-        };
-        let slopes = [slope(from.0, from.1[0])?, slope(to.0, to.1[0])?];
-        let most =
-            (side * from.1[0]).max(side * to.1[0]) + slopes[0].max(-slopes[1]) * (to.0 - from.0);
-        if slopes[0] > 0.0 && slopes[1] <= 0.0 && most > side * found.1 {
-            let x = numerics::zero(|x| slope(x, z(x)?), [from.0, to.0], slopes, 1e-15)?;
-            let there = z(x)?;
-            if side * there > side * found.1 {
-                found = (x, there);
+        let values = [ends[0][0], ends[1][0]];
+        let slopes = [ends[0][1], ends[1][1]];
+        let most = values[0].max(values[1]) + slopes[0].max(-slopes[1]) * (to.0 - from.0);
+        if slopes[0] > 0.0 && slopes[1] <= 0.0 && most > found[0] {
+            let x = numerics::zero(|x| Ok(of(x, z(x)?)?[1]), [from.0, to.0], slopes, 1e-15)?;
+            let [there, _] = of(x, z(x)?)?;
+            if there > found[0] {
+                found = [there, x];
             }
         }
     }
-    Ok([(2.0 * found.1).sqrt(), found.0])
+    Ok([side * found[0], found[1]])
 }
 
 /// The largest value of `f` between two speeds.
