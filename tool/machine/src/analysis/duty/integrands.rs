@@ -19,6 +19,10 @@ const PROCESS: usize = 17;
 /// Roundings of a torque, as a share of the sum of its terms' magnitudes.
 const ROUNDING: f64 = 1e-13;
 
+/// Share of the tolerance up to which an error that is that share of the terms' magnitudes counts as a rounding: where the terms nearly cancel, what is
+/// left of them is known no better.
+const OF_TERMS: f64 = 0.01;
+
 /// Share of the tolerance of a whole integral that one panel may add, where its curve jumps unseen.
 const OF_WHOLE: f64 = 1e-3;
 
@@ -70,7 +74,11 @@ pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
 
 /// Integrals and their errors.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sums(pub(super) [Estimate; COUNT]);
+pub(super) struct Sums {
+    integrals: [Estimate; COUNT],
+    /// What they would be if the terms of the torque did not cancel.
+    terms: [f64; COUNT],
+}
 
 /// What is allowed of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -110,14 +118,16 @@ impl Sums {
             } = found;
             let [error, size] = [half * error, half * size];
             let whole = allowed.sizes[j] * allowed.share.max(OF_WHOLE);
-            let most = (0.5 * allowed.tolerance * size.max(whole)).max(half * roundings[j]);
+            let terms = half * roundings[j] / ROUNDING;
+            let rounding = terms * ROUNDING.max(OF_TERMS * allowed.tolerance);
+            let most = (0.5 * allowed.tolerance * size.max(whole)).max(rounding);
             if error > 0.0 {
                 excess = excess.max(error / most);
             }
-            sums.0[j] = Estimate {
+            sums.terms[j] = terms.max(size);
+            sums.integrals[j] = Estimate {
                 integral: half * integral,
-                // What is rounding is not made smaller by smaller panels.
-                error: (error - half * roundings[j]).max(0.0),
+                error,
                 size,
             };
         }
@@ -125,21 +135,24 @@ impl Sums {
     }
 
     pub(super) fn add(&mut self, other: &Self) {
-        for (sum, other) in self.0.iter_mut().zip(&other.0) {
+        for (sum, other) in self.integrals.iter_mut().zip(&other.integrals) {
             sum.integral += other.integral;
             sum.error += other.error;
             sum.size += other.size;
         }
+        for (sum, other) in self.terms.iter_mut().zip(other.terms) {
+            *sum += other;
+        }
     }
 
-    /// ∫|f| of each integrand.
-    pub(super) fn sizes(&self) -> [f64; COUNT] {
-        self.0.map(|sum| sum.size)
+    /// The largest error as a share of the integral of the terms.
+    pub(super) fn reached(&self) -> f64 {
+        self.error(&self.terms)
     }
 
-    /// The largest error as a share of ∫|f|, of these sizes.
+    /// The largest error as a share of these sizes.
     pub(super) fn error(&self, sizes: &[f64; COUNT]) -> f64 {
-        let shares = self.0.iter().zip(sizes).map(|(sum, size)| {
+        let shares = self.integrals.iter().zip(sizes).map(|(sum, size)| {
             if sum.error > 0.0 {
                 sum.error / size
             } else {
@@ -151,7 +164,7 @@ impl Sums {
 
     /// Work at the input, and what loads and losses take of it (J).
     pub(super) fn work(&self) -> [f64; 2] {
-        let of = |j: usize| self.0[j].integral;
+        let of = |j: usize| self.integrals[j].integral;
         [of(WORK), of(LOSS) + of(FRICTION) + of(PROCESS)]
     }
 
@@ -159,7 +172,7 @@ impl Sums {
     pub(super) fn moved(&self) -> f64 {
         [WORK, LOSS, GAIN, GAIN + 1, FRICTION, PROCESS]
             .into_iter()
-            .map(|j| self.0[j].size)
+            .map(|j| self.integrals[j].size)
             .fold(0.0, f64::max)
     }
 }
