@@ -223,7 +223,9 @@ fn extreme(
     side: f64,
     quantity: impl Fn(&Turning, f64, f64) -> Result<[f64; 2], SteadyError>,
 ) -> Result<[f64; 2], SteadyError> {
-    let of = |x: f64, z: f64| Ok(quantity(turning, x, z)?.map(|value| side * value));
+    let of = |x: f64, z: f64| -> Result<[f64; 2], SteadyError> {
+        Ok(quantity(turning, x, z)?.map(|value| side * value))
+    };
     let known: Result<Vec<[f64; 2]>, SteadyError> =
         nodes.iter().map(|(x, y)| of(*x, y[0])).collect();
     let known = known?;
@@ -248,7 +250,12 @@ fn extreme(
         let slopes = [ends[0][1], ends[1][1]];
         let most = values[0].max(values[1]) + slopes[0].max(-slopes[1]) * (to.0 - from.0);
         if slopes[0] > 0.0 && slopes[1] <= 0.0 && most > found[0] {
-            let x = numerics::zero(|x| Ok(of(x, z(x)?)?[1]), [from.0, to.0], slopes, 1e-15)?;
+            let x = numerics::zero(
+                |x| Ok::<_, SteadyError>(of(x, z(x)?)?[1]),
+                [from.0, to.0],
+                slopes,
+                1e-15,
+            )?;
             let [there, _] = of(x, z(x)?)?;
             if there > found[0] {
                 found = [there, x];

@@ -69,7 +69,11 @@ fn values_are_exact_to_the_last_digit() {
         ("4 N.m", &TORQUE, 4.0),
         ("2 m/s2", &ACCELERATION, 2.0),
         // 550 ft·lbf/s with the exact foot, pound and standard gravity; 75 kgf·m/s.
-        ("2 hp", &POWER, 2.0 * 550.0 * 0.3048 * 0.45359237 * 9.80665),
+        (
+            "2 hp",
+            &POWER,
+            2.0 * 550.0 * 0.3048 * 0.453_592_37 * 9.80665,
+        ),
         ("2 PS", &POWER, 2.0 * 75.0 * 9.80665),
         ("97 %", &SHARE, 0.97),
         ("0.97", &SHARE, 0.97),
