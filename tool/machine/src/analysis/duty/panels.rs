@@ -534,12 +534,13 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 }
 
-/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth.
-const LITTLE: f64 = 0.3;
+/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth, at
+/// a kink half.
+const LITTLE: f64 = 0.7;
 
 /// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
-const IDLE: u32 = 3;
-const NOISE: f64 = 1e-5;
+const IDLE: u32 = 5;
+const NOISE: f64 = 1e-6;
 
 /// Halvings of a panel at most.
 const DEEPEST: u32 = 60;

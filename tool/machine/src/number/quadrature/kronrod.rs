@@ -5,7 +5,7 @@
 //! ```
 //!
 //! K with 2n + 1 places is exact to degree 3n + 1, G with n of them to 2n − 1. The estimate is that of R. Piessens and others, QUADPACK,
-//! Springer 1983: where both rules converge, K does so by far more digits than G, and where they do not, as at a kink, it is cautious.
+//! Springer 1983: where both rules converge, K does so by far more digits than G, and where they do not, as at a kink, it is cautious. It is taken for no less than 0.15·|K − G|.
 //! The polynomial through the places is taken in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM
 //! Review 46 (2004) 501).
 
@@ -35,6 +35,9 @@ pub struct Estimate {
     /// ∫|f|.
     pub size: f64,
 }
+
+/// Share of |K − G| that an estimate is not below: at a slight kink K is hardly better than G.
+const OF_DIFFERENCE: f64 = 0.15;
 
 /// Share of ∫|f| that an estimate is not below: rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -78,7 +81,7 @@ impl Rule {
         };
         Estimate {
             integral,
-            error: error.max(ROUNDING * size),
+            error: error.max(OF_DIFFERENCE * difference).max(ROUNDING * size),
             size,
         }
     }
