@@ -92,7 +92,8 @@ typedef struct {
 } jred_mounting;
 
 typedef struct {
-    uint64_t step;
+    int32_t lower;
+    uint32_t upper;
     uint64_t start;
     int32_t rest;
 } jred_encoder;
@@ -138,9 +139,8 @@ typedef struct {
 /* The phase at a count of 32 bits. A register that overflows while the machine goes on turning keeps its angle only if 2^32 counts are
  * whole turns of the drive link: take jred_counter_extend and jred_encoder_phase_wide. */
 static inline uint32_t jred_encoder_phase(const jred_encoder *encoder, int32_t count) {
-    /* The lower word of the step with a sign, so that both factors of the long product have one; the upper word makes up for it. */
-    const int32_t lower = (int32_t)(uint32_t)encoder->step;
-    const uint32_t upper = (uint32_t)(encoder->step >> 32) + (uint32_t)(lower < 0);
+    const int32_t lower = encoder->lower;
+    const uint32_t upper = encoder->upper;
 #if JRED_SHORT_MULTIPLY_
     const int32_t a1 = count >> 16, a0 = count & 0xffff, b1 = lower >> 16, b0 = lower & 0xffff;
     const uint32_t low = (uint32_t)a0 * (uint32_t)b0, start = (uint32_t)encoder->start;
@@ -155,9 +155,10 @@ static inline uint32_t jred_encoder_phase(const jred_encoder *encoder, int32_t c
 
 /* The phase at a count of 64 bits. Here, above and below a negative number is shifted to the right as all compilers for these cores do it. */
 static inline uint32_t jred_encoder_phase_wide(const jred_encoder *encoder, int64_t count) {
+    const uint64_t step = ((uint64_t)encoder->upper << 32) + (uint64_t)(int64_t)encoder->lower;
     const int64_t upper = (count >> 32) * encoder->rest;
     const int64_t lower = ((int64_t)(uint32_t)count * encoder->rest) >> 32;
-    return (uint32_t)(((uint64_t)count * encoder->step + (uint64_t)(upper + lower) + encoder->start) >> 32);
+    return (uint32_t)(((uint64_t)count * step + (uint64_t)(upper + lower) + encoder->start) >> 32);
 }
 
 static inline jred_place jred_place_(int64_t place) {

@@ -13,7 +13,7 @@ int main(void) {
         uint32_t bits, reading;
         switch (kind) {
         case 't':
-            if (scanf("%" SCNu64 "%" SCNu64 "%" SCNd32 "%" SCNd64, &turn.step, &turn.start, &turn.rest, &count) != 4) return 1;
+            if (scanf("%" SCNd32 "%" SCNu32 "%" SCNu64 "%" SCNd32 "%" SCNd64, &turn.lower, &turn.upper, &turn.start, &turn.rest, &count) != 5) return 1;
             printf("%" PRIu32 " %" PRIu32 "\n", jred_encoder_phase(&turn, (int32_t)(uint32_t)(uint64_t)count), jred_encoder_phase_wide(&turn, count));
             break;
         case 's': {

@@ -4,7 +4,7 @@ use core::num::NonZeroU128;
 
 use super::AxisError;
 use crate::Phase;
-use crate::number::upper_of_sum;
+use crate::number::{signed_words, upper_of_sum};
 
 /// Which way an encoder counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,8 +81,9 @@ impl Mounting {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
 pub struct Encoder {
-    /// Turns a count in units of 2⁻⁶⁴, to the nearest, modulo a turn.
-    step: u64,
+    /// Turns a count in units of 2⁻⁶⁴, to the nearest, modulo a turn: `upper`·2³² + `lower`.
+    lower: i32,
+    upper: u32,
     /// The phase of count 0 in units of 2⁻⁶⁴, and half a unit of a phase.
     start: u64,
     /// The rest of `step`, in units of 2⁻⁹⁶.
@@ -145,9 +146,10 @@ impl Encoder {
         };
         let nearest = (step + (1 << 31)) >> 32;
         let rest = (step as i128 - ((nearest as i128) << 32)) as i32;
-        let step = nearest as u64;
+        let (lower, upper) = signed_words(nearest as u64);
         Ok(Self {
-            step,
+            lower,
+            upper,
             start: home.wrapping_add(HALF),
             rest,
         })
@@ -157,7 +159,7 @@ impl Encoder {
     #[must_use]
     #[inline(always)]
     pub const fn phase(&self, count: i32) -> Phase {
-        Phase::from_bits(upper_of_sum(count, self.step, self.start))
+        Phase::from_bits(upper_of_sum(count, (self.lower, self.upper), self.start))
     }
 
     /// The phase at a count of 64 bits.
@@ -165,11 +167,12 @@ impl Encoder {
     #[inline]
     pub const fn phase_wide(&self, count: i64) -> Phase {
         let rest = self.rest as i64;
+        let step = ((self.upper as u64) << 32).wrapping_add(self.lower as u64);
         // 95 bits, floored to units of 2⁻⁶⁴.
         let upper = (count >> 32) * rest;
         let lower = (count as u32 as i64 * rest) >> 32;
         let phase = (count as u64)
-            .wrapping_mul(self.step)
+            .wrapping_mul(step)
             .wrapping_add((upper + lower) as u64)
             .wrapping_add(self.start);
         Phase::from_bits((phase >> 32) as u32)

@@ -48,7 +48,7 @@ pub(crate) use kernel::{Kernel, Ring};
 
 pub(crate) use factor::Factor;
 pub(crate) use fence::fence;
-pub(crate) use product::{high, upper_of_sum};
+pub(crate) use product::{high, signed_words, upper_of_sum};
 pub use quantity::Quantity;
 pub use role::Role;
 pub(crate) use scalar::Outcome;

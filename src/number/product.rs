@@ -47,12 +47,15 @@ fn high_short_by_halves(x: i32, u: i32) -> i32 {
     (x >> 16).wrapping_mul(n).wrapping_add(low)
 }
 
-/// Floor of (a·b + c)/2³², modulo 2³².
-#[inline(always)]
-pub(crate) const fn upper_of_sum(a: i32, b: u64, c: u64) -> u32 {
-    // The lower word of b with a sign, so that both factors of the long product have one; the upper word makes up for it.
+/// The words of b = upper·2³² + lower, the lower one with a sign, so that both factors of a long product have one.
+pub(crate) const fn signed_words(b: u64) -> (i32, u32) {
     let lower = b as i32;
-    let upper = ((b >> 32) as u32).wrapping_add((lower < 0) as u32);
+    (lower, ((b >> 32) as u32).wrapping_add((lower < 0) as u32))
+}
+
+/// Floor of (a·b + c)/2³², modulo 2³², by the [`signed_words`] of b.
+#[inline(always)]
+pub(crate) const fn upper_of_sum(a: i32, (lower, upper): (i32, u32), c: u64) -> u32 {
     let sum = if cfg!(short_multiply) {
         upper_of_short_sum_by_halves(a, lower, c)
     } else {
@@ -82,7 +85,10 @@ const fn upper_of_short_sum_by_halves(a: i32, b: i32, c: u64) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{high_by_halves, high_short_by_halves, upper_of_short_sum_by_halves, upper_of_sum};
+    use super::{
+        high_by_halves, high_short_by_halves, signed_words, upper_of_short_sum_by_halves,
+        upper_of_sum,
+    };
 
     /// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), after the extremes.
     fn numbers() -> impl Iterator<Item = i32> + Clone {
@@ -130,7 +136,7 @@ mod tests {
                 let halves = upper_of_short_sum_by_halves(a, b, c);
                 assert_eq!(halves, exact(b.into()), "{a} · {b} + {c}");
                 let long = i64::from(b) << 32 | i64::from(b.rotate_left(7) ^ a);
-                let sum = upper_of_sum(a, long as u64, c);
+                let sum = upper_of_sum(a, signed_words(long as u64), c);
                 assert_eq!(sum, exact((long as u64).into()), "{a} · {long} + {c}");
             }
         }

@@ -134,9 +134,10 @@ fn the_header_computes_the_bits_of_rust() {
         assert_eq!(encoder, Encoder::new(mounting.into()).unwrap());
         for _ in 0..8 {
             let count = numbers.count();
-            let [step, start] = [0, 8].map(|at| field::<u64, _>(&encoder, at));
+            let (lower, upper) = (field::<i32, _>(&encoder, 0), field::<u32, _>(&encoder, 4));
+            let start: u64 = field(&encoder, 8);
             let rest: i32 = field(&encoder, 16);
-            writeln!(asked, "t {step} {start} {rest} {count}").unwrap();
+            writeln!(asked, "t {lower} {upper} {start} {rest} {count}").unwrap();
             let [narrow, wide] = [encoder.phase(count as i32), encoder.phase_wide(count)];
             expected.push(format!("{} {}", narrow.to_bits(), wide.to_bits()));
         }
@@ -219,9 +220,10 @@ fn an_encoder_is_that_of_the_header() {
     };
     let encoder = Encoder::new(up).unwrap();
     // A turn in units of 2⁻⁶⁴ over 10,000, to the nearest; half a unit of a phase at count 0.
+    let (lower, upper) = (field::<i32, _>(&encoder, 0), field::<u32, _>(&encoder, 4));
     assert_eq!(
-        field::<u64, _>(&encoder, 0),
-        ((1_u128 << 64) + 5000).div_euclid(10_000) as u64
+        (i128::from(upper) << 32) + i128::from(lower),
+        ((1 << 64) + 5000) / 10_000
     );
     assert_eq!(field::<u64, _>(&encoder, 8), 1 << 31);
 }
