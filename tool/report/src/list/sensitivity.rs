@@ -41,7 +41,9 @@ pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach
         let [down, up] = dependence.room.each_ref().map(|r| room(r, words));
         let mut cells: Vec<Cell> = vec![
             quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
-            quantity.map(|q| q.number()).into(),
+            quantity
+                .map(jred_sizing::study::edit::Quantity::number)
+                .into(),
             quantity.map_or(Cell::Empty, |q| q.unit().into()),
             steepest.map_or("nothing".into(), |slope| slope.rule.named(words).into()),
             steepest.map(|slope| slope.slope).into(),

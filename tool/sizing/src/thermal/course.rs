@@ -220,7 +220,7 @@ impl Course {
     pub fn change(&self, network: &Network, until: f64) -> Change {
         let mut change = Change::default();
         self.parts(network, until, |piece| {
-            change = change.then(&piece.change(network))
+            change = change.then(&piece.change(network));
         });
         change
     }

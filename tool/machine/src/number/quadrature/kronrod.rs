@@ -296,7 +296,7 @@ mod tests {
     #[test]
     fn the_polynomial_through_the_places() {
         for (rule, n) in RULES {
-            let f = |x: f64| (0..2 * n + 1).fold(0.0, |sum, k| sum * x + f64::from(k) - 2.5);
+            let f = |x: f64| (0..=2 * n).fold(0.0, |sum, k| sum * x + f64::from(k) - 2.5);
             let values = values(rule, f);
             for x in [-1.0, -0.97, -0.3, 0.0, 0.434_243_749_346_802_56, 0.5, 1.0] {
                 assert!(

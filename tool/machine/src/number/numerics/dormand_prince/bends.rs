@@ -86,7 +86,7 @@ impl Sides {
             let share = k as f64 / PARTS as f64;
             seen.push((share, at(share)?));
         }
-        for k in self.excursions(&seen, &at)? {
+        for k in self.excursions(&seen, at)? {
             seen.push(k);
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
