@@ -9,6 +9,9 @@ use crate::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
 /// Number of integrands.
 pub(super) const COUNT: usize = 18;
 
+/// Place of the torque at the input.
+const TORQUE: usize = 0;
+
 /// Places of those of the energy balance.
 const WORK: usize = 4;
 const LOSS: usize = 13;
@@ -91,14 +94,15 @@ pub(super) struct Allowed<'s> {
 }
 
 impl Sums {
-    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and the largest error as a share of what is allowed, where it is not
-    /// rounding.
+    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and the largest error as a share of what is allowed, and of the integral by
+    /// the time.
     pub(super) fn over(
         rule: &Rule,
         places: &[Evaluated],
+        ends: [&Evaluated; 2],
         half: f64,
         allowed: Allowed,
-    ) -> (Self, f64) {
+    ) -> (Self, [f64; 2]) {
         let mut values = [[0.0; MOST_PLACES]; COUNT];
         let mut roundings = [0.0; COUNT];
         for (place, (now, weight)) in places.iter().zip(rule.weights()).enumerate() {
@@ -108,7 +112,7 @@ impl Sums {
             }
         }
         let mut sums = Self::default();
-        let mut excess = 0.0f64;
+        let [mut excess, mut rough] = [0.0f64; 2];
         for (j, values) in values.iter().enumerate() {
             let found = rule.estimate(&values[..places.len()]);
             let Estimate {
@@ -116,13 +120,31 @@ impl Sums {
                 error,
                 size,
             } = found;
-            let [error, size] = [half * error, half * size];
+            let beyond = if j == TORQUE {
+                let values = &values[..places.len()];
+                let middle = places[places.len() / 2].instant.t;
+                let off = ends.map(|end| {
+                    let x = (end.instant.t - middle) / half;
+                    (rule.at(values, x) - end.instant.input_torque).abs()
+                });
+                off[0] + off[1]
+            } else {
+                0.0
+            };
+            // A kink between the last place and the end, which neither rule sees.
+            let beyond = 0.5 * (1.0 - rule.places()[places.len() - 1]) * beyond;
+            let [error, size] = [half * (error + beyond), half * size];
             let whole = allowed.sizes[j] * allowed.share.max(OF_WHOLE);
             let terms = half * roundings[j] / ROUNDING;
             let rounding = terms * ROUNDING.max(OF_TERMS * allowed.tolerance);
             let most = (0.5 * allowed.tolerance * size.max(whole)).max(rounding);
             if error > 0.0 {
                 excess = excess.max(error / most);
+                // By the time alone: there halving makes no rounding smaller.
+                if error > most {
+                    let even = size.max(allowed.sizes[j] * allowed.share);
+                    rough = rough.max(error / even);
+                }
             }
             sums.terms[j] = terms.max(size);
             sums.integrals[j] = Estimate {
@@ -131,7 +153,7 @@ impl Sums {
                 size,
             };
         }
-        (sums, excess)
+        (sums, [excess, rough])
     }
 
     pub(super) fn add(&mut self, other: &Self) {

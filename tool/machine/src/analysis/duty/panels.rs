@@ -66,8 +66,8 @@ struct Way {
     depth: u32,
     /// The last ones of them that made the error little smaller.
     idle: u32,
-    /// The error as a multiple of what is allowed.
-    excess: f64,
+    /// The error as a share of the integral by the time.
+    error: f64,
 }
 
 impl Default for Way {
@@ -75,18 +75,18 @@ impl Default for Way {
         Self {
             depth: 0,
             idle: 0,
-            excess: f64::INFINITY,
+            error: f64::INFINITY,
         }
     }
 }
 
 impl Way {
-    fn further(self, excess: f64) -> Self {
-        let is_idle = excess > LITTLE * self.excess;
+    fn further(self, error: f64) -> Self {
+        let is_idle = error > LITTLE * self.error;
         Self {
             depth: self.depth + 1,
             idle: if is_idle { self.idle + 1 } else { 0 },
-            excess,
+            error,
         }
     }
 }
@@ -259,9 +259,12 @@ impl<'a, 'm> Panels<'a, 'm> {
             }
         }
         for most in &mut self.flows {
-            if *most < UNSIGNED * noise {
-                *most = f64::INFINITY;
-            }
+            *most = if *most < UNSIGNED * noise {
+                f64::INFINITY
+            } else {
+                // Nor is the sign of less than the roundings of its terms one.
+                most.max(noise)
+            };
         }
         Ok(())
     }
@@ -338,7 +341,9 @@ impl<'a, 'm> Panels<'a, 'm> {
         for (place, x) in places.iter_mut().zip(rule.places()) {
             *place = self.moving.at(stretch.clamp(middle + half * x))?;
         }
-        let is_short = half <= 4.0 * f64::EPSILON * to.abs() || way.depth > DEEPEST;
+        // Where a move comes to rest the sign of the speed is a rounding for about that time.
+        let shortest = INSIDE * (stretch.to - stretch.from);
+        let is_short = half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || way.depth > DEEPEST;
         if stretch.moves && !is_short {
             let cuts = self.changes(stretch, ends, places)?;
             if (1..=MOST_CUTS).contains(&cuts.len()) {
@@ -353,9 +358,12 @@ impl<'a, 'm> Panels<'a, 'm> {
             sizes: &self.sizes,
             share: (to - from) / self.duration,
         };
-        let (sums, excess) = Sums::over(rule, places, half, allowed);
-        let way = way.further(excess);
-        let is_noise = way.idle >= IDLE && excess * self.tolerance <= NOISE;
+        let (sums, [excess, rough]) =
+            Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
+        let way = way.further(rough);
+        let is_noise = IDLE
+            .iter()
+            .any(|(idle, noise)| way.idle >= *idle && rough <= *noise);
         if excess > 1.0 && !is_short && !is_noise {
             let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
             return self.parts(stretch, ends, &[cut], false, way);
@@ -539,8 +547,7 @@ impl<'a, 'm> Panels<'a, 'm> {
 const LITTLE: f64 = 0.7;
 
 /// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
-const IDLE: u32 = 5;
-const NOISE: f64 = 1e-6;
+const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
 
 /// Halvings of a panel at most.
 const DEEPEST: u32 = 60;
