@@ -380,7 +380,8 @@ fn pieces_of(
     let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
     let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
     let least = KNOWN * (estimates[0].size + estimates[1].size);
-    let constant = known.iter().all(|losses| losses == &known[0]);
+    let constant =
+        (known.windows(2)).all(|two| two[0].map(f64::to_bits) == two[1].map(f64::to_bits));
     let parts = if constant { 1.0 } else { parts };
     let mut pieces = Vec::with_capacity(parts as usize);
     let mut k = 0.0;

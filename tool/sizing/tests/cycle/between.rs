@@ -147,7 +147,8 @@ fn a_drum_gives_back_what_it_takes() {
         }
         // The bearings' mean: ⟨|sin|^(10/3)⟩ = Γ(13/6)/(√π·Γ(8/3)).
         let mean = cycle.mean_output_torque(10.0 / 3.0);
-        let exact = most * (1.082339222568379_f64 / (PI.sqrt() * 1.5045754882515563)).powf(0.3);
+        let exact =
+            most * (1.082_339_222_568_379_f64 / (PI.sqrt() * 1.504_575_488_251_556_3)).powf(0.3);
         near("bearings", mean, exact, 1e-9);
     }
 }

@@ -313,7 +313,8 @@ mod tests {
     /// The error is not above its estimate where a curve is smooth, and where it has a kink.
     #[test]
     fn errors_are_estimated() {
-        let curves: [(fn(f64) -> f64, f64); 4] = [
+        type Curve = fn(f64) -> f64;
+        let curves: [(Curve, f64); 4] = [
             (f64::exp, 1f64.exp() - (-1f64).exp()),
             (|x| (9.0 * x).cos(), 2.0 * 9f64.sin() / 9.0),
             (|x| 1.0 / (1.0 + 25.0 * x * x), 0.4 * 5f64.atan()),
