@@ -90,7 +90,8 @@ fn smallest(
         let count = (samples * share).ceil().clamp(FEWEST, MOST);
         // Between stretches the acceleration may jump: a hair inside.
         let hair = 1e-9 * (to - from);
-        let at = |share: f64| (from + share * (to - from)).clamp(from + hair, to - hair);
+        let last = (to - hair).min(to.next_down()).max(from);
+        let at = |share: f64| (from + share * (to - from)).max(from + hair).min(last);
         let (mut place, mut least) = (0.0, f64::INFINITY);
         for k in 0..=count as u32 {
             let value = force(at(f64::from(k) / count))?;
