@@ -35,15 +35,12 @@ impl From<CMounting> for Mounting {
 
 /// Keeps what was made; zeros, whose phase is 0, if it cannot be.
 fn keep<E>(memory: &mut MaybeUninit<E>, made: Result<E, AxisError>) -> Status {
-    match made {
-        Ok(encoder) => {
-            memory.write(encoder);
-            Status::Ok
-        }
-        Err(_) => {
-            *memory = MaybeUninit::zeroed();
-            Status::Figure
-        }
+    if let Ok(encoder) = made {
+        memory.write(encoder);
+        Status::Ok
+    } else {
+        *memory = MaybeUninit::zeroed();
+        Status::Figure
     }
 }
 

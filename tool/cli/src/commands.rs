@@ -172,7 +172,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
     warn_of_supply(drive, file);
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
     for assumption in envelope.assumptions() {
-        output::warn(&assumption.to_string());
+        output::warn(&assumption.clone());
     }
     envelope
 }
@@ -181,7 +181,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
 fn warn_of_supply(drive: &Drive, file: &MachineFile) {
     let limits = Prepared::new(drive.motor, drive.amplifier, &file.site);
     if let Some(unfit) = limits.unfit(&file.rules) {
-        output::warn(&unfit.to_string());
+        output::warn(&unfit.clone());
     }
 }
 

@@ -28,6 +28,7 @@ use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
+use jred_motion::trace::Trace;
 use jred_motion::way::{Actuator, Way};
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
@@ -72,11 +73,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         ("--plan", &options.plan.plan),
         ("--report", &options.report),
     ])?;
-    let reserve = match options.reserve {
-        None => Reserve::default(),
-        Some(Asked::Share(share)) => Reserve::of_motor(share),
-        Some(Asked::Rules) => Reserve::of(&file.rules),
-    };
+    let reserve = reserve(options, &file);
     let (limits, asked) = limits(options, &file, &chosen.limits)?;
     let limits = limits.with_reserve(reserve);
     let rms = rms(options, &file, &chosen)?;
@@ -85,7 +82,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(task) => {
             let task = Task { limits, ..task };
             passable(options, &file, &chosen.actuator, &task)?;
-            Motion::Move(task)
+            Motion::Move(Box::new(task))
         }
         None => of_motion(&file, &limits, rms)?,
     };
@@ -125,15 +122,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let broken = broken(&file, &cycle.trace).map_err(core_report)?;
     let trace = cycle.trace.of_axis(&file.axis());
     let mut files = Files::default();
-    if let Some(path) = &options.profile {
-        files.add(path, trace.profile().as_bytes())?;
-    }
-    if let Some(path) = &options.cam {
-        files.add(
-            path,
-            trace.cam(options.rows as usize, options.master).as_bytes(),
-        )?;
-    }
+    series(options, &trace, &mut files)?;
     let planned = plan::write(
         &options.plan,
         (&file, &cycle.trace),
@@ -162,15 +151,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     files.finish()?;
     print_parts(answer.write(options.format).map_err(core_report)?)?;
     if options.format == Format::Table {
-        for (what, path) in [
-            ("profile", &options.profile),
-            ("cam table", &options.cam),
-            ("report", &options.report),
-        ] {
-            if let Some(path) = path {
-                print(&format!("{what} written to {}\n", plain::path(path)))?;
-            }
-        }
+        written(options)?;
         print(&planned)?;
     }
     let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
@@ -180,6 +161,42 @@ pub fn fastest(options: &Options) -> Result<Done> {
     } else {
         Done::Holds
     })
+}
+
+/// The motion as files: a profile and a cam table.
+fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
+    if let Some(path) = &options.profile {
+        files.add(path, trace.profile().as_bytes())?;
+    }
+    if let Some(path) = &options.cam {
+        files.add(
+            path,
+            trace.cam(options.rows as usize, options.master).as_bytes(),
+        )?;
+    }
+    Ok(())
+}
+
+/// Says which files were written.
+fn written(options: &Options) -> Result<()> {
+    for (what, path) in [
+        ("profile", &options.profile),
+        ("cam table", &options.cam),
+        ("report", &options.report),
+    ] {
+        if let Some(path) = path {
+            print(&format!("{what} written to {}\n", plain::path(path)))?;
+        }
+    }
+    Ok(())
+}
+
+fn reserve(options: &Options, file: &MachineFile) -> Reserve {
+    match options.reserve {
+        None => Reserve::default(),
+        Some(Asked::Share(share)) => Reserve::of_motor(share),
+        Some(Asked::Rules) => Reserve::of(&file.rules),
+    }
 }
 
 fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {

@@ -15,6 +15,8 @@ const BOTH_WAYS: &str = "type = \"cycle\"\n\
 /// m·d²/8 of the table.
 const INERTIA: f64 = 20.0 * 0.3 * 0.3 / 8.0;
 const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+/// Of a slider, whose friction depends on the position.
+const SLIDER: Set = curves::LOAD | curves::COULOMB;
 
 fn of<Q: Quantity>(value: f64) -> Q {
     Q::of(Q::Number::from_f64(value).unwrap())
@@ -125,7 +127,6 @@ fn a_slider_has_its_friction_in_both_directions() {
         let force = if omega > 0.0 { 40.0 } else { -90.0 };
         force * slope.abs() + 0.3 * omega.signum()
     };
-    const SLIDER: Set = curves::LOAD | curves::COULOMB;
     let found = worst::<jred::Cubic<f32>, SLIDER>(&words_of(&out), [1e-3, 0.0], exact);
     assert!(found < 0.01, "{found}");
     // The closed form holds one friction.

@@ -1,5 +1,6 @@
 //! The name of a table in a program.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 /// The name of a table in a program: a word of C and of Rust, with which the names of a source file begin.
@@ -56,7 +57,7 @@ fn word(text: &str) -> String {
         if c.is_ascii_alphanumeric() {
             name.push(c);
         } else if c.is_alphanumeric() {
-            name += &format!("u{:x}", u32::from(c));
+            let _ = write!(name, "u{:x}", u32::from(c));
         } else {
             name.push('_');
         }

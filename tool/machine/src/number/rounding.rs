@@ -133,8 +133,8 @@ mod tests {
         // 0.1 + 0.2 − 0.3 is 5.6e-17.
         let left = 0.1_f64 + 0.2 - 0.3;
         assert!(left != 0.0 && of_terms(left, 0.3) == 0.0);
-        assert_eq!(of_terms(-1e-11, 1.0), -1e-11);
-        assert_eq!(of_terms(0.0, 0.0), 0.0);
+        assert_eq!(of_terms(-1e-11, 1.0).to_bits(), (-1e-11_f64).to_bits());
+        assert_eq!(of_terms(0.0, 0.0).to_bits(), 0);
     }
 
     #[test]

@@ -60,7 +60,9 @@ pub(super) fn read(
     let mut names = Names::of("carriages or loads");
     if let Some(item) = root.peek("load") {
         let sections = item.sections("[[load]]")?;
-        sections.iter().for_each(|section| names.take(section));
+        for section in &sections {
+            names.take(section);
+        }
     }
     for section in &sections {
         let carriage = carriage(section, files, &machine, loads, of_machine)?;

@@ -153,12 +153,11 @@ fn curve(
     };
     let mut advance = 0.0;
     let motion = if columns.get(POSITION).is_some() && columns.get(SPEED).is_some() {
-        let nodes = match columns.get(ACCELERATION) {
-            Some(accelerations) => states::nodes(columns, &times, accelerations)?,
-            None => {
-                let slopes = states::slopes(columns, &times, request.cyclic).map_err(unmade)?;
-                states::nodes(columns, &times, &slopes)?
-            }
+        let nodes = if let Some(accelerations) = columns.get(ACCELERATION) {
+            states::nodes(columns, &times, accelerations)?
+        } else {
+            let slopes = states::slopes(columns, &times, request.cyclic).map_err(unmade)?;
+            states::nodes(columns, &times, &slopes)?
         };
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;

@@ -294,13 +294,12 @@ pub(crate) fn has(
     other: &Known,
 ) -> Result<bool, Fault> {
     let text = &*layout.without_skipped(text);
-    let titles: Vec<Title> = match &layout.titles {
-        Some((titles, _)) => titles.iter().map(|title| Title::of(title)).collect(),
-        None => {
-            let table = Table::read(text)?;
-            let titles = table.header().iter();
-            titles.map(|title| Title::of(unquoted(title))).collect()
-        }
+    let titles: Vec<Title> = if let Some((titles, _)) = &layout.titles {
+        titles.iter().map(|title| Title::of(title)).collect()
+    } else {
+        let table = Table::read(text)?;
+        let titles = table.header().iter();
+        titles.map(|title| Title::of(unquoted(title))).collect()
     };
     let mapped = layout.mapped.iter().flatten();
     let named = mapped.map(|mapped| (mapped.name, &mapped.title));

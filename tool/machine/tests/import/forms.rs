@@ -287,7 +287,8 @@ fn other_files_are_mapped_as_well() {
     assert!((torque + 3.0).abs() < 1e-12, "{torque}");
     let curves = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"reduced-curves\"\nfile = \"curves.csv\"\nrange = \"stroke\"\n\
                   header = [\"a [mm]\", \"b [kg]\"]\ncolumns = { position = \"a\", mass = \"b\" }\n";
-    let rows: String = (0..8).map(|k| format!("{},4\n", 20 * k)).collect();
+    let rows = (0..8).map(|k| format!("{},4\n", 20 * k));
+    let rows = rows.collect::<Vec<_>>().concat();
     let file = parse(curves, &[("curves.csv", &rows)]).unwrap();
     let mass = file.bare_reduction(0.05).unwrap().inertia;
     assert!((mass - 4.0).abs() < 1e-12, "{mass}");

@@ -32,9 +32,8 @@ fn joints_close(text: &str) {
         let phi = from + (to - from) * f64::from(k) / 500.0;
         let frames = mechanism.frames(phi).unwrap();
         for joint in &mechanism.joints(phi, &frames).unwrap() {
-            if let Joint::Revolute(markers) = joint {
-                let [a, b] =
-                    [&markers[0], &markers[1]].map(|m| m.position(&frames).map(|c| c.value));
+            if let Joint::Revolute([first, second]) = joint {
+                let [a, b] = [first, second].map(|m| m.position(&frames).map(|c| c.value));
                 assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12, "at {phi}");
             }
         }

@@ -13,8 +13,8 @@ fn asked(text: &str, request: &Request) -> Result<Steady, SteadyError> {
     steady(&file, file.simulation.as_ref().unwrap(), request)
 }
 
-fn mean_speed(speed: f64, by: Level) -> Option<MeanSpeed> {
-    Some(MeanSpeed { speed, by })
+fn mean_speed(speed: f64, by: Level) -> MeanSpeed {
+    MeanSpeed { speed, by }
 }
 
 /// A moment of 40 N m over 140° of two turns (half of each ramp counts), on a rotor of 0.4 kg m².
@@ -30,7 +30,7 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
     let text = rotor(STROKE, "torque = \"-1 N m\"");
     let speed = 30.0;
     let request = Request {
-        mean_speed: mean_speed(speed, Level::Motor),
+        mean_speed: Some(mean_speed(speed, Level::Motor)),
         ..Request::default()
     };
     let cycle = checked(asked(&text, &request)).cycle.unwrap();
@@ -109,7 +109,7 @@ fn a_load_is_found_for_a_mean_speed() {
     let friction = "[[load]]\nname = \"friction\"\non = \"shaft-1\"\nopposing_moment = \"2 N m\"";
     let motor = "torque_speed = [[\"0 rad/s\", \"10 N m\"], [\"100 rad/s\", \"0 N m\"]]";
     let request = Request {
-        mean_speed: mean_speed(30.0, Level::Load("friction".to_owned())),
+        mean_speed: Some(mean_speed(30.0, Level::Load("friction".to_owned()))),
         ..Request::default()
     };
     let cycle = checked(asked(&rotor(friction, motor), &request))
@@ -117,7 +117,7 @@ fn a_load_is_found_for_a_mean_speed() {
         .unwrap();
     near("factor", cycle.held.unwrap().factor, 3.5, 1e-9);
     let request = Request {
-        mean_speed: mean_speed(30.0, Level::Load("fan".to_owned())),
+        mean_speed: Some(mean_speed(30.0, Level::Load("fan".to_owned()))),
         ..Request::default()
     };
     let why = asked(&rotor(friction, motor), &request).unwrap_err();
@@ -129,7 +129,7 @@ fn a_load_is_found_for_a_mean_speed() {
 fn turns_are_those_of_the_loads() {
     let text = rotor(STROKE, "torque = \"-1 N m\"");
     let with = |turns| Request {
-        mean_speed: mean_speed(30.0, Level::Motor),
+        mean_speed: Some(mean_speed(30.0, Level::Motor)),
         turns: Some(turns),
         ..Request::default()
     };

@@ -139,6 +139,9 @@ pub(super) fn largest_excess(
     let direction = field.way.direction;
     let mut largest = (0.0_f64, ends.from);
     let mut places = Vec::new();
+    if within.is_infinite() {
+        return Ok((largest, places));
+    }
     for (pair, piece) in trace.nodes().windows(2).zip(pieces) {
         let [a, b] = [&pair[0], &pair[1]];
         let cell = &track.cells[piece.cell];

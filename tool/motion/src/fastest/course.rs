@@ -138,14 +138,10 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
             }
             let (pieces, times) = slivers::without(&track, pieces, &times);
             let trace = trace(way, &ends, &track, &pieces, &times);
-            let (worst, places) = if within.is_finite() {
-                between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?
-            } else {
-                ((0.0, self.from), Vec::new())
-            };
-            let falls = worst.0 < FALLS * lowest;
-            if falls {
-                (lowest, idle) = (worst.0, 0);
+            let ((excess, phi), places) =
+                between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
+            if excess < FALLS * lowest {
+                (lowest, idle) = (excess, 0);
             } else {
                 idle += 1;
             }
@@ -153,7 +149,6 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                 finer.extend(places);
                 continue;
             }
-            let (excess, phi) = worst;
             if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
                 return Err(NoMotion::NotAccurate {
                     excess,

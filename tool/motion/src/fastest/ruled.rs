@@ -214,6 +214,18 @@ struct Tried<W> {
     findings: Findings,
 }
 
+/// What the motion has of a quantity that a cap limits: a higher cap does nothing.
+fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
+    let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
+    let own = match cap {
+        Cap::MotorTorque => 1.0,
+        Cap::GearboxTorque => value(Rule::GearboxPeak),
+        Cap::Speed => value(Rule::Speed),
+        Cap::RmsTorque => tried.cycle.load.rms,
+    };
+    own.min(tried.caps.get(cap))
+}
+
 /// The search for the fastest motion that the rules accept.
 struct Search<'s, W> {
     judge: &'s Judge<'s>,
@@ -221,8 +233,11 @@ struct Search<'s, W> {
     rms: Option<Rms>,
     /// Whether the motor's heat is limited by rules.
     heat: bool,
-    make: &'s dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused>,
+    make: &'s Make<'s, W>,
 }
+
+/// Makes the motion of some limits, with what goes with it.
+type Make<'s, W> = dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused> + 's;
 
 impl<W> Search<'_, W> {
     fn at(&self, caps: Caps) -> Result<Tried<W>, Refused> {
@@ -245,22 +260,10 @@ impl<W> Search<'_, W> {
         sought.into_iter().all(|cap| self.used(tried, *cap) <= 1.0)
     }
 
-    /// What the motion has of a quantity that a cap limits: a higher cap does nothing.
-    fn has(&self, tried: &Tried<W>, cap: Cap) -> f64 {
-        let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
-        let own = match cap {
-            Cap::MotorTorque => 1.0,
-            Cap::GearboxTorque => value(Rule::GearboxPeak),
-            Cap::Speed => value(Rule::Speed),
-            Cap::RmsTorque => tried.cycle.load.rms,
-        };
-        own.min(tried.caps.get(cap))
-    }
-
     /// Lowers a cap until its rules are kept; `None`: they are not kept by lowering it.
     fn lowered(&self, cap: Cap, from: &Tried<W>) -> Option<Tried<W>> {
         // Cap and use of it: too high, and low enough.
-        let mut high = [self.has(from, cap), self.used(from, cap)];
+        let mut high = [has(from, cap), self.used(from, cap)];
         let mut low: Option<([f64; 2], Tried<W>)> = None;
         // Where no motion is left.
         let mut least = 0.0_f64;

@@ -6,7 +6,7 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_machine::model::rules::{Limit, Verdict};
 use jred_machine::model::{drive_train, variator};
 use jred_machine::read;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless};
@@ -140,7 +140,7 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
     // Without the rule for T2N the fixed point of the shock factor is left: one inertia, a constant friction, a torque of the gearbox output ±T with
     // the belt's losses on the side on which they are.
     let mut changes = file.rules.clone();
-    changes.set(Rule::GearboxCubicMean, Default::default());
+    changes.set(Rule::GearboxCubicMean, Limit::default());
     file.rules = changes;
     let (cycle, judged) = made(&file, &chain, drive, None).unwrap();
     let [(Cap::GearboxTorque, torque)] = judged.caps[..] else {

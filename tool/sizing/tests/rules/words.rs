@@ -77,6 +77,7 @@ fn judged(change: impl Fn(&mut Stand, &mut Amplifier)) -> Vec<(Rule, Finding, Ch
 
 /// The figure in its unit is the finding, and the limit a share of the rating that the note names.
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn every_rule_has_its_unit_and_names_its_limit() {
     let found = judged(|_, _| {});
     for (rule, unit, scale, rating) in [

@@ -12,7 +12,7 @@ use jred_motion::way::Actuator;
 /// What is made as fast as possible.
 pub(super) enum Motion {
     /// One move.
-    Move(Task),
+    Move(Box<Task>),
     /// That of the file.
     Chain(Chain),
 }
@@ -38,7 +38,7 @@ impl Motion {
             Self::Move(task) => {
                 let task = Task {
                     limits: *limits,
-                    ..*task
+                    ..**task
                 };
                 single(file, actuator, task, rms).map_err(|why| (None, why))
             }
@@ -84,7 +84,7 @@ pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -
     if chain.endless && (limits.has_rates() || rms.is_some()) {
         return Err(miette!(
             help = "leave them out, or give one move with --from and --to",
-            "the motion of {} turns for ever: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
+            "the motion of {} turns endlessly: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
             file.name
         ));
     }

@@ -320,16 +320,16 @@ mod tests {
             tolerance: 1e-6,
             most_steps: 1000,
         };
-        let last = |accuracy: Accuracy, bends: &dyn Fn(f64, &[f64; 1]) -> Result<Vec<f64>, ()>| {
-            let steps = accuracy.steps(f, bends, [0.0], 10.0, |_, _| Ok(false));
+        let enough = |_, _: &[f64; 1]| Ok(false);
+        let last = |steps: Result<Vec<(f64, [f64; 1])>, _>| {
             let steps = steps.unwrap();
             (steps[steps.len() - 1].1[0], steps.len())
         };
-        let (found, _) = last(rough, &bends);
+        let (found, _) = last(rough.steps(f, bends, [0.0], 10.0, enough));
         assert!((found - exact).abs() < rough.tolerance, "{found} {exact}");
-        let (found, count) = last(FINE, &bends);
+        let (found, count) = last(FINE.steps(f, bends, [0.0], 10.0, enough));
         assert!((found - exact).abs() < 1e-13, "{found} {exact}");
-        let (_, blind) = last(FINE, &|_, _| Ok(Vec::new()));
+        let (_, blind) = last(FINE.steps(f, smooth, [0.0], 10.0, enough));
         assert!(2 * count < blind, "{count} {blind}");
         // Each place is a step's end.
         let steps = FINE.steps(f, bends, [0.0], 10.0, |_, _| Ok(false)).unwrap();

@@ -41,6 +41,7 @@ pub(super) enum Found<const N: usize> {
 }
 
 /// Where a step begins.
+#[derive(Clone, Copy)]
 pub(super) struct Begin<'a, const N: usize> {
     pub(super) x: f64,
     pub(super) y: &'a [f64; N],
