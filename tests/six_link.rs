@@ -289,9 +289,10 @@ fn what_cannot_turn_is_refused_with_its_reason() {
         refused([0.1, 0.5, 0.2], 0.2, 0.0),
         "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make the rod longer than 0.250000 m, shorten the crank, or drive it over a stroke that stays inside φ = -76.71° and 76.71°, its dead points"
     );
+    // Guide above: l₂·sin φ₂ = 0.05 and more is within reach, from φ₂ = asin 0.1 = 5.739° on: φ = φ₂ + asin 0.2, and φ₂ + 180° − asin 0.2.
     assert_eq!(
         refused([0.1, 0.5, 0.3], 0.2, -0.35),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make the rod longer than 0.600000 m, or shorten the crank"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make the rod longer than 0.600000 m, shorten the crank, or drive it over a stroke that stays inside φ = 17.28° and 174.20°, its dead points"
     );
     // Whitworth, guide above: the rocker points down too far first, at φ₂ = 180° + asin(2/3).
     assert_eq!(

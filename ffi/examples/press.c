@@ -12,15 +12,14 @@
 static long milli(float x) { return (long)(x * 1000.0f + (x < 0.0f ? -0.5f : 0.5f)); }
 
 static press_model press;
-static jred_encoder encoder;
+/* On the crank, counting up from phi = 0. */
+static const jred_encoder encoder = JRED_ENCODER(COUNTS, 1, 1, false, 0);
 
 int main(void) {
     /* Once, at start-up. The image stays where it is, in flash. Any fault of it shows here. */
     jred_info info;
     jred_status status = jred_image_info(press_words, sizeof press_words / sizeof press_words[0], &info);
     if (status == JRED_OK) status = press_load(&press);
-    const jred_mounting mounting = {COUNTS, {1, 1}, false, 0}; /* on the crank, counting up from phi = 0 */
-    if (status == JRED_OK) status = jred_encoder_make(&encoder, &mounting);
     if (status != JRED_OK) {
         printf("FAILED: %s\n", jred_status_name(status));
         return 1;

@@ -101,6 +101,38 @@ typedef struct {
 /* JRED_FIGURE: no counts a turn, a zero in the gear, or less than two counts a turn of the drive link. */
 jred_status jred_encoder_make(jred_encoder *encoder, const jred_mounting *mounting);
 
+/* The same encoder from constants, as the initializer of one that the compiler knows, so that nothing is loaded or checked in the tick:
+ *
+ *     static const jred_encoder encoder = JRED_ENCODER(10000, 17, 2, true, 1234);
+ *
+ * counts_per_turn*gear_0 less than 2^32; what jred_encoder_make refuses does not compile. */
+#define JRED_ENCODER(counts_per_turn, gear_0, gear_1, counts_down, home)                                                       \
+    JRED_ENCODER_((uint64_t)(counts_per_turn) * (uint64_t)(gear_0), (uint64_t)(gear_1), counts_down, (int64_t)(home))
+#define JRED_ENCODER_(per, link, down, home)                                                                                   \
+    {JRED_LOWER_(JRED_STEP_(per, link, down)), JRED_UPPER_(JRED_STEP_(per, link, down)),                                       \
+     JRED_START_(JRED_HOME_(per, link, home), down) + 0u * sizeof(char[JRED_FIGURES_(per, link) ? 1 : -1]),                    \
+     (int32_t)(uint32_t)((down) ? 0u - JRED_DIGIT_3_(per, link) : JRED_DIGIT_3_(per, link))}
+#define JRED_FIGURES_(per, link) ((per) <= UINT32_MAX && (link) > 0 && (link) <= UINT32_MAX && (per) / 2u >= (link))
+/* link/per of a turn a count to 96 bits, in three digits of 32 bits; the last one is rounded. */
+#define JRED_REST_1_(per, link) (((link) << 32) % (per))
+#define JRED_REST_2_(per, link) ((JRED_REST_1_(per, link) << 32) % (per))
+#define JRED_DIGIT_3_(per, link) (((JRED_REST_2_(per, link) << 32) + (per) / 2u) / (per))
+#define JRED_DIGITS_(per, link) (((((link) << 32) / (per)) << 32) + (JRED_REST_1_(per, link) << 32) / (per))
+/* To the nearest of 64 bits: of -x where it counts down. */
+#define JRED_STEP_(per, link, down)                                                                                            \
+    ((down) ? 0u - JRED_DIGITS_(per, link) - (JRED_DIGIT_3_(per, link) > 0x80000000u ? 1u : 0u)                                \
+            : JRED_DIGITS_(per, link) + (JRED_DIGIT_3_(per, link) >= 0x80000000u ? 1u : 0u))
+#define JRED_LOWER_(step) ((int32_t)(uint32_t)(step))
+#define JRED_UPPER_(step) ((uint32_t)((step) >> 32) + ((uint32_t)(step) >> 31))
+/* home mod per, without a sign; the phase of it to 64 bits; that of count 0 with half a unit. */
+#define JRED_WITHIN_(per, home)                                                                                                \
+    ((home) >= 0 ? (uint64_t)(home) % (per) : ((per) - (0u - (uint64_t)(home)) % (per)) % (per))
+#define JRED_TURNED_(per, link, home) (JRED_WITHIN_(per, home) * (link) % (per))
+#define JRED_HOME_(per, link, home)                                                                                            \
+    (((JRED_TURNED_(per, link, home) << 32) / (per) << 32) +                                                                   \
+     (((JRED_TURNED_(per, link, home) << 32) % (per)) << 32) / (per))
+#define JRED_START_(home, down) (((down) ? (home) : 0u - (home)) + 0x80000000u)
+
 /* A drive link that has a stroke: s = at_home + (count - home)*resolution. */
 typedef struct {
     double resolution; /* m a count, or rad; negative if it counts down while the position grows */
@@ -241,13 +273,13 @@ typedef struct {
 /* Any set of curves. */
 #define JRED_ANY 0xffff
 
-/* A tick looks whether the model is there, three instructions in its caller. Define JRED_UNCHECKED before this header where the status
+/* A tick looks whether the model, which is not null, was loaded: three instructions in its caller. Define JRED_UNCHECKED before this header where the status
  * of every load is looked at, to leave that out. */
 #ifdef JRED_UNCHECKED
 #define JRED_IS_LOADED_(model, set) true
 #else
 #define JRED_IS_LOADED_(model, set) \
-    ((model) != NULL && ((set) == JRED_ANY ? (model)->memory.tag != 0 : (model)->memory.tag == (uintptr_t)(set) + 1))
+    ((set) == JRED_ANY ? (model)->memory.tag != 0 : (model)->memory.tag == (uintptr_t)(set) + 1)
 #endif
 
 /* A machine by its name, format and set of curves, as `jred export --format c` writes them:

@@ -49,6 +49,22 @@ static void encoders(void) {
     EXPECT(jred_encoder_make(&encoder, &mounting), JRED_FIGURE);
     CLAIM(jred_encoder_phase(&encoder, 77) == 0 && jred_encoder_phase_wide(&encoder, 77) == 0);
     EXPECT(jred_encoder_make(NULL, &mounting), JRED_NULL);
+#define SAME(counts, gear_0, gear_1, down, home)                                                                             \
+    do {                                                                                                                     \
+        static const jred_encoder known = JRED_ENCODER(counts, gear_0, gear_1, down, home);                                  \
+        const jred_mounting figures = {counts, {gear_0, gear_1}, down, home};                                                \
+        jred_encoder made;                                                                                                   \
+        EXPECT(jred_encoder_make(&made, &figures), JRED_OK);                                                                 \
+        CLAIM(known.lower == made.lower && known.upper == made.upper && known.start == made.start && known.rest == made.rest); \
+    } while (0)
+    SAME(10000, 17, 2, true, 1234);
+    SAME(10000, 1, 1, false, 0);
+    SAME(4096, 101, 7, false, -98765432109);
+    SAME(8388608, 511, 1, true, -5);
+    SAME(2, 1, 1, true, 1);
+    SAME(65535, 65537, 2147483647, false, INT64_MIN);
+    SAME(3, 1, 1, false, INT64_MAX);
+    SAME(1000003, 4093, 977, true, INT64_MIN + 1);
     EXPECT(jred_encoder_make(&encoder, NULL), JRED_NULL);
 
     /* 24 bits a turn of a screw of 10 mm: 800 mm are 80 turns. The register begins below 2^31 and passes it. */
@@ -145,8 +161,8 @@ int main(void) {
     CLAIM(press_torque(&press, 0x40000000u, 10.0f, 50.0f) == 0.0f);
     CLAIM(fixed_torque(&fixed, 0x40000000u, 1 << 20, 1 << 20) == 0 && halves_torque(&halves, 0x40000000u, 100, 100) == 0);
     CLAIM(cubic_acceleration(&cubic, 0x40000000u, 10.0f, 50.0f) == 0.0f);
-    CLAIM(crank_torque(&crank, 0x40000000u, 10.0f, 50.0f) == 0.0f && crank_torque(NULL, 0, 10.0f, 50.0f) == 0.0f);
-    CLAIM(crank_acceleration_range(NULL, 0, 10.0f, -50.0f, 50.0f).greatest == 0.0f);
+    CLAIM(crank_torque(&crank, 0x40000000u, 10.0f, 50.0f) == 0.0f);
+    CLAIM(crank_acceleration_range(&crank, 0, 10.0f, -50.0f, 50.0f).greatest == 0.0f);
 
     EXPECT(press_load(&press), JRED_OK);
     EXPECT(any_load_words(&any, press_words, WORDS), JRED_OK);

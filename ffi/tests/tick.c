@@ -59,7 +59,7 @@ static uint32_t q15_bits(int16_t x) { return (uint32_t)(int32_t)x; }
 KERNELS(KERNEL)
 
 /* From a count to a torque, as a program calls it: with the look whether there is a model. */
-static jred_encoder encoder;
+static const jred_encoder encoder = JRED_ENCODER(10000, 1, 1, false, 0);
 
 #define COUNTED(kernel, format, n, set)                                                                                      \
     JRED_MODEL(kernel##_counts, format, set);                                                                                \
@@ -69,9 +69,7 @@ static jred_encoder encoder;
     }                                                                                                                        \
     static jred_status run_##kernel##_counts(point *points, size_t count) {                                                  \
         kernel##_counts_model model;                                                                                         \
-        const jred_mounting mounting = {10000, {1, 1}, false, 0};                                                            \
-        jred_status status = jred_encoder_make(&encoder, &mounting);                                                         \
-        if (status == JRED_OK) status = kernel##_counts_load_words(&model, words, length);                                   \
+        jred_status status = kernel##_counts_load_words(&model, words, length);                                              \
         for (point *p = points; status == JRED_OK && p < points + count; p++)                                                \
             p->phase = n##_bits(c_##kernel##_counts(&model, (int32_t)p->phase, n##_of(p->omega), n##_of(p->third)));         \
         return status;                                                                                                       \

@@ -21,6 +21,9 @@ const BETWEEN_SWEPT_NODES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
 /// Parts of a cell at whose borders a motion is looked at, at those that are next to the places above: there the machine is known from the round before.
 const GRID: f64 = 1024.0;
 
+/// A shorter step is looked at where it is, not at the grid's few places in it.
+const FEWEST_IN_STEP: f64 = 16.0;
+
 /// Share of a cell within which two places are one.
 const SAME: f64 = 1e-12;
 
@@ -151,21 +154,25 @@ pub(super) fn largest_excess(
         let distance = |state: &State<f64>| (state.phi - ends.from) * direction;
         // What is exceeded, and what finer cells can do about it.
         let (mut most, mut curable) = (0.0_f64, 0.0_f64);
-        for share in BETWEEN_SWEPT_NODES {
-            let x = distance(&b.after(a, share));
-            let grid = ((x - cell.x) / cell.length * GRID).round() / GRID;
-            let x = within_cell(cell.x + grid * cell.length);
-            // The share of the step at which it passes there; a place outside the step is none of its own.
-            let share = passes(share, |share| {
-                let state = b.after(a, share);
-                [distance(&state) - x, state.omega * direction * b.step]
-            });
+        let passed = (b.phi - a.phi) * direction;
+        let has_grid = passed * GRID > FEWEST_IN_STEP * cell.length;
+        for mut share in BETWEEN_SWEPT_NODES {
+            let mut x = distance(&b.after(a, share));
+            if has_grid {
+                let grid = ((x - cell.x) / cell.length * GRID).round() / GRID;
+                let on_grid = within_cell(cell.x + grid * cell.length);
+                // The share of the step at which it passes there; a place outside the step is none of its own.
+                share = passes(share, |share| {
+                    let state = b.after(a, share);
+                    [distance(&state) - on_grid, state.omega * direction * b.step]
+                });
+                x = distance(&b.after(a, share));
+                if is_near(x, on_grid, cell.length) {
+                    x = on_grid;
+                }
+            }
             let state = b.after(a, share);
-            let seen = survey.seen(within_cell(if is_near(distance(&state), x, cell.length) {
-                x
-            } else {
-                distance(&state)
-            }))?;
+            let seen = survey.seen(within_cell(x))?;
             let excess = |alpha: f64| {
                 let (v, alpha) = (state.omega * direction, alpha * direction);
                 field.excess_by(&seen, v, alpha).0

@@ -28,7 +28,7 @@ const ROUNDS: u32 = 24;
 
 /// Rounds in a row in which what is exceeded most does not fall below this share of the least so far: it is rounding of the machine's terms, of which finer
 /// cells have as much.
-const IDLE: u32 = 3;
+const IDLE: u32 = 30;
 const FALLS: f64 = 0.5;
 
 /// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is

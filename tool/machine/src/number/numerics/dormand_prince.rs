@@ -328,7 +328,7 @@ mod tests {
         let (found, _) = last(rough.steps(f, bends, [0.0], 10.0, enough));
         assert!((found - exact).abs() < rough.tolerance, "{found} {exact}");
         let (found, count) = last(FINE.steps(f, bends, [0.0], 10.0, enough));
-        assert!((found - exact).abs() < 1e-13, "{found} {exact}");
+        assert!((found - exact).abs() < FINE.tolerance, "{found} {exact}");
         let (_, blind) = last(FINE.steps(f, smooth, [0.0], 10.0, enough));
         assert!(2 * count < blind, "{count} {blind}");
         // Each place is a step's end.

@@ -9,8 +9,6 @@
 //! The polynomial through the places is taken in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM
 //! Review 46 (2004) 501).
 
-use std::cell::Cell;
-
 /// Most places of a rule.
 pub const MOST_PLACES: usize = 15;
 
@@ -108,44 +106,73 @@ impl Rule {
         half * terms.map(|(x, w)| w * f(middle + half * x)).sum::<f64>()
     }
 
-    /// The integral of `f` over [a, b], cut into halves until the error is estimated below `share` of ∫|f| over each half, or below `least`, some
-    /// hundred times at most: a curve of roundings must not be halved without end. The value at a place that is not finite makes the sum so.
+    /// The integral of `f` over [a, b]: the part with the largest error is cut into halves until all of them together are estimated below
+    /// `share` of ∫|f| or below `least`; or until cuts help no more, as those of a curve of roundings. The value at a place that is not
+    /// finite makes the sum so.
     pub fn adaptive(
         &self,
         [a, b]: [f64; 2],
         (share, least): (f64, f64),
         f: &impl Fn(f64) -> f64,
     ) -> f64 {
-        let left = Cell::new(MOST_HALVINGS);
-        self.halved([a, b], (share, least), f, &left)
+        let whole = self.part([a, b], f);
+        let is_enough =
+            |error: f64, size: f64| error <= (share * size).max(least) || !error.is_finite();
+        if is_enough(whole.error, whole.size) {
+            return whole.integral;
+        }
+        let mut parts = vec![whole];
+        let mut useless = 0;
+        while parts.len() < MOST_PARTS && useless < MOST_USELESS {
+            let worst = (0..parts.len()).max_by(|i, k| parts[*i].error.total_cmp(&parts[*k].error));
+            let Some(worst) = worst else { break };
+            let cut = parts[worst];
+            let [a, b] = cut.ends;
+            let middle = a.midpoint(b);
+            let halves = [[a, middle], [middle, b]].map(|ends| self.part(ends, f));
+            useless += u32::from(halves[0].error + halves[1].error > USELESS * cut.error);
+            parts[worst] = halves[0];
+            parts.push(halves[1]);
+            let sum = |of: fn(&Part) -> f64| parts.iter().map(of).sum::<f64>();
+            if is_enough(sum(|part| part.error), sum(|part| part.size)) {
+                break;
+            }
+        }
+        parts.iter().map(|part| part.integral).sum()
     }
 
-    fn halved(
-        &self,
-        [a, b]: [f64; 2],
-        (share, least): (f64, f64),
-        f: &impl Fn(f64) -> f64,
-        left: &Cell<u32>,
-    ) -> f64 {
+    fn part(&self, [a, b]: [f64; 2], f: &impl Fn(f64) -> f64) -> Part {
         let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
         let mut values = [0.0; MOST_PLACES];
         for (value, x) in values.iter_mut().zip(self.places) {
             *value = f(middle + half * x);
         }
         let found = self.estimate(&values[..self.places.len()]);
-        let is_enough = half * found.error <= (share * half * found.size).max(least);
-        let is_short = half <= f64::EPSILON * a.abs().max(b.abs());
-        if left.get() == 0 || is_enough || is_short || !found.error.is_finite() {
-            return half * found.integral;
+        Part {
+            ends: [a, b],
+            integral: half * found.integral,
+            error: half * found.error,
+            size: half * found.size,
         }
-        left.set(left.get() - 1);
-        let rest = |ends| self.halved(ends, (share, least), f, left);
-        rest([a, middle]) + rest([middle, b])
     }
 }
 
-/// The most halvings of one integral: a kink takes some forty, down to the rounding of its place.
-const MOST_HALVINGS: u32 = 100;
+/// A part of an integral.
+#[derive(Clone, Copy)]
+struct Part {
+    ends: [f64; 2],
+    integral: f64,
+    error: f64,
+    size: f64,
+}
+
+/// The most parts of one integral: a kink takes some forty, down to the rounding of its place.
+const MOST_PARTS: usize = 400;
+
+/// Share of an error above which a cut leaves what it should lower, and how many such cuts end the search: that of roundings is met at once,
+/// that of a curve which the places do not see yet some times.
+const USELESS: f64 = 0.9;
+const MOST_USELESS: u32 = 20;
 
 const fn barycentric<const N: usize>(places: &[f64; N]) -> [f64; N] {
     let mut weights = [1.0; N];

@@ -148,7 +148,7 @@ impl Sides {
                 let shift = 0.5 * (a - c) / bow;
                 let least = a.min(b).min(c);
                 let bottom = b - 0.125 * (a - c).powi(2) / bow;
-                if bow > 0.0 && shift.abs() < 1.0 && least > 0.0 && bottom < 0.1 * least {
+                if bow > 0.0 && shift.abs() < 1.0 && least >= 0.0 && bottom < 0.1 * least {
                     let share = three[1].0 + shift * (three[2].0 - three[1].0);
                     found.push((share, at(share)?));
                 }
