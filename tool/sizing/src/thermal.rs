@@ -189,7 +189,7 @@ impl Model {
         let derated = motor.derated(surroundings);
         Ok(Self::Relative {
             // The site leaves a smaller rise, not a smaller torque for the same rise, unless the maker states it so.
-            standstill: s1 * (derated.torque / derated.factor),
+            standstill: prepared.envelope.standstill_in_sheet(derated.factor) * derated.torque,
             s1,
             time: whole.or(winding),
         })

@@ -4,6 +4,7 @@ use std::cell::Cell;
 
 use crate::trace::{Node, Trace};
 use crate::way::Way;
+use jred_machine::model::axis::Axis;
 
 use super::field::{Field, speed};
 use super::leg::Step;
@@ -27,8 +28,8 @@ pub(super) const SWEEP_EXCESS: f64 = 1e-9;
 const ROUNDS: u32 = 24;
 
 /// Rounds in a row in which what is exceeded most does not fall below this share of the least so far: it is rounding of the machine's terms, of which finer
-/// cells have as much.
-const IDLE: u32 = 30;
+/// cells have as much or more. The motion of the round that exceeds least is taken.
+const IDLE: u32 = 12;
 const FALLS: f64 = 0.5;
 
 /// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
@@ -83,7 +84,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
         let mut end: Option<f64> = None;
         let mut settled = f64::INFINITY;
         let mut finer: Vec<f64> = Vec::new();
-        let (mut lowest, mut idle) = (f64::INFINITY, 0);
+        let mut best = Best::default();
         for round in 0.. {
             let track = Track::new(&self.survey, &ends, count, &finer)?;
             if let Some((phi, force)) = joint_force::without_motion(&track) {
@@ -140,25 +141,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
             let trace = trace(way, &ends, &track, &pieces, &times);
             let ((excess, phi), places) =
                 between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
-            if excess < FALLS * lowest {
-                (lowest, idle) = (excess, 0);
-            } else {
-                idle += 1;
-            }
-            if !places.is_empty() && may_go_on && idle < IDLE {
-                finer.extend(places);
-                continue;
-            }
-            if excess > MOST_EXCESS || settled > MOST_CHANGE * time {
-                return Err(NoMotion::NotAccurate {
-                    excess,
-                    phi,
-                    change: settled / time,
-                    endless: false,
-                    axis: file.axis(),
-                });
-            }
-            return Ok(Fastest {
+            let found = Fastest {
                 time,
                 error: settled / 15.0,
                 phases: phases::phases(field, &ends, &track, &pieces, &times),
@@ -166,9 +149,57 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                 excess,
                 cells: track.cells.len(),
                 bound: None,
-            });
+            };
+            let idle = best.take(found, phi);
+            if places.is_empty() || !may_go_on || idle >= IDLE {
+                return best.answer(settled / time, file.axis());
+            }
+            finer.extend(places);
         }
         Err(NoMotion::NoWay)
+    }
+}
+
+/// The motion that exceeds its limits least, of several rounds.
+#[derive(Default)]
+struct Best {
+    /// With the place at which it does.
+    found: Option<(Fastest, f64)>,
+    /// Rounds since what is exceeded fell notably.
+    idle: u32,
+}
+
+impl Best {
+    /// Takes the motion of a round; the rounds since what is exceeded fell.
+    fn take(&mut self, next: Fastest, place: f64) -> u32 {
+        let so_far = self
+            .found
+            .as_ref()
+            .map_or(f64::INFINITY, |(best, _)| best.excess);
+        self.idle = if next.excess < FALLS * so_far {
+            0
+        } else {
+            self.idle + 1
+        };
+        if next.excess < so_far {
+            self.found = Some((next, place));
+        }
+        self.idle
+    }
+
+    /// The motion, if it is accurate enough, of a time that changed by this share of it at last.
+    fn answer(self, change: f64, axis: Axis) -> Result<Fastest, NoMotion> {
+        let (found, phi) = self.found.ok_or(NoMotion::NoWay)?;
+        if found.excess > MOST_EXCESS || change > MOST_CHANGE {
+            return Err(NoMotion::NotAccurate {
+                excess: found.excess,
+                phi,
+                change,
+                endless: false,
+                axis,
+            });
+        }
+        Ok(found)
     }
 }
 

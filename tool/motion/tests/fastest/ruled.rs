@@ -9,6 +9,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Limit, Verdict};
 use jred_machine::model::{drive_train, variator};
 use jred_machine::read;
+use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless};
 use jred_motion::fastest::field::Reserve;
 use jred_motion::fastest::ruled::{Cap, Judge, Judged, ruled};
@@ -202,6 +203,10 @@ fn what_is_named_as_kept_is_kept() {
             let Ok((cycle, judged)) = made(&file, &chain, drive, None) else {
                 continue;
             };
+            // A rope that goes slack is said by `fastest`; `size` does not judge such a motion.
+            if broken(&file, &cycle.trace).unwrap().is_some() {
+                continue;
+            }
             count += 1;
             capped += usize::from(!judged.caps.is_empty());
             let kept: Vec<Rule> = judged.kept().map(|check| check.id).collect();

@@ -70,6 +70,11 @@ impl Envelope {
         self.capped(self.continuous.standstill, 0.0)
     }
 
+    /// The same in the surroundings of the data sheet, of which a share `factor` is left at the site.
+    pub fn standstill_in_sheet(&self, factor: f64) -> f64 {
+        self.capped(self.continuous.standstill / factor, 0.0)
+    }
+
     /// Assumptions for data that are not given.
     pub fn assumptions(&self) -> Vec<String> {
         let sentences = self.assumptions.iter();
