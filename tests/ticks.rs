@@ -15,6 +15,7 @@ mod image_damage;
 mod image_refused;
 mod image_slices;
 mod layouts;
+mod no_panic_list;
 mod no_wrap;
 mod phase;
 mod pieces;

@@ -31,6 +31,7 @@ pub mod form;
 mod front;
 mod kernels;
 mod power;
+mod repeats;
 pub(crate) mod speeds;
 mod tree;
 
@@ -39,6 +40,7 @@ pub(crate) use bent::Bent;
 use extremes::Stretches;
 use factor::Factor;
 use front::Front;
+use repeats::Distinct;
 use speeds::Speeds;
 use tree::Tree;
 
@@ -110,6 +112,8 @@ pub struct Cycle {
     power: Factor,
     tree: Tree,
     front: Front,
+    /// What is left of it without its repeats, if there are many.
+    distinct: Option<Distinct>,
     cubic_mean: OnceLock<f64>,
     /// Sorted only when a thermal model needs it.
     speeds: OnceLock<Speeds>,
@@ -175,6 +179,7 @@ impl Cycle {
             torque: Factor::of_loads(&samples),
             power: Factor::of_powers(&samples),
             front: Front::new(&tree, &samples, &largest),
+            distinct: Distinct::of(&samples, &duty.smooth, &largest),
             tree,
             largest,
             cubic_mean: OnceLock::new(),
@@ -299,12 +304,12 @@ impl Cycle {
 
     /// Least and largest motor torque (N·m), both with their sign.
     pub fn torque_extremes(&self, coefficients: &Coefficients) -> [f64; 2] {
-        self.stretches().extremes(coefficients)
+        self.distinct().extremes(coefficients)
     }
 
     /// Largest magnitude of the motor torque (N·m).
     pub fn peak_torque(&self, coefficients: &Coefficients) -> f64 {
-        self.stretches().largest_magnitude(coefficients)
+        self.distinct().largest_magnitude(coefficients)
     }
 
     /// Energy supplied by the motor over a cycle and energy that flows back to it (J), neither negative.
@@ -314,13 +319,13 @@ impl Cycle {
 
     /// Whether energy flows back to the motor at any instant; cheaper than [`Cycle::energies`].
     pub fn regenerates(&self, coefficients: &Coefficients) -> bool {
-        self.stretches().regenerates(coefficients, self.giving)
+        self.distinct().regenerates(coefficients, self.giving)
     }
 
     /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's
     /// largest speed, if there is one. Where the envelope knows no limit it is the instant of the largest torque.
     pub fn peak(&self, coefficients: &Coefficients, ratio: f64, envelope: &Envelope) -> Peak {
-        let peak = self.stretches().peak(coefficients, ratio, envelope);
+        let peak = self.distinct().peak(coefficients, ratio, envelope);
         peak.unwrap_or(Peak {
             used: f64::NEG_INFINITY,
             torque: 0.0,
@@ -337,7 +342,7 @@ impl Cycle {
         envelope: &Envelope,
         shares: [f64; 2],
     ) -> Against {
-        (self.stretches()).against(coefficients, ratio, envelope, shares)
+        (self.distinct()).against(coefficients, ratio, envelope, shares)
     }
 
     fn stretches(&self) -> Stretches<'_> {
@@ -347,6 +352,15 @@ impl Cycle {
             front: &self.front,
             smooth: &self.smooth,
             largest: &self.largest,
+        }
+    }
+
+    /// The same without repeats: for what is sought of one sample.
+    fn distinct(&self) -> Stretches<'_> {
+        let all = self.stretches();
+        match &self.distinct {
+            None => all,
+            Some(Distinct { tree, front }) => Stretches { tree, front, ..all },
         }
     }
 

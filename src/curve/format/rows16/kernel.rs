@@ -68,7 +68,13 @@ fn sign(x: i32) -> i32 {
 #[inline(always)]
 fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
     if cfg!(not(short_multiply)) {
-        return sum.wrapping_add(c.wrapping_mul(sign(omega)));
+        return if omega > 0 {
+            sum.wrapping_add(c)
+        } else if omega < 0 {
+            sum.wrapping_sub(c)
+        } else {
+            sum
+        };
     }
     if omega > 0 {
         // Or the ways are made one, and all terms wait behind it in more registers than there are.

@@ -97,13 +97,9 @@ impl<'a> Tick<'a> {
             let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
             sum.wrapping_add(inertia.wrapping_mul(i32::from(alpha.to_bits())))
         };
-        let sum = Self::with_load(set, 0, row, start, u);
-        let sum = of_inertia(sum);
-        // Nothing is read before the term ahead of it is done with its registers.
-        fence();
-        let sum = sum.wrapping_add(self.of_speed(set, row, u, omega));
-        fence();
-        kernel::torque(self.with_coulomb(set, sum, row, u, sliding))
+        let sum = self.of_speed(set, row, u, omega);
+        let sum = self.with_coulomb(set, sum, row, u, sliding);
+        kernel::torque(Self::with_load(set, of_inertia(sum), row, start, u))
     }
 
     /// Forward dynamics.

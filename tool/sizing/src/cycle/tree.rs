@@ -1,5 +1,7 @@
 //! The samples of a cycle as a tree of stretches, with bounds for each stretch.
 
+use std::ops::Range;
+
 use super::Sample;
 use crate::cycle::form::LOADS;
 
@@ -53,15 +55,41 @@ pub(super) struct Tree {
 
 impl Tree {
     pub(super) fn new(samples: &[Sample], largest: &[f64; LOADS]) -> Self {
+        Self::of_parts(samples, &[0..samples.len()], largest)
+    }
+
+    /// Of some of the samples: ranges in order.
+    pub(super) fn of_parts(
+        samples: &[Sample],
+        parts: &[Range<usize>],
+        largest: &[f64; LOADS],
+    ) -> Self {
         let cuts = jumps(samples, largest);
+        let count: usize = parts.iter().map(Range::len).sum();
+        let pieces = count / LEAF * 2 + 2 * cuts.len().min(count) + parts.len();
         let mut tree = Self {
-            nodes: Vec::with_capacity(2 * (samples.len() / LEAF * 2 + 2 * cuts.len()) + 1),
+            nodes: Vec::with_capacity(2 * pieces + 1),
         };
-        if !samples.is_empty() {
-            tree.build(samples, &cuts, 0, samples.len() - 1);
+        if count > 0 {
+            tree.join(samples, &cuts, parts);
         }
         tree.nodes.shrink_to_fit();
         tree
+    }
+
+    /// Adds the stretches of some ranges; the index of that of all of them.
+    fn join(&mut self, samples: &[Sample], cuts: &[u32], parts: &[Range<usize>]) -> usize {
+        if let [part] = parts {
+            return self.build(samples, cuts, part.start, part.end - 1);
+        }
+        let own = self.nodes.len();
+        let (before, after) = parts.split_at(parts.len() / 2);
+        self.nodes
+            .push(Node::leaf(samples, before[0].start, before[0].start));
+        let one = self.join(samples, cuts, before);
+        let two = self.join(samples, cuts, after);
+        self.nodes[own] = Node::of_halves(samples, &self.nodes[one], &self.nodes[two], two);
+        own
     }
 
     /// Adds the stretch from `first` to `last`, both included; its index.

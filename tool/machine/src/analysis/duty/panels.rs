@@ -26,6 +26,9 @@ const OF_TURN: [f64; 2] = [2.0, 8.0];
 /// As long as there are no more instants for the turns than this, they have the larger number.
 const FOR_TURNS: f64 = 1e6;
 
+/// Rounding of a number of panels, as a share of it.
+const WHOLE: f64 = 1e-12;
+
 /// Most panels that are looked at for the size of the integrals.
 const LOOKED_AT: usize = 256;
 
@@ -168,6 +171,15 @@ impl Stretch {
     }
 }
 
+/// A number, whole where it is but for roundings.
+fn near_whole(count: f64) -> f64 {
+    if (count - count.round()).abs() < WHOLE * count {
+        count.round()
+    } else {
+        count
+    }
+}
+
 /// How many turns, or strokes, the drive link makes in a smooth stretch.
 fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
     let [a, b] = [from, to].map(|t| motion.at(t).phi);
@@ -199,7 +211,12 @@ impl<'a, 'm> Panels<'a, 'm> {
             .map(|(stretch, turns)| {
                 let (from, to) = *stretch;
                 let by_time = sampling.steps as f64 / 15.0 * (to - from) / duration;
-                let count = by_time.max(turns * of_turn).ceil().max(1.0);
+                let count = if *turns > 1.0 {
+                    // The same ones in each turn: at a constant speed one turn is then like another.
+                    near_whole(turns * (by_time / turns).max(of_turn).ceil())
+                } else {
+                    by_time.max(turns * of_turn).ceil().max(1.0)
+                };
                 let stretch = Stretch::new(file, motion, *stretch);
                 let borders = stretch.borders(count);
                 (stretch, borders)

@@ -109,9 +109,8 @@ impl Motion {
             } else {
                 PLACES
             };
-            // The ends are taken from inside: at its end a piece has no acceleration of its own.
-            let inside = 1e-9 * piece.duration;
-            let range = [piece.start + inside, piece.end() - inside];
+            // At its end a piece has no acceleration of its own.
+            let range = [piece.start, piece.end().next_down().max(piece.start)];
             let speed = |t: f64| self.at(t).omega;
             let acceleration = |t: f64| self.at(t).alpha;
             peaks[0] = peaks[0].max(largest(&speed, range, places));

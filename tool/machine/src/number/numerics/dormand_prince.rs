@@ -309,7 +309,7 @@ mod tests {
         assert!((y / 600f64.exp() - 1.0).abs() < 1e-8, "{y}");
     }
 
-    /// y′ = |cos x|: with steps that end where f bends, both tolerances are kept, and the fine one takes half of the steps at most.
+    /// y′ = |cos x|: with steps that end where f bends, both tolerances are kept, and the fine one takes two thirds of the steps at most.
     #[test]
     fn a_step_ends_where_f_bends() {
         // ∫|cos x| dx over 10.
@@ -330,7 +330,7 @@ mod tests {
         let (found, count) = last(FINE.steps(f, bends, [0.0], 10.0, enough));
         assert!((found - exact).abs() < FINE.tolerance, "{found} {exact}");
         let (_, blind) = last(FINE.steps(f, smooth, [0.0], 10.0, enough));
-        assert!(2 * count < blind, "{count} {blind}");
+        assert!(3 * count < 2 * blind, "{count} {blind}");
         // Each place is a step's end.
         let steps = FINE.steps(f, bends, [0.0], 10.0, |_, _| Ok(false)).unwrap();
         for k in 0..3 {

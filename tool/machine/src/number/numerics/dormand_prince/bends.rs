@@ -15,6 +15,9 @@ const ON_END: f64 = 1e-9;
 /// Parts of a step at whose ends the values are looked at.
 const PARTS: usize = 4;
 
+/// Halvings of a step in search of a value that is beyond zero at its beginning only.
+const HALVINGS: u32 = 16;
+
 /// On which side of zero each value is.
 pub(super) struct Sides {
     /// 0 of one that has been nothing but rounding.
@@ -190,6 +193,17 @@ fn place<const N: usize, E>(
     if values[1] >= 0.0 {
         Ok(Place::Nowhere)
     } else if values[0] <= 0.0 {
+        // It has just passed zero, and may be beyond it for a short time.
+        let mut until = (ends[1], values[1]);
+        for _ in 0..HALVINGS {
+            let near = 0.5 * until.0;
+            let there = value(near)?;
+            if there > 0.0 {
+                let (ends, values) = ([near, until.0], [there, until.1]);
+                return numerics::zero(value, ends, values, PLACE).map(Place::After);
+            }
+            until = (near, there);
+        }
         Ok(Place::Here)
     } else {
         numerics::zero(value, ends, values, PLACE).map(Place::After)

@@ -1,0 +1,76 @@
+//! A cycle without its repeats: the many turns of a constant speed have one peak, and a search that looks at all of them cannot exclude any.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use super::Sample;
+use super::front::Front;
+use super::tree::Tree;
+use crate::cycle::form::LOADS;
+use jred_machine::analysis::duty::Smooth;
+
+/// Two values are one if they differ by less than about this share of the largest: rounding of a position after many turns.
+const SAME: f64 = 1e-10;
+
+/// Share of the samples that may be left if it is to be worth a tree of its own.
+const WORTH: f64 = 0.5;
+
+/// What is left of a cycle whose panels repeat: whatever is sought of one sample, not of a sum, is found there.
+#[derive(Clone, Debug)]
+pub(super) struct Distinct {
+    pub(super) tree: Tree,
+    pub(super) front: Front,
+}
+
+impl Distinct {
+    /// `None`: little is repeated.
+    pub(super) fn of(samples: &[Sample], smooth: &Smooth, largest: &[f64; LOADS]) -> Option<Self> {
+        let left = left(samples, smooth);
+        let count: usize = left.iter().map(Range::len).sum();
+        if count as f64 > WORTH * samples.len() as f64 {
+            return None;
+        }
+        let tree = Tree::of_parts(samples, &left, largest);
+        Some(Self {
+            front: Front::new(&tree, samples, largest),
+            tree,
+        })
+    }
+}
+
+/// The samples without the panels that repeat one before them.
+fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
+    let values = |s: &Sample| [s.alpha, s.output_torque, s.speed];
+    let mut largest = [0.0_f64; 3];
+    for sample in samples {
+        for (most, value) in largest.iter_mut().zip(values(sample)) {
+            *most = most.max(value.abs());
+        }
+    }
+    // At a constant speed the acceleration is a rounding.
+    largest[0] = largest[0].max(largest[2] * largest[2]);
+    let whole = |sample: &Sample| {
+        let values = values(sample);
+        std::array::from_fn::<i64, 3, _>(|k| {
+            (values[k] / largest[k].max(f64::MIN_POSITIVE) / SAME).round() as i64
+        })
+    };
+    let mut seen = HashSet::new();
+    let mut left: Vec<Range<usize>> = Vec::new();
+    let mut keep = |part: Range<usize>| match left.last_mut() {
+        Some(last) if last.end == part.start => last.end = part.end,
+        _ if part.is_empty() => {}
+        _ => left.push(part),
+    };
+    let mut end = 0;
+    for panel in smooth.panels(samples.len()) {
+        keep(end..panel.start.max(end));
+        end = panel.end;
+        let own: Vec<[i64; 3]> = samples[panel.clone()].iter().map(whole).collect();
+        if seen.insert(own) {
+            keep(panel);
+        }
+    }
+    keep(end..samples.len());
+    left
+}
