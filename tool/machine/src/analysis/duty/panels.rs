@@ -547,7 +547,9 @@ impl<'a, 'm> Panels<'a, 'm> {
         };
         // Carriages bring energy of their own.
         let is_whole = !self.moving.file.schedule.flows();
-        if is_whole && share > UNBALANCED + self.tolerance {
+        let is_recorded = !(self.moving.motion.rows_within([0.0, self.duration])).is_empty();
+        let most = if is_recorded { OF_ROWS } else { OF_LAWS };
+        if is_whole && share > most + MOST_OF_TOLERANCE * self.tolerance {
             return Err(Fault::Unbalanced {
                 work,
                 spent,
@@ -572,6 +574,7 @@ const DEEPEST: u32 = 60;
 /// The sum of the errors of all panels may be larger than the tolerance by this factor: each estimate is cautious.
 const MOST_OF_TOLERANCE: f64 = 4.0;
 
-/// Share of the energy that is moved by which it may not balance: positions, speeds and accelerations of rows that were rounded when they were written
-/// belong together to some digits only.
-const UNBALANCED: f64 = 1e-3;
+/// Share of the energy that is moved by which it may not balance. Positions, speeds and accelerations of rows that were rounded when they were written
+/// belong together to some digits only; those of a law do but for roundings.
+const OF_ROWS: f64 = 1e-3;
+const OF_LAWS: f64 = 1e-7;
