@@ -1,10 +1,11 @@
-//! The coordinate in which people speak of an axis: that of its `[motion]`, where it is the drive link's but for a factor: millimetres of
-//! the carriage instead of degrees of the pulley.
+//! The coordinate in which people speak of an axis: that of its `[motion]`, or without one that of its stroke, where it is the drive link's but
+//! for a factor: millimetres of the carriage instead of degrees of the pulley.
 
 use jred::Domain;
 use jred::machine::motion::State;
 
 use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Motion, ToolCoordinate};
 use crate::number::columns::{Column, Quantity};
 
@@ -29,11 +30,13 @@ impl Axis {
         }
     }
 
-    /// That of a motion, if it goes with the drive link evenly, else the drive link itself.
-    pub fn of(motion: Option<&Motion>, drive: Coordinate) -> Self {
-        let tool = motion.and_then(Motion::tool);
-        let axis = tool.and_then(ToolCoordinate::axis);
-        axis.unwrap_or_else(|| Self::of_drive(drive))
+    /// That of a motion, if it goes with the drive link evenly; without a motion that of the stroke; else the drive link itself.
+    pub fn of(motion: Option<&Motion>, mechanism: &AnyMechanism) -> Self {
+        let axis = match motion {
+            Some(motion) => motion.tool().and_then(ToolCoordinate::axis),
+            None => mechanism.axis,
+        };
+        axis.unwrap_or_else(|| Self::of_drive(mechanism.coordinate()))
     }
 
     /// A coordinate with this symbol, its value at φ = 0 and what it goes on by per rad or m of the drive link, not zero.
@@ -121,5 +124,14 @@ impl Axis {
     pub fn place(&self, phi: f64) -> String {
         let shown = (self.shown(phi) * 1e4).round() / 1e4 + 0.0;
         format!("{} = {shown} {}", self.symbol, self.coordinate.unit())
+    }
+}
+
+impl AnyMechanism {
+    /// With the coordinate in which its stroke is given.
+    #[must_use]
+    pub(crate) const fn with_axis(mut self, axis: Axis) -> Self {
+        self.axis = Some(axis);
+        self
     }
 }

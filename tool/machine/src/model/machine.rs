@@ -126,9 +126,9 @@ impl MachineFile {
         stretches.filter(|steady| steady.whole || winds).collect()
     }
 
-    /// The coordinate in which people speak of this axis: that of its motion, if it goes with the drive link evenly, else the drive link's.
+    /// The coordinate in which people speak of this axis: see [`Axis::of`].
     pub fn axis(&self) -> Axis {
-        Axis::of(self.motion.as_ref(), self.machine.mechanism().coordinate())
+        Axis::of(self.motion.as_ref(), self.machine.mechanism())
     }
 
     /// The machine at an instant, with what acts and what is carried then, without the drive train. What it has of carriages is that of

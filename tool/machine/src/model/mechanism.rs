@@ -11,6 +11,7 @@ use jred::machine::{Action, Frames, Jointed, Joints, Load, Mechanism};
 use jred::mechanism::linkage::Pair;
 use jred::{Domain, Error, Link};
 
+use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::model::laden::Laden;
 use crate::model::on_stroke::OnStroke;
@@ -47,6 +48,8 @@ pub struct AnyMechanism {
     ropes: Vec<usize>,
     /// The link whose way ends somewhere, though the file does not say where.
     open_ended: Option<usize>,
+    /// The coordinate in which its stroke is given, where that is not the drive link's.
+    pub(super) axis: Option<Axis>,
     facts: Vec<Fact>,
     /// The pairs of a linkage: how each of its joints closes.
     pairs: Vec<Pair>,
@@ -82,6 +85,7 @@ impl AnyMechanism {
             contacts: Vec::new(),
             ropes: Vec::new(),
             open_ended: None,
+            axis: None,
             facts: Vec::new(),
             pairs: Vec::new(),
             change_points: Vec::new(),

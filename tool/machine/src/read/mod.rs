@@ -46,6 +46,7 @@ use std::path::Path;
 use jred::Machine;
 use miette::{Report, miette};
 
+use crate::model::axis::Axis;
 use crate::model::machine::{MachineFile, OverRange};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
@@ -275,6 +276,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
     let machine = schedule.at_no_time().cloned().unwrap_or(machine);
     let around = simulation::Around {
         drive: drive_link,
+        axis: Axis::of(motion.as_ref(), machine.mechanism()),
         drive_train: &drive_train,
         motion: motion.as_ref(),
         variator: variator.is_some(),

@@ -314,7 +314,7 @@ pub(crate) fn has(
         .any(|(name, title)| known.is(name) && (!other.is(name) || measured(title))))
 }
 
-/// The titles with the units of a line below them, as "s;deg" or "[s],[deg]", if the line is one.
+/// The titles with the units of a line below them, as `s;deg` or `[s],[deg]`, if the line is one.
 fn units_below(titles: &[Title], row: &StringRecord) -> Option<Vec<Title>> {
     let unit = |field: &str| -> String {
         unquoted(field)

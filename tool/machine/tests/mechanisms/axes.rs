@@ -3,6 +3,7 @@
 use jred::{Domain, Reducible as _};
 
 use jred_machine::analysis::warnings::warnings;
+use jred_machine::model::coordinate::Coordinate;
 
 use super::{close, machine, parse, refuses, refuses_edit};
 
@@ -176,6 +177,12 @@ fn an_axis_may_end() {
     close(from, -0.02 / radius);
     close(to, 0.6 / radius);
     assert_eq!(file.machine.mechanism().open_end(), None);
+    // Without a motion people speak of the carriage as well.
+    let own = ends.split("[motion]").next().unwrap();
+    let axis = parse(own).unwrap().axis();
+    assert_eq!((axis.coordinate, axis.symbol()), (Coordinate::Length, "x"));
+    close(axis.position(from), -0.02);
+    close(axis.position(to), 0.6);
     // Nothing else is another machine.
     let endless = parse(&text).unwrap();
     assert_eq!(endless.machine.domain(), Domain::Turn);

@@ -4,6 +4,8 @@ use jred::machine::{MassProperties, Mechanism as _};
 use jred::{Domain, Link};
 
 use super::core;
+use crate::model::axis::Axis;
+use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 use crate::text::item::{Item, Value};
 use crate::text::problem::Result;
@@ -96,5 +98,6 @@ pub(super) fn linear_stroke(
     let [a, b] = ends.map(|end| (end - way.value) / way.d1);
     let stroke = [a.min(b), a.max(b)];
     Domain::stroke(stroke[0], stroke[1]).map_err(|error| core(section, error))?;
-    Ok(mechanism.on_stroke(stroke))
+    let along = Axis::new(Coordinate::Length, ["x", "y"][axis], [way.value, way.d1]);
+    Ok(mechanism.on_stroke(stroke).with_axis(along))
 }

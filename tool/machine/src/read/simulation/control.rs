@@ -1,5 +1,6 @@
 //! `[simulation.control]`, `[simulation.stop]` and `[simulation.end_stops]`.
 
+use crate::model::axis::Axis;
 use crate::model::characteristic::Characteristic;
 use crate::model::drive_train::DriveTrain;
 use crate::model::motion::Motion;
@@ -23,6 +24,7 @@ const MOST_RESTITUTION: f64 = 0.99;
 #[derive(Clone, Copy)]
 pub(in crate::read) struct Around<'a> {
     pub(in crate::read) drive: DriveLink,
+    pub(in crate::read) axis: Axis,
     pub(in crate::read) drive_train: &'a DriveTrain,
     pub(in crate::read) motion: Option<&'a Motion>,
     pub(in crate::read) variator: bool,

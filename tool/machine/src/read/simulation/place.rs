@@ -30,7 +30,7 @@ impl Places {
     pub(super) fn of(around: Around) -> Self {
         Self {
             drive: around.drive,
-            axis: Axis::of(around.motion, around.drive.coordinate),
+            axis: around.axis,
         }
     }
 

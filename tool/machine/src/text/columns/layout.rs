@@ -146,7 +146,7 @@ pub(super) struct Title {
 }
 
 impl Title {
-    /// Splits "phi [deg]" and "Time (sec)"; what is in round brackets but no unit belongs to the name.
+    /// Splits `phi [deg]` and `Time (sec)`; what is in round brackets but no unit belongs to the name.
     pub(super) fn of(whole: &str) -> Self {
         let whole = whole.trim();
         let bracketed = whole.strip_suffix(']').and_then(|t| t.rsplit_once('['));
