@@ -294,10 +294,11 @@ fn what_cannot_turn_is_refused_with_its_reason() {
         refused([0.1, 0.5, 0.3], 0.2, -0.35),
         "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make the rod longer than 0.600000 m, shorten the crank, or drive it over a stroke that stays inside φ = 17.28° and 174.20°, its dead points"
     );
-    // Whitworth, guide above: the rocker points down too far first, at φ₂ = 180° + asin(2/3).
+    // Whitworth, guide above: the rocker points down too far first at φ₂ = 180° + asin(2/3), φ = φ₂ − asin(1/3), and from −asin(2/3) on no
+    // longer, φ = −41.81° − 19.47°.
     assert_eq!(
         refused([0.2, 0.3, 0.4], 0.1, -0.2),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 202.34°; make the rod longer than 0.500000 m, shorten the crank, or drive it over a stroke that stays inside φ = -22.34° and 202.34°, its dead points"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 202.34°; make the rod longer than 0.500000 m, shorten the crank, or drive it over a stroke that stays inside φ = -61.28° and 202.34°, its dead points"
     );
     assert_eq!(
         refused([0.1, 0.0, 0.3], 0.2, 0.0),

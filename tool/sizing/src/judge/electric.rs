@@ -80,7 +80,11 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         }
         return;
     }
-    let known = figures(context, &data).filter(|_| missing(&data).is_none());
+    // The course of the bus is a pass over the cycle: only where all data are there.
+    let known = match missing(&data) {
+        None => figures(context, &data),
+        Some(_) => None,
+    };
     let Some(figures) = known else {
         findings.set(Rule::BusVoltage, Finding::UNKNOWN);
         // What a resistor has to bear follows from the bus: without its figures none of its rules is checked.
