@@ -66,6 +66,7 @@ fn sign(x: i32) -> i32 {
 
 /// sum + c·sgn ω, of c in Q31 from 0 on.
 #[inline(always)]
+#[allow(clippy::comparison_chain, reason = "the three ways of sgn")]
 fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
     if cfg!(not(short_multiply)) {
         return if omega > 0 {

@@ -124,7 +124,12 @@ fn what_comes_after_the_end_has_not_happened() {
 #[test]
 fn a_start_position_needs_a_motion_of_something() {
     let position = SCREW.replace("start_angle = \"0 deg\"", "start_position = \"0 mm\"");
-    let report = rendered(&parse(&position).unwrap_err());
+    // Where the stroke is given in lengths, it is the nut's.
+    let at = parse(&position.replace("\"0 mm\"\n", "\"250 mm\"\n")).unwrap();
+    let start = at.simulation.unwrap().start_angle;
+    assert!((start - 25.0 * TAU).abs() < 1e-12, "{start}");
+    let line = position.lines().find(|line| line.starts_with("stroke"));
+    let report = rendered(&parse(&position.replace(line.unwrap(), "")).unwrap_err());
     let says = "`start_position` in [simulation] goes with [motion] `of = …`, and the file has no [motion]";
     assert!(report.replace('\n', " ").contains(says), "{report}");
     let motion = "[motion]\ntype = \"cycle\"\n[[motion.segment]]\ndwell = \"1 s\"\n[simulation]";
