@@ -55,7 +55,7 @@ pub(super) struct Tree {
 
 impl Tree {
     pub(super) fn new(samples: &[Sample], largest: &[f64; LOADS]) -> Self {
-        Self::of_parts(samples, &[0..samples.len()], largest)
+        Self::of_parts(samples, std::slice::from_ref(&(0..samples.len())), largest)
     }
 
     /// Of some of the samples: ranges in order.
