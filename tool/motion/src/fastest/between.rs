@@ -21,7 +21,7 @@ const BETWEEN_SWEPT_NODES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
 /// Parts of a cell at whose borders a motion is looked at, at those that are next to the places above: there the machine is known from the round before.
 const GRID: f64 = 1024.0;
 
-/// A shorter step is looked at where it is, not at the grid's few places in it.
+/// A step with fewer positions of the grid is checked at positions of its own.
 const FEWEST_IN_STEP: f64 = 16.0;
 
 /// Share of a cell within which two places are one.
@@ -161,7 +161,7 @@ pub(super) fn largest_excess(
             if has_grid {
                 let grid = ((x - cell.x) / cell.length * GRID).round() / GRID;
                 let on_grid = within_cell(cell.x + grid * cell.length);
-                // The share of the step at which it passes there; a place outside the step is none of its own.
+                // The share of the step at which it passes that position; if the step does not reach it, the end of the step.
                 share = passes(share, |share| {
                     let state = b.after(a, share);
                     [distance(&state) - on_grid, state.omega * direction * b.step]

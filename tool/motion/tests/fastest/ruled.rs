@@ -203,7 +203,7 @@ fn what_is_named_as_kept_is_kept() {
             let Ok((cycle, judged)) = made(&file, &chain, drive, None) else {
                 continue;
             };
-            // A rope that goes slack is said by `fastest`; `size` does not judge such a motion.
+            // `fastest` reports a slack rope, and `size` refuses such a motion.
             if broken(&file, &cycle.trace).unwrap().is_some() {
                 continue;
             }
