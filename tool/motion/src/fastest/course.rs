@@ -4,7 +4,6 @@ use std::cell::Cell;
 
 use crate::trace::{Node, Trace};
 use crate::way::Way;
-use jred_machine::model::axis::Axis;
 
 use super::field::{Field, speed};
 use super::leg::Step;
@@ -141,18 +140,18 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
             let trace = trace(way, &ends, &track, &pieces, &times);
             let ((excess, phi), places) =
                 between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
-            let found = Fastest {
-                time,
-                error: settled / 15.0,
-                phases: phases::phases(field, &ends, &track, &pieces, &times),
+            let idle = best.take(Round {
+                track,
+                pieces,
+                times,
                 trace,
+                time,
                 excess,
-                cells: track.cells.len(),
-                bound: None,
-            };
-            let idle = best.take(found, phi);
+                phi,
+            });
             if places.is_empty() || !may_go_on || idle >= IDLE {
-                return best.answer(settled / time, file.axis());
+                let round = best.round.ok_or(NoMotion::NoWay)?;
+                return round.answer(field, &ends, settled);
             }
             finer.extend(places);
         }
@@ -160,46 +159,67 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
     }
 }
 
-/// The motion that exceeds its limits least, of several rounds.
+/// The motion of a round.
+struct Round {
+    track: Track,
+    pieces: Vec<Piece>,
+    times: Vec<f64>,
+    trace: Trace,
+    time: f64,
+    /// The largest share by which it exceeds a limit, and the position.
+    excess: f64,
+    phi: f64,
+}
+
+/// The round whose motion exceeds its limits least.
 #[derive(Default)]
 struct Best {
-    /// With the place at which it does.
-    found: Option<(Fastest, f64)>,
+    round: Option<Round>,
     /// Rounds since what is exceeded fell notably.
     idle: u32,
 }
 
 impl Best {
     /// Takes the motion of a round; the rounds since what is exceeded fell.
-    fn take(&mut self, next: Fastest, place: f64) -> u32 {
-        let so_far = self
-            .found
+    fn take(&mut self, next: Round) -> u32 {
+        let least = self
+            .round
             .as_ref()
-            .map_or(f64::INFINITY, |(best, _)| best.excess);
-        self.idle = if next.excess < FALLS * so_far {
+            .map_or(f64::INFINITY, |round| round.excess);
+        self.idle = if next.excess < FALLS * least {
             0
         } else {
             self.idle + 1
         };
-        if next.excess < so_far {
-            self.found = Some((next, place));
+        if next.excess < least {
+            self.round = Some(next);
         }
         self.idle
     }
+}
 
-    /// The motion, if it is accurate enough, of a time that changed by this share of it at last.
-    fn answer(self, change: f64, axis: Axis) -> Result<Fastest, NoMotion> {
-        let (found, phi) = self.found.ok_or(NoMotion::NoWay)?;
-        if found.excess > MOST_EXCESS || change > MOST_CHANGE {
+impl Round {
+    /// The motion, if it is accurate enough; the time changed by `settled` with the last number of cells.
+    fn answer(self, field: &Field, ends: &Ends, settled: f64) -> Result<Fastest, NoMotion> {
+        let change = settled / self.time;
+        if self.excess > MOST_EXCESS || change > MOST_CHANGE {
             return Err(NoMotion::NotAccurate {
-                excess: found.excess,
-                phi,
+                excess: self.excess,
+                phi: self.phi,
                 change,
                 endless: false,
-                axis,
+                axis: field.way.file.axis(),
             });
         }
-        Ok(found)
+        Ok(Fastest {
+            time: self.time,
+            error: settled / 15.0,
+            phases: phases::phases(field, ends, &self.track, &self.pieces, &self.times),
+            trace: self.trace,
+            excess: self.excess,
+            cells: self.track.cells.len(),
+            bound: None,
+        })
     }
 }
 
