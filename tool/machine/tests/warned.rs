@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use jred_machine::analysis::warnings::warnings;
 use jred_machine::model::motion::{Closing, Motion, Recording};
+use jred_machine::number::rounding::significant;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -219,6 +220,92 @@ fn noisy_records_name_their_cure() {
     assert_eq!(
         found(&noisy, &format!("smoothing = \"{line}\"")),
         Vec::<String>::new()
+    );
+}
+
+/// A row that is wrong is named with its number, in positions and in speeds; so is a cycle that closes at another speed than it starts with.
+/// Corners of the acceleration, at rows and between them, are a motion's own.
+#[test]
+fn a_row_that_stands_out_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = |cyclic: bool, column: &str, rows: &[[f64; 2]]| {
+        let csv: String = rows.iter().map(|[t, y]| format!("{t:e},{y:e}\n")).collect();
+        let csv = format!("t [s],{column}\n{csv}");
+        std::fs::write(folder.path().join("log.csv"), csv).unwrap();
+        format!(
+            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = {{ inertia = \"1 kg m^2\" }}\n\
+             [motion]\ntype = \"profile\"\nfile = \"log.csv\"\ncyclic = {cyclic}\n"
+        )
+    };
+    let found = |cyclic: bool, column: &str, rows: &[[f64; 2]]| {
+        let text = written(cyclic, column, rows);
+        warnings(&parse_in(&text, folder.path()).unwrap()).unwrap()
+    };
+    let sampled = |f: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
+        let times = (0..=200).map(|k| f64::from(k) * 0.01);
+        times.map(|t| [t, f(t)]).collect()
+    };
+    let sine = sampled(&|t| (TAU * 0.5 * t).sin());
+    let speeds = sampled(&|t| 20.0 + (TAU * t).sin());
+    let outlier = |rows: &[[f64; 2]], k: usize, by: f64| {
+        let mut rows = rows.to_vec();
+        rows[k][1] += by;
+        rows
+    };
+    for cyclic in [false, true] {
+        assert_eq!(found(cyclic, "phi [rad]", &sine), [""; 0]);
+        assert_eq!(found(false, "omega [rad/s]", &speeds), [""; 0]);
+        for k in [10, 51, 120] {
+            // The second derivative of the spline through a row that is off by 0.01 rad is 6·(√3 − 1) times 0.01/h², and the sine's own.
+            let bent = 6.0 * (3.0_f64.sqrt() - 1.0) * 0.01 / 0.01_f64.powi(2);
+            let reached = bent + (0.5 * TAU).powi(2) * sine[k][1];
+            let reaches = format!(
+                "reaches {} rad/s^2, elsewhere 9.87 rad/s^2",
+                significant(reached, 3)
+            );
+            let said = found(cyclic, "phi [rad]", &outlier(&sine, k, 0.01)).join("\n");
+            let named = format!("row {}, {} s after", k + 1, significant(sine[k][0], 3));
+            assert!(said.starts_with(&named), "{said}");
+            assert!(said.contains(&reaches), "{said}");
+            let said = found(false, "omega [rad/s]", &outlier(&speeds, k, 0.2)).join("\n");
+            assert!(
+                said.starts_with(&named) && said.contains("a speed 0.2 rad/s off"),
+                "{said}"
+            );
+        }
+    }
+    // Half a parabola: the cycle ends a turn further with twice the mean speed.
+    let parabola = sampled(&|t| TAU * (t / 2.0).powi(2));
+    let said = found(true, "phi [rad]", &parabola).join("\n");
+    assert!(
+        said.starts_with("the first row, at which the cycle closes"),
+        "{said}"
+    );
+    assert_eq!(found(false, "phi [rad]", &parabola), [""; 0]);
+    // A trapezoid of the speed whose corners lie anywhere between the rows, and noise of any size.
+    for corner in [0.5, 0.501, 0.5025, 0.505, 0.5075, 0.509] {
+        let position = |t: f64| match t {
+            t if t < corner => t * t,
+            t if t < 2.0 - corner => corner * (2.0 * t - corner),
+            t => 2.0 * corner * (2.0 - corner) - (2.0 - t).powi(2),
+        };
+        assert_eq!(found(false, "phi [rad]", &sampled(&position)), [""; 0]);
+    }
+    for sigma in [1e-6, 1e-4, 1e-2] {
+        let (times, values) = rows(0, sigma);
+        let rows: Vec<[f64; 2]> = times.into_iter().zip(values).map(Into::into).collect();
+        let said = found(false, "phi [rad]", &rows).join("\n");
+        assert!(!said.contains("row"), "{said}");
+    }
+    // The same instant twice.
+    let mut twice = sine.clone();
+    twice.insert(51, [0.5 + 1e-9, sine[50][1]]);
+    let text = written(false, "phi [rad]", &twice);
+    let fault = parse_in(&text, folder.path()).unwrap_err();
+    let fault = format!("{fault:?}");
+    assert!(
+        fault.contains("row 52 is 1e-9 s after the previous row"),
+        "{fault}"
     );
 }
 

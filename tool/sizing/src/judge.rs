@@ -156,7 +156,7 @@ impl<'a> Context<'a> {
     }
 
     /// Assumptions about the drive, and second-hand data.
-    pub fn assumptions(&self) -> Vec<String> {
+    pub fn assumptions(&self, rules: &RuleSet) -> Vec<String> {
         let mut assumptions = Vec::new();
         if !self.drive.motor.from_maker {
             assumptions.push("motor data not taken from the maker's own document; check them against the data sheet".to_owned());
@@ -178,7 +178,7 @@ impl<'a> Context<'a> {
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
             assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
         }
-        assumptions.extend(motor::unheld(self));
+        assumptions.extend(motor::unheld(self, rules));
         assumptions.extend(self.motor.envelope.assumptions());
         assumptions
     }

@@ -100,7 +100,8 @@ impl Stand {
     fn warnings(&self, geared: bool) -> Vec<String> {
         let prepared = self.prepared();
         let drive = self.drive(geared);
-        Context::new(&self.cycle, &self.file.site, drive, &prepared).assumptions()
+        Context::new(&self.cycle, &self.file.site, drive, &prepared)
+            .assumptions(&RuleSet::default())
     }
 
     /// What a rule found, if it applies.

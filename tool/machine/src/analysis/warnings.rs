@@ -23,6 +23,7 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     warnings.extend(overshoot::of(file));
     warnings.extend(digits::of(file));
     warnings.extend(noise::of(file));
+    warnings.extend(noise::outlier(file));
     warnings.extend(plausible::of(file)?);
     Ok(warnings)
 }

@@ -26,6 +26,9 @@ use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 /// A time step this many times the usual one is a gap in the recording.
 const GAP: f64 = 20.0;
 
+/// A time step this many times shorter than the usual one makes two rows of one.
+const TWICE: f64 = 1000.0;
+
 /// Cure for most faults of the time column.
 const TIMES: &str =
     "give one row for each instant, in order, with enough digits in the times to tell them apart";
@@ -262,6 +265,19 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
         .help(format!(
             "a curve through a gap of more than {GAP} steps would be guesswork: add the missing rows, including those at standstill"
         )));
+    }
+    let twice = steps.iter().position(|step| *step * TWICE < usual);
+    if let (Some(row), None) = (twice, &request.smoothing) {
+        return Err(Problem::new(format!(
+            "row {} is {} s after the previous row; the usual step is {} s",
+            row + 2,
+            figure(steps[row]),
+            figure(usual)
+        ))
+        .at(columns.place(row + 1), "this row")
+        .help(
+            "a curve through two rows that are one instant has a false acceleration between them: remove one of the two",
+        ));
     }
     Ok(times.iter().map(|t| t - first).collect())
 }

@@ -1,8 +1,11 @@
 //! What the motor does in a motion: its RMS torque with the pauses, its peaks, and the pause that its S1 torque asks for.
 
+use std::convert::Infallible;
+
 use jred::Error;
 use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::number::numerics;
 use jred_machine::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
@@ -68,23 +71,44 @@ pub(super) fn load(
     let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
     let mean_speed = forwards.motor_speed(turns) / duration;
     // At the largest speed all the time rounding must not step beyond.
-    let continuous =
-        (actuator.envelope).continuous_torque(mean_speed.min(actuator.envelope.max_speed()));
-    let allowed = continuous * reserve.leaves(reserve.rms);
-    let excess = squares - allowed * allowed * duration;
-    let relief = allowed * allowed - holding * holding;
-    let pause = if excess <= 0.0 || !allowed.is_finite() {
-        Some(0.0)
-    } else {
-        (relief > 0.0).then(|| excess / relief)
+    let s1 =
+        |mean: f64| (actuator.envelope).continuous_torque(mean.min(actuator.envelope.max_speed()));
+    let leaves = reserve.leaves(reserve.rms);
+    let continuous = s1(mean_speed);
+    // A pause lowers the mean speed as well, and with it the S1 torque rises.
+    let suffices = |pause: f64| {
+        let time = duration + pause;
+        let allowed = leaves * s1(mean_speed * duration / time);
+        squares + holding * holding * pause <= allowed * allowed * time
     };
+    let pause = least_pause(suffices, duration);
     Ok(MotorLoad {
         rms: (squares / duration).sqrt(),
         peaks,
         mean_speed,
         holding,
         continuous,
-        allowed,
+        allowed: leaves * continuous,
         pause,
     })
+}
+
+/// The longest pause that is tried, in durations of the motion.
+const LONGEST: f64 = 1e6;
+
+/// The shortest pause that suffices; `None`: not even a long one does.
+fn least_pause(suffices: impl Fn(f64) -> bool, duration: f64) -> Option<f64> {
+    if suffices(0.0) {
+        return Some(0.0);
+    }
+    let mut long = duration;
+    while !suffices(long) {
+        long *= 2.0;
+        if long > LONGEST * duration {
+            return None;
+        }
+    }
+    let short = |pause: f64| Ok::<_, Infallible>(!suffices(pause));
+    let Ok(pause) = numerics::edge(short, 0.0, long);
+    Some(pause)
 }

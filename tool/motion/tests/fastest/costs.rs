@@ -82,3 +82,26 @@ fn the_rms_torque_stays_below_its_reserve() {
     let share = load.allowed / (0.8 * load.continuous);
     assert!((1.0 - share - 1e-6).abs() < 1e-12, "{share}");
 }
+
+/// Full torque T all the time, T = 30 N m over t: with a pause the time τ of a cycle satisfies T²·t = C²·τ, where the S1 torque
+/// C = 12 − 4·(40/τ)/300 is that of the mean speed with the pause: 144·τ² − (12.8 + T²·t)·τ + 0.64/2.25 = 0.
+#[test]
+fn the_pause_is_that_of_the_mean_speed_with_it() {
+    let motor = Motor {
+        peak_curve: vec![[0.0, 30.0], [300.0, 30.0]],
+        rated_torque: Some(8.0),
+        standstill_torque: Some(12.0),
+        rated_speed: Some(300.0),
+        ..Motor::default()
+    };
+    let actuator = Actuator {
+        envelope: Envelope::of(&motor),
+        ..super::motor([30.0; 2], 300.0)
+    };
+    let made = single(&table(0.5, ""), &actuator, task(0.0, 40.0), None).unwrap();
+    let t = made.trace.duration();
+    let b = 12.8 + 900.0 * t;
+    let cycle = (b + (b * b - 4.0 * 144.0 * 0.64 / 2.25).sqrt()) / 288.0;
+    let pause = made.load.pause.unwrap();
+    assert!((pause / (cycle - t) - 1.0).abs() < 1e-6, "{pause} {cycle}");
+}

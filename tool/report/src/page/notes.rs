@@ -118,10 +118,6 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     if let Some(amplifier) = drive.amplifier {
         source(&amplifier.model, &amplifier.source);
     }
-    notes.extend(
-        best.assumptions
-            .iter()
-            .map(|assumed| format!("Warning: {assumed}.")),
-    );
+    notes.extend(best.warnings().map(|said| format!("Warning: {said}.")));
     notes
 }

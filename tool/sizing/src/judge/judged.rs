@@ -30,7 +30,7 @@ impl<'c> Judged<'c> {
             resistor: context.resistor(),
             duty: context.cycle.motor_duty(&context.drive),
             checks: context.checks(rules),
-            assumptions: context.assumptions(),
+            assumptions: context.assumptions(rules),
         }
     }
 
@@ -47,8 +47,19 @@ impl<'c> Judged<'c> {
 
     /// One sentence for each violated rule.
     pub fn reasons(&self) -> String {
-        let broken = self.checks.iter().filter(|c| c.verdict == Verdict::Fail);
-        broken.map(Check::sentence).collect::<Vec<_>>().join("; ")
+        self.sentences(Verdict::Fail).collect::<Vec<_>>().join("; ")
+    }
+
+    /// One sentence for each rule that warns, and each assumption.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        (self.sentences(Verdict::Warn)).chain(self.assumptions.iter().cloned())
+    }
+
+    fn sentences(&self, verdict: Verdict) -> impl Iterator<Item = String> {
+        let checks = self.checks.iter();
+        checks
+            .filter(move |c| c.verdict == verdict)
+            .map(Check::sentence)
     }
 
     /// Use of the limit of a rule as text; empty if the rule does not apply.

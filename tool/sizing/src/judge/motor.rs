@@ -125,14 +125,15 @@ pub(super) fn falls(context: &Context) -> bool {
 }
 
 /// A warning for a motor without a brake, if the machine does not stay where it is without current.
-pub(super) fn unheld(context: &Context) -> Option<String> {
+pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
+    let share = rules.limit(Rule::BrakeTorque).fail.unwrap_or(1.0);
     let unheld = context.drive.motor.brake.is_none() && falls(context);
     let words = context.vocabulary();
     unheld.then(|| {
         format!(
             "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
              this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
-            short(braked(context) / words.torque.scale),
+            short(braked(context) / share / words.torque.scale),
             words.torque.unit
         )
     })

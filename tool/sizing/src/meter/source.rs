@@ -47,7 +47,7 @@ impl MeterLimits<'_> {
         lines.push(format!("rules: {} ({})", self.rules.name, self.rules.title));
         lines.extend(
             self.context
-                .assumptions()
+                .assumptions(self.rules)
                 .iter()
                 .map(|a| format!("assumed: {a}")),
         );

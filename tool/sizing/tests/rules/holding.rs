@@ -94,8 +94,16 @@ fn what_falls_without_a_brake_is_said() {
     assert!(stand.warnings(true).iter().all(|w| !w.contains("brake")));
     stand.motor.brake = None;
     let warning = stand.warnings(true).remove(0);
-    // 120 N m over 3 and 5.
-    assert!(warning.contains("at least 8 N m"), "{warning}");
+    // 120 N m over 3 and 5, times the rule's factor of 1.5; a brake of that torque satisfies the rule.
+    assert!(warning.contains("at least 12 N m"), "{warning}");
+    for (torque, verdict) in [(12.0, Verdict::Pass), (11.99, Verdict::Fail)] {
+        stand.brake(torque);
+        assert_eq!(
+            stand.check(true, &rules, Rule::BrakeTorque).verdict,
+            verdict
+        );
+    }
+    stand.motor.brake = None;
     let check = stand.check(true, &rules, Rule::BrakeTorque);
     assert_eq!(check.verdict, Verdict::NotChecked);
     assert!(check.note.contains("holding brake"), "{}", check.note);

@@ -23,7 +23,8 @@ fn second_hand_data_are_named() {
             amplifier: Some(&amplifier),
             ..stand.drive(true)
         };
-        let said = Context::new(&stand.cycle, &stand.file.site, drive, &prepared).assumptions();
+        let said = Context::new(&stand.cycle, &stand.file.site, drive, &prepared)
+            .assumptions(&RuleSet::default());
         for (part, name) in (0..).zip(["motor", "gearbox", "amplifier"]) {
             let words = format!("{name} data not taken from the maker's own document");
             assert_eq!(
@@ -63,6 +64,7 @@ fn a_judged_drive_in_figures() {
             used,
             judged.holds(),
             judged.reasons(),
+            judged.warnings().next(),
         )
     };
     // Of all rules the speed alone is judged: at 100 %, and at so much that the drive uses half of it or twice as much.
@@ -80,7 +82,7 @@ fn a_judged_drive_in_figures() {
             .file
             .rules
             .set(Rule::Speed, Limit { fail, warn: None });
-        let (_, used, found, reasons) = judged(&stand);
+        let (_, used, found, reasons, _) = judged(&stand);
         assert_eq!(used, (said.to_owned(), String::new()));
         assert_eq!((found, reasons.is_empty()), (holds, holds), "{reasons}");
     }
@@ -93,6 +95,18 @@ fn a_judged_drive_in_figures() {
         },
     );
     assert!(judged(&stand).2);
+    // A rule that only warns is satisfied, and is the first of the warnings.
+    for (limit, warns) in [(1.01 * share, false), (0.99 * share, true)] {
+        let warn = Some(limit);
+        stand
+            .file
+            .rules
+            .set(Rule::Speed, Limit { fail: None, warn });
+        let (.., holds, _, warning) = judged(&stand);
+        assert!(holds);
+        let said = warning.is_some_and(|said| said.starts_with("speed "));
+        assert_eq!(said, warns);
+    }
 }
 
 /// Whatever a rule lacks, the keys that are named for it are keys of the catalogue or of the machine file.

@@ -1,12 +1,56 @@
-//! A recorded motion whose noise is a part of its acceleration.
+//! A recorded motion whose noise is a part of its acceleration, or with a row that does not belong to it.
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
-use crate::model::motion::ToolCoordinate;
+use crate::model::motion::{Outlier, ToolCoordinate};
 use crate::number::rounding::significant;
 
 /// Share of the acceleration, both RMS, from which on noise is named.
 const NOISY: f64 = 0.1;
+
+/// Unit of the prescribed coordinate, and that of the SI.
+fn unit(file: &MachineFile) -> Option<(Coordinate, &'static str)> {
+    let drive = file.machine.mechanism().coordinate();
+    let motion = file.motion.as_ref()?;
+    let coordinate = motion.tool().map_or(drive, ToolCoordinate::coordinate);
+    Some((
+        coordinate,
+        match coordinate {
+            Coordinate::Angle => "rad",
+            Coordinate::Length => "m",
+        },
+    ))
+}
+
+/// A warning for a recording with a row that stands out.
+pub(super) fn outlier(file: &MachineFile) -> Option<String> {
+    let Outlier {
+        row,
+        t,
+        of_speeds,
+        by,
+        accelerations: [near, elsewhere],
+    } = file.motion.as_ref()?.outlier()?;
+    let (coordinate, si) = unit(file)?;
+    let short = |x: f64| significant(x, 3);
+    let (what, by) = if of_speeds {
+        ("speed", format!("{} {si}/s", short(by.abs())))
+    } else {
+        let shown = short(coordinate.shown(by.abs()));
+        ("position", format!("{shown} {}", coordinate.unit()))
+    };
+    let place = if row == 0 {
+        "the first row, at which the cycle closes,".to_owned()
+    } else {
+        format!("row {}, {} s after the first,", row + 1, short(t))
+    };
+    Some(format!(
+        "{place} has a {what} {by} off the curve through its neighbours; there the acceleration reaches {} {si}/s^2, elsewhere {} {si}/s^2, and torques \
+         follow it: remove the row, or cut the recording where position and speed match",
+        short(near),
+        short(elsewhere)
+    ))
+}
 
 /// A warning for a recording whose curve goes through the noise of its rows.
 pub(super) fn of(file: &MachineFile) -> Option<String> {
@@ -16,15 +60,8 @@ pub(super) fn of(file: &MachineFile) -> Option<String> {
     if share.is_nan() || share < NOISY {
         return None;
     }
-    let drive = file.machine.mechanism().coordinate();
-    let coordinate = motion.tool().map_or(drive, ToolCoordinate::coordinate);
-    let (unit, si) = (
-        coordinate.unit(),
-        match coordinate {
-            Coordinate::Angle => "rad",
-            Coordinate::Length => "m",
-        },
-    );
+    let (coordinate, si) = unit(file)?;
+    let unit = coordinate.unit();
     let short = |x: f64| significant(x, 2);
     let (what, rows, speed) = if noise.of_speeds {
         (

@@ -78,7 +78,7 @@ impl Motion {
     }
 
     /// The curve through the rows of a recorded motion, and whether it is one of speeds.
-    fn curve(&self) -> Option<(&Spline, bool)> {
+    pub(super) fn curve(&self) -> Option<(&Spline, bool)> {
         match self.pieces.as_slice() {
             [piece] => match &piece.kind {
                 Kind::Positions { curve, .. } => Some((curve, false)),
@@ -91,33 +91,40 @@ impl Motion {
 }
 
 /// The middle one of the steps.
-fn usual_step(t: &[f64]) -> Option<f64> {
-    let mut steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied()
+pub(super) fn usual_step(t: &[f64]) -> Option<f64> {
+    middle(t.windows(2).map(|pair| pair[1] - pair[0]))
+}
+
+pub(super) fn middle(figures: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut figures: Vec<f64> = figures.collect();
+    figures.sort_by(f64::total_cmp);
+    figures.get(figures.len() / 2).copied()
+}
+
+/// How far each row but the two at either end misses the cubic through its four neighbours, and how many errors of one row that is.
+pub(super) fn residuals<'c>(t: &'c [f64], y: &'c [f64]) -> impl Iterator<Item = [f64; 2]> + 'c {
+    t.windows(5).zip(y.windows(5)).map(|(t, y)| {
+        let (mut missed, mut square) = (y[2], 1.0);
+        for i in [0, 1, 3, 4] {
+            let others = [0, 1, 3, 4].into_iter().filter(|j| *j != i);
+            let weight: f64 = others.map(|j| (t[2] - t[j]) / (t[i] - t[j])).product();
+            missed -= weight * y[i];
+            square += weight * weight;
+        }
+        [missed, square.sqrt()]
+    })
+}
+
+/// Magnitude of a residual that is one of the last digits of the numbers themselves.
+pub(super) fn rounding(y: &[f64]) -> f64 {
+    16.0 * f64::EPSILON * y.iter().fold(0.0_f64, |most, y| most.max(y.abs()))
 }
 
 /// σ of the rows, if they scatter.
 fn scatter(t: &[f64], y: &[f64]) -> Option<f64> {
-    let near = t.windows(5).zip(y.windows(5));
-    let residuals: Vec<f64> = near
-        .map(|(t, y)| {
-            let (mut missed, mut square) = (y[2], 1.0);
-            for i in [0, 1, 3, 4] {
-                let others = [0, 1, 3, 4].into_iter().filter(|j| *j != i);
-                let weight: f64 = others.map(|j| (t[2] - t[j]) / (t[i] - t[j])).product();
-                missed -= weight * y[i];
-                square += weight * weight;
-            }
-            missed / square.sqrt()
-        })
-        .collect();
-    let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let middle = *sizes.get(sizes.len() / 2)?;
-    let most = y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
-    // The last digits of the numbers themselves.
-    if middle <= 16.0 * f64::EPSILON * most {
+    let residuals: Vec<f64> = residuals(t, y).map(|[missed, of]| missed / of).collect();
+    let middle = middle(residuals.iter().map(|r| r.abs()))?;
+    if middle <= rounding(y) {
         return None;
     }
     // Where a corner is, a residual is no measure of the rest.

@@ -448,9 +448,9 @@ fn rules_table(judged: &Judged) -> String {
         text += "\nnot checked: ";
         text += &missing.join("; ");
     }
-    for assumed in &judged.assumptions {
+    for warning in judged.warnings() {
         text += "\nwarning: ";
-        text += assumed;
+        text += &warning;
     }
     text
 }
