@@ -204,3 +204,18 @@ fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Resu
     let given = quantity(name, text, read, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
 }
+
+/// Says where a motion was written, and how it is read.
+fn profile_written(file: &MachineFile, path: &Path) -> String {
+    let evenly = file.axis() != Axis::of_drive(file.machine.mechanism().coordinate());
+    let of = match file.motion.as_ref().map(|motion| motion.tool().is_some()) {
+        Some(true) if evenly => ", `of` as it is",
+        Some(true) => ", without `of`",
+        None if evenly => ", `of` naming the part that moves",
+        _ => "",
+    };
+    format!(
+        "profile written to {}; as [motion]: type = \"profile\", file = \"…\" with its path from the machine file{of}\n",
+        plain::path(path)
+    )
+}

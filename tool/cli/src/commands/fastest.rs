@@ -11,7 +11,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, drive_named, envelope, print, quantity, rate};
+use crate::commands::{Done, drive_named, envelope, print, profile_written, quantity, rate};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files, print_parts};
 use jred::Reducible as _;
@@ -151,7 +151,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     files.finish()?;
     print_parts(answer.write(options.format).map_err(core_report)?)?;
     if options.format == Format::Table {
-        written(options)?;
+        written(options, &file)?;
         print(&planned)?;
     }
     let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
@@ -178,12 +178,11 @@ fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
 }
 
 /// Says which files were written.
-fn written(options: &Options) -> Result<()> {
-    for (what, path) in [
-        ("profile", &options.profile),
-        ("cam table", &options.cam),
-        ("report", &options.report),
-    ] {
+fn written(options: &Options, file: &MachineFile) -> Result<()> {
+    if let Some(path) = &options.profile {
+        print(&profile_written(file, path))?;
+    }
+    for (what, path) in [("cam table", &options.cam), ("report", &options.report)] {
         if let Some(path) = path {
             print(&format!("{what} written to {}\n", plain::path(path)))?;
         }

@@ -6,7 +6,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
-use crate::commands::{Done, drive_asked, print_parts, warn_of_supply};
+use crate::commands::{Done, drive_asked, print_parts, profile_written, warn_of_supply};
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
 use jred_machine::model::drive_train;
@@ -65,14 +65,13 @@ pub fn retime(options: &Retime) -> Result<Done> {
     let trace = retimed.trace.of_axis(&file.axis());
     let mut written = String::new();
     let mut files = Files::default();
-    for (path, what, text) in [
-        (&options.profile, "motion", trace.profile()),
-        (&options.cam, "cam table", trace.cam(rows, options.master)),
-    ] {
-        if let Some(path) = path {
-            files.add(path, text.as_bytes())?;
-            written += &[what, " written to ", &plain::path(path), "\n"].concat();
-        }
+    if let Some(path) = &options.profile {
+        files.add(path, trace.profile().as_bytes())?;
+        written += &profile_written(&file, path);
+    }
+    if let Some(path) = &options.cam {
+        files.add(path, trace.cam(rows, options.master).as_bytes())?;
+        written += &["cam table written to ", &plain::path(path), "\n"].concat();
     }
     let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
     written += &plan::write(

@@ -10,6 +10,8 @@ use crate::options::simulate::Simulate;
 use crate::output;
 use jred_machine::analysis::reduce::{Sets, add_columns};
 use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
+use jred_machine::analysis::warnings::of_motion;
+use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
 use jred_machine::model::variator;
@@ -39,8 +41,15 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         } else {
             ", output_step and torque"
         };
+        let start = if file.axis().coordinate == Coordinate::Angle {
+            "start_angle"
+        } else {
+            "start_position"
+        };
         miette!(
-            help = format!("add a [simulation] with start_angle, duration{torque}; docs/machine-file.md shows how"),
+            help = format!(
+                "add a [simulation] with {start}, duration{torque}; docs/machine-file.md shows how"
+            ),
             "{} has no [simulation]",
             plain::path(path)
         )
@@ -55,6 +64,9 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         to_speed: to_speed.map(f64::abs),
         ..own.clone()
     };
+    for warning in of_motion(&file) {
+        output::warn(&warning);
+    }
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
     let (mut found, drive) = match &chosen {

@@ -22,8 +22,14 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     warnings.extend(near_centre::of(file)?);
     warnings.extend(overshoot::of(file));
     warnings.extend(digits::of(file));
-    warnings.extend(noise::of(file));
-    warnings.extend(noise::outlier(file));
+    warnings.extend(of_motion(file));
     warnings.extend(plausible::of(file)?);
     Ok(warnings)
+}
+
+/// Those of the prescribed motion alone: noise and wrong rows of a recording, implausible speeds and accelerations.
+pub fn of_motion(file: &MachineFile) -> impl Iterator<Item = String> {
+    (noise::of(file).into_iter())
+        .chain(noise::outlier(file))
+        .chain(plausible::of_motion(file))
 }

@@ -317,6 +317,11 @@ impl Motion {
         stretches
     }
 
+    /// Whether it goes through recorded or computed rows somewhere.
+    pub(crate) fn is_recorded(&self) -> bool {
+        self.pieces.iter().any(Piece::is_recorded)
+    }
+
     /// The times (s) strictly within a part of the motion at which its rows stand, in order: there a derivative jumps. None of a motion that
     /// is not recorded, nor computed.
     pub(crate) fn rows_within(&self, [from, to]: [f64; 2]) -> Vec<f64> {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::analysis::repeats::Difference;
+use crate::model::coordinate::Coordinate;
 use crate::model::motion::{Closing, Motion, Recording, cutoffs};
 use crate::text::file::Files;
 
@@ -76,19 +77,37 @@ pub(super) fn read(
         value.check_positive()?;
     }
     let file = CsvFile::open(&item, "profile.csv", files)?;
-    let columns = read_columns(&file.text, drive, &layout, &request).map_err(|fault| {
-        let of_drive = || read_columns(&file.text, prescribed.drive, &layout, &request).is_ok();
+    let columns = read_columns(&file.text, drive.coordinate, &layout, &request);
+    let columns = columns.map_err(|fault| {
+        let other = match drive.coordinate {
+            Coordinate::Angle => Coordinate::Length,
+            Coordinate::Length => Coordinate::Angle,
+        };
+        if read_columns(&file.text, other, &layout, &request).is_err() {
+            return file.shows(fault);
+        }
+        let has = match other {
+            Coordinate::Angle => "angles",
+            Coordinate::Length => "lengths",
+        };
         match (&prescribed.tool, section.get("of")) {
-            (Some(tool), Some(of)) if of_drive() => of
+            (Some(tool), Some(of)) => of
                 .problem(
-                    &format!(
-                        "is {}, but the file has positions of the drive link",
-                        tool.name()
-                    ),
+                    &format!("is {}, but the file has {has}", tool.name()),
                     "not those of the file",
                 )
-                .help("remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link"),
-            _ => file.shows(fault),
+                .help("remove `of` from [motion] if they are those of the drive link: `jred fastest` and `jred retime` write such profiles where the part does not go evenly with it"),
+            _ => {
+                let (does, own) = match other {
+                    Coordinate::Length => ("turns", "phi [deg]"),
+                    Coordinate::Angle => ("slides", "s [mm]"),
+                };
+                item.problem(&format!("has {has}, but the drive link {does}"), "not of the drive link")
+                    .help(format!(
+                        "name in [motion] the part that the file tells of, as in the motion that it was made from: of = {{ point = \"carriage\", \
+                         along = \"x\" }}; or give the positions of the drive link, \"t [s],{own}\""
+                    ))
+            }
         }
     })?;
     check_request(&request, &columns, prescribed)?;

@@ -242,8 +242,11 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
             let field = unquoted(field);
             let fault = |what: &str| {
                 let [field, name] = [field, title.whole.as_str()].map(plain::cut);
-                let message =
-                    format!("row {number}: \"{field}\" in the column \"{name}\" is {what}");
+                let message = if field.is_empty() {
+                    format!("row {number}: the column \"{name}\" is empty")
+                } else {
+                    format!("row {number}: \"{field}\" in the column \"{name}\" is {what}")
+                };
                 Problem::new(message).at(place.clone(), "this row")
             };
             let value = number_of(field, table.separator()).ok_or_else(|| {
@@ -268,15 +271,17 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     if places.len() < format.min_rows {
         let end = whole.trim_end().len();
         return Err(Problem::new(format!(
-            "the file has {} rows, but needs at least {}",
+            "the file has {} {}, but needs at least {}",
             places.len(),
+            if places.len() == 1 { "row" } else { "rows" },
             format.min_rows
         ))
         .at(end..end, "ends here")
-        .help(format!(
-            "add the columns {} and one row for each point",
-            format.example
-        ))
+        .help(if whole.trim().is_empty() {
+            format!("the first line gives column names with units: {}; then one row for each point follows", format.example)
+        } else {
+            "add a row for each point".to_owned()
+        })
         .into());
     }
     Ok(Columns {

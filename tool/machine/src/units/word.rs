@@ -114,6 +114,7 @@ pub(super) const EVERY: &[Word] = &[
     ten("s", 0, TIME),
     ten("ms", -3, TIME),
     ten("us", -6, TIME),
+    ten("ns", -9, TIME),
     ten("N", 0, FORCE),
     ten("kN", 3, FORCE),
     ten("MN", 6, FORCE),

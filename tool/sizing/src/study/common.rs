@@ -51,6 +51,12 @@ pub struct PreparedMachine {
 const AROUND: [&str; 5] = ["supply.", "surroundings.", "stiffness.", "duty.", "rules."];
 
 impl Study {
+    /// How exact its figures are, for the header of its rows.
+    pub(crate) fn accuracy(&self) -> String {
+        let Sampling { steps, tolerance } = self.sampling;
+        format!("steps = {steps}, tolerance = {tolerance:e}")
+    }
+
     /// The study of the machine file at `path`: see [`Study::new`].
     ///
     /// # Errors

@@ -37,7 +37,7 @@ jred_machine::words! {
 }
 
 /// Columns behind those of the axes.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 13] = [
     "verdict",
     "drives that fit",
     "motor",
@@ -45,6 +45,8 @@ const COLUMNS: [&str; 11] = [
     "amplifier",
     "ratio",
     "rated power [W]",
+    "mass [kg]",
+    "price",
     "margin",
     "worst rule",
     "energy [J]",
@@ -66,14 +68,14 @@ impl Task for GridStudy<'_> {
                 )
             })
             .collect();
-        options.push(format!("steps = {}", self.study.sampling.steps));
+        options.push(self.study.accuracy());
         options.push(format!("filter = {}", digest(&self.filter)));
         options.push(format!(
             "rank = {}",
             self.rank.map_or("default", Objective::name)
         ));
         Header {
-            jred: "vary/3".to_owned(),
+            jred: "vary/4".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             machine: self.study.name.clone(),
             machine_digest: self.study.machine_digest(),
@@ -164,6 +166,8 @@ fn drive_cells(selection: &Selection, candidate: &Candidate) -> Vec<Cell> {
             .map_or(Cell::Empty, |a| a.key.as_str().into()),
         drive.ratio().into(),
         drive.motor.rated_power().into(),
+        drive.mass().into(),
+        Objective::Price.value(selection, candidate).into(),
         (1.0 - outcome.worst_use).into(),
         outcome
             .worst_rule

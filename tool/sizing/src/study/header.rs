@@ -10,7 +10,7 @@ use super::shard::Shard;
 /// Identity of the study that a file of rows belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// Kind of study and version of the form, such as "vary/3".
+    /// Kind of study and version of the form, such as "vary/4".
     pub jred: String,
     /// Version of the tool.
     pub version: String,

@@ -240,7 +240,7 @@ impl Task for Samples<'_> {
             .map(|s| format!("{} {:?} ± {:?} {}", s.path, s.shape, s.amount, s.unit))
             .collect();
         options.push(format!("seed = {}", self.seed));
-        options.push(format!("steps = {}", self.study.sampling.steps));
+        options.push(self.study.accuracy());
         options.push(format!("drive = {}", self.one.name()));
         Header {
             jred: "tolerance/3".to_owned(),

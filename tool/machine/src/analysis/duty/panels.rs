@@ -4,18 +4,17 @@
 //! which the power through a stage with losses, or at the input, changes its sign is cut there. One that holds rows of a recorded motion is cut
 //! at a row, until it holds none.
 
-use jred::Reducible as _;
+mod signs;
+mod stretch;
 
 use super::fault::Fault;
 use super::integrands::{Allowed, COUNT, Sums, integrands};
 use super::moving::{Evaluated, Moving};
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
-use crate::model::machine::MachineFile;
-use crate::model::motion::Motion;
-use crate::number::numerics;
-use crate::number::parabola::Parabola;
 use crate::number::quadrature::GAUSS_3;
 use crate::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
+use signs::UNSIGNED;
+use stretch::{Stretch, near_whole, turns};
 
 /// Most instants of a duty: with what is made of them they take 200 bytes each.
 pub const MOST_INSTANTS: usize = 4_000_000;
@@ -26,32 +25,29 @@ const OF_TURN: [f64; 2] = [2.0, 8.0];
 /// As long as there are no more instants for the turns than this, they have the larger number.
 const FOR_TURNS: f64 = 1e6;
 
-/// Rounding of a number of panels, as a share of it.
-const WHOLE: f64 = 1e-12;
-
 /// Most panels that are looked at for the size of the integrals.
 const LOOKED_AT: usize = 256;
-
-/// A torque that is a smaller share of the largest is no torque whose sign counts: rounding.
-const UNSIGNED: f64 = 1e-11;
 
 /// Most cuts of a panel at changes of sign; with more it is halved first.
 const MOST_CUTS: usize = 16;
 
-/// Panels are cut where a torque that does not change its sign may do so between the instants: where the parabola through three of them comes
-/// nearer to zero than this share of the middle one.
-const NEAR_ZERO: f64 = 0.1;
+/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth, at
+/// a kink half.
+const LITTLE: f64 = 0.7;
 
-/// A smooth stretch of the motion.
-struct Stretch {
-    from: f64,
-    to: f64,
-    /// Its times are taken from inside.
-    inside: [f64; 2],
-    /// Whether torques have a sign that counts.
-    moves: bool,
-    rows: Vec<f64>,
-}
+/// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
+const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
+
+/// Halvings of a panel at most.
+const DEEPEST: u32 = 60;
+
+/// The sum of the errors of all panels may be larger than the tolerance by this factor: each estimate is cautious.
+const MOST_OF_TOLERANCE: f64 = 4.0;
+
+/// Share of the energy that is moved by which it may not balance. Positions, speeds and accelerations of rows that were rounded when they were written
+/// belong together to some digits only; those of a law do but for roundings.
+const OF_ROWS: f64 = 1e-3;
+const OF_LAWS: f64 = 1e-7;
 
 /// An end of a panel.
 #[derive(Clone, Copy)]
@@ -114,76 +110,6 @@ pub(super) struct Panels<'a, 'm> {
     gain: f64,
     /// The stretch with the largest difference of work and energy (J).
     unbalanced: ([f64; 2], f64),
-}
-
-impl Stretch {
-    fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
-        let hair = INSIDE * (to - from);
-        let mut rows = motion.rows_within([from, to]);
-        for carriage in file.schedule.carriages() {
-            rows.extend(carriage.motion.rows_within([from, to]));
-        }
-        rows.sort_by(f64::total_cmp);
-        Self {
-            from,
-            to,
-            inside: [from + hair, (to - hair).min(to.next_down().max(from))],
-            moves: motion.at(from.midpoint(to)).omega != 0.0,
-            rows,
-        }
-    }
-
-    fn clamp(&self, t: f64) -> f64 {
-        let [first, last] = self.inside;
-        t.max(first).min(last)
-    }
-
-    /// The rows strictly between two times.
-    fn between(&self, [from, to]: [f64; 2]) -> &[f64] {
-        let first = self.rows.partition_point(|row| *row <= from);
-        let end = self.rows.partition_point(|row| *row < to);
-        self.rows.get(first..end).unwrap_or_default()
-    }
-
-    /// Where panels begin and end at first: about so many.
-    fn borders(&self, count: f64) -> Vec<f64> {
-        let mut borders = vec![self.from];
-        let mut k = 1.0;
-        while k < count {
-            let even = self.from + (self.to - self.from) * (k / count);
-            let next = self.rows.partition_point(|row| *row < even);
-            let row = self.rows.get(next).copied();
-            let border = if self.rows.is_empty() {
-                Some(even)
-            } else {
-                row
-            };
-            // Between two rows they are even.
-            let last = borders[borders.len() - 1];
-            let border = border.filter(|t| *t > last && *t < self.to);
-            let even = (even > last && even < self.to).then_some(even);
-            let crowded = self.rows.len() as f64 >= count;
-            borders.extend(if crowded { border } else { even });
-            k += 1.0;
-        }
-        borders.push(self.to);
-        borders
-    }
-}
-
-/// A number, whole where it is but for roundings.
-fn near_whole(count: f64) -> f64 {
-    if (count - count.round()).abs() < WHOLE * count {
-        count.round()
-    } else {
-        count
-    }
-}
-
-/// How many turns, or strokes, the drive link makes in a smooth stretch.
-fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
-    let [a, b] = [from, to].map(|t| motion.at(t).phi);
-    (b - a).abs() / file.machine.domain().span()
 }
 
 impl<'a, 'm> Panels<'a, 'm> {
@@ -286,26 +212,6 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 
-    /// The torques whose signs decide on the sides of losses: those of the stages with losses, and that at the input.
-    fn flows_of(&self, instant: &Instant) -> Vec<f64> {
-        let mut flows = vec![instant.input_torque];
-        let train = &self.moving.file.drive_train;
-        if train.is_lossy() {
-            flows.extend(train.lossy_flows(&instant.output()));
-        }
-        flows
-    }
-
-    /// A flow at a time.
-    fn flow(&mut self, t: f64, which: usize) -> Result<f64, Fault> {
-        let now = self.moving.at(t)?;
-        Ok(self
-            .flows_of(&now.instant)
-            .get(which)
-            .copied()
-            .unwrap_or(0.0))
-    }
-
     fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<End, Fault> {
         let now = self.moving.at(stretch.clamp(t))?;
         Ok(End { t, now, is_zero })
@@ -406,77 +312,6 @@ impl<'a, 'm> Panels<'a, 'm> {
         self.panel(stretch, [&left, last], way)
     }
 
-    /// The times within the panel at which the power through a stage with losses, or at the input, changes its sign.
-    fn changes(
-        &mut self,
-        stretch: &Stretch,
-        [first, last]: [&End; 2],
-        places: &[Evaluated],
-    ) -> Result<Vec<f64>, Fault> {
-        let mut times = vec![first.t];
-        times.extend(places.iter().map(|now| now.instant.t));
-        times.push(last.t);
-        let rows: Vec<Vec<f64>> = ([&first.now].into_iter())
-            .chain(places)
-            .chain([&last.now])
-            .map(|now| self.flows_of(&now.instant))
-            .collect();
-        let mut cuts = Vec::new();
-        for which in 0..self.flows.len() {
-            let least = UNSIGNED * self.flows[which];
-            if least.is_infinite() {
-                continue;
-            }
-            let value = |k: usize| {
-                let is_rounding = k == 0 && first.is_zero || k + 1 == rows.len() && last.is_zero;
-                let value = rows[k].get(which).copied().unwrap_or(0.0);
-                (!is_rounding && value.abs() > least).then_some(value)
-            };
-            let known: Vec<(f64, f64)> = (0..rows.len())
-                .filter_map(|k| Some((times[k], value(k)?)))
-                .collect();
-            let mut brackets: Vec<[(f64, f64); 2]> = (known.windows(2))
-                .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
-                .map(|pair| [pair[0], pair[1]])
-                .collect();
-            for three in known.windows(3) {
-                let [a, b, c] = [three[0], three[1], three[2]];
-                let touches =
-                    b.1.abs() <= a.1.abs().min(c.1.abs()) && a.1 * b.1 > 0.0 && b.1 * c.1 > 0.0;
-                if !touches {
-                    continue;
-                }
-                let sign = -b.1.signum();
-                let parabola =
-                    Parabola::through([a.0, b.0, c.0], [sign * a.1, sign * b.1, sign * c.1]);
-                let Some(at) = parabola.vertex().filter(|at| a.0 < *at && *at < c.0) else {
-                    continue;
-                };
-                if parabola.at(at) > -NEAR_ZERO * b.1.abs() {
-                    let beyond = self.flow(stretch.clamp(at), which)?;
-                    if beyond * b.1 < 0.0 && beyond.abs() > least {
-                        brackets.push([a, (at, beyond)]);
-                        brackets.push([(at, beyond), c]);
-                    }
-                }
-            }
-            for [a, b] in brackets {
-                let f = |t: f64| {
-                    let mut moving = Moving::new(self.moving.file, self.moving.motion);
-                    let now = moving.at(stretch.clamp(t))?;
-                    Ok::<f64, Fault>(self.flows_of(&now.instant)[which])
-                };
-                cuts.push(numerics::zero(f, [a.0, b.0], [a.1, b.1], f64::EPSILON)?);
-            }
-        }
-        cuts.sort_by(f64::total_cmp);
-        // Those that two stages share are one.
-        let near = 1e-9 * (last.t - first.t);
-        cuts.dedup_by(|next, before| *next - *before <= near.max(4.0 * f64::EPSILON * next.abs()));
-        cuts.retain(|t| *t - first.t > near && last.t - *t > near);
-        Ok(cuts)
-    }
-
     fn accept(
         &mut self,
         stretch: &Stretch,
@@ -547,8 +382,11 @@ impl<'a, 'm> Panels<'a, 'm> {
         };
         // Carriages bring energy of their own.
         let is_whole = !self.moving.file.schedule.flows();
-        let is_recorded = !(self.moving.motion.rows_within([0.0, self.duration])).is_empty();
-        let most = if is_recorded { OF_ROWS } else { OF_LAWS };
+        let most = if self.moving.motion.is_recorded() {
+            OF_ROWS
+        } else {
+            OF_LAWS
+        };
         if is_whole && share > most + MOST_OF_TOLERANCE * self.tolerance {
             return Err(Fault::Unbalanced {
                 work,
@@ -560,21 +398,3 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 }
-
-/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth, at
-/// a kink half.
-const LITTLE: f64 = 0.7;
-
-/// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
-const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
-
-/// Halvings of a panel at most.
-const DEEPEST: u32 = 60;
-
-/// The sum of the errors of all panels may be larger than the tolerance by this factor: each estimate is cautious.
-const MOST_OF_TOLERANCE: f64 = 4.0;
-
-/// Share of the energy that is moved by which it may not balance. Positions, speeds and accelerations of rows that were rounded when they were written
-/// belong together to some digits only; those of a law do but for roundings.
-const OF_ROWS: f64 = 1e-3;
-const OF_LAWS: f64 = 1e-7;

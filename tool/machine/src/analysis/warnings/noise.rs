@@ -1,26 +1,12 @@
 //! A recorded motion whose noise is a part of its acceleration, or with a row that does not belong to it.
 
-use crate::model::coordinate::Coordinate;
+use super::plausible::prescribed;
 use crate::model::machine::MachineFile;
-use crate::model::motion::{Outlier, ToolCoordinate};
+use crate::model::motion::Outlier;
 use crate::number::rounding::significant;
 
 /// Share of the acceleration, both RMS, from which on noise is named.
 const NOISY: f64 = 0.1;
-
-/// Unit of the prescribed coordinate, and that of the SI.
-fn unit(file: &MachineFile) -> Option<(Coordinate, &'static str)> {
-    let drive = file.machine.mechanism().coordinate();
-    let motion = file.motion.as_ref()?;
-    let coordinate = motion.tool().map_or(drive, ToolCoordinate::coordinate);
-    Some((
-        coordinate,
-        match coordinate {
-            Coordinate::Angle => "rad",
-            Coordinate::Length => "m",
-        },
-    ))
-}
 
 /// A warning for a recording with a row that stands out.
 pub(super) fn outlier(file: &MachineFile) -> Option<String> {
@@ -31,7 +17,7 @@ pub(super) fn outlier(file: &MachineFile) -> Option<String> {
         by,
         accelerations: [near, elsewhere],
     } = file.motion.as_ref()?.outlier()?;
-    let (coordinate, si) = unit(file)?;
+    let (coordinate, si) = prescribed(file)?;
     let short = |x: f64| significant(x, 3);
     let (what, by) = if of_speeds {
         ("speed", format!("{} {si}/s", short(by.abs())))
@@ -60,7 +46,7 @@ pub(super) fn of(file: &MachineFile) -> Option<String> {
     if share.is_nan() || share < NOISY {
         return None;
     }
-    let (coordinate, si) = unit(file)?;
+    let (coordinate, si) = prescribed(file)?;
     let unit = coordinate.unit();
     let short = |x: f64| significant(x, 2);
     let (what, rows, speed) = if noise.of_speeds {

@@ -6,8 +6,10 @@
 use jred::machine::{Body, Joint, Jointed as _, Marker, Mechanism as _};
 use jred::{Error, Link};
 
+use crate::model::coordinate::Coordinate;
 use crate::model::laden::Attached;
 use crate::model::machine::MachineFile;
+use crate::model::motion::ToolCoordinate;
 use crate::number::rounding::{short, significant};
 
 /// Gravity (m/s²): a tenth of the moon's, five times the earth's.
@@ -76,6 +78,61 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     }
     warnings.extend(apart(&bodies));
     Ok(warnings)
+}
+
+/// Largest speed and acceleration of a motion: in m/s and m/s², and in rad/s and rad/s².
+const LENGTHS: [f64; 2] = [100.0, 1e5];
+const ANGLES: [f64; 2] = [2e4, 1e8];
+
+/// Instants of a smooth stretch at which a motion is looked at: only the size counts.
+const INSTANTS: u32 = 8;
+
+/// A warning for a prescribed motion that is implausibly fast.
+pub(super) fn of_motion(file: &MachineFile) -> Option<String> {
+    let motion = file.motion.as_ref()?;
+    let (coordinate, si) = prescribed(file)?;
+    let mut fastest = [[0.0_f64; 2]; 2];
+    for (from, to) in motion.stretches() {
+        for k in 0..=INSTANTS {
+            let t = from + (to - from) * f64::from(k) / f64::from(INSTANTS);
+            let state = motion.prescribed(t);
+            for ([most, at], size) in fastest.iter_mut().zip([state.omega, state.alpha]) {
+                if size.abs() > *most {
+                    (*most, *at) = (size.abs(), t);
+                }
+            }
+        }
+    }
+    let limits = match coordinate {
+        Coordinate::Angle => ANGLES,
+        Coordinate::Length => LENGTHS,
+    };
+    let beyond = |k: usize, what: &str, per: &str| {
+        let [most, at] = fastest[k];
+        (most > limits[k]).then(|| {
+            format!(
+                "the motion reaches {what} of {} {si}/{per} at {} s, more than {}: are its times and ways right?",
+                short(most),
+                short(at),
+                limits[k]
+            )
+        })
+    };
+    beyond(0, "a speed", "s").or_else(|| beyond(1, "an acceleration", "s^2"))
+}
+
+/// Unit of the prescribed coordinate, and that of the SI.
+pub(super) fn prescribed(file: &MachineFile) -> Option<(Coordinate, &'static str)> {
+    let drive = file.machine.mechanism().coordinate();
+    let motion = file.motion.as_ref()?;
+    let coordinate = motion.tool().map_or(drive, ToolCoordinate::coordinate);
+    Some((
+        coordinate,
+        match coordinate {
+            Coordinate::Angle => "rad",
+            Coordinate::Length => "m",
+        },
+    ))
 }
 
 /// A body for its figures.

@@ -3,7 +3,6 @@
 use super::Request;
 use crate::model::coordinate::Coordinate;
 use crate::number::spline::MIN_POINTS;
-use crate::read::drive_link::DriveLink;
 use crate::text::columns::{self, Columns, Fault, Format, Known, Layout, known};
 use crate::text::csv;
 use crate::text::problem::Problem;
@@ -47,11 +46,11 @@ const LENGTHS: [Known; 7] = [
 /// The columns of a file, over the time.
 pub(super) fn read_columns(
     text: &str,
-    drive: DriveLink,
+    coordinate: Coordinate,
     layout: &Layout,
     request: &Request,
 ) -> Result<Columns, Fault> {
-    let (known, example) = match drive.coordinate {
+    let (known, example) = match coordinate {
         Coordinate::Angle => (
             &ANGLES,
             "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi; or master [deg] instead of t)",

@@ -22,7 +22,7 @@ impl Shown<'_> {
             lines.push(format!(
                 "the motor does not drive the machine beyond {}, at {} s: at rest it gives {} {effort} there, {} {effort} are needed, {} {effort} are missing",
                 axis.place(stuck.missing.phi),
-                short(stuck.time),
+                self.time(stuck.time),
                 short(stuck.missing.given.abs()),
                 short(stuck.missing.needed.abs()),
                 short(missing)
@@ -36,7 +36,7 @@ impl Shown<'_> {
                 "largest following error: {} {} at {} s, {}",
                 self.way(&axis, following.error),
                 axis.coordinate.unit(),
-                short(following.time),
+                self.time(following.time),
                 axis.place(following.position)
             ));
         }
@@ -50,6 +50,11 @@ impl Shown<'_> {
         lines
     }
 
+    /// An instant (s); 0 if it is that but for the rounding of the whole time.
+    fn time(&self, t: f64) -> String {
+        shown(t, self.simulation.duration)
+    }
+
     /// The longest of the stops over a cycle.
     fn worst_stop(&self, axis: &Axis) -> Option<String> {
         let stops = self.stops?;
@@ -58,7 +63,7 @@ impl Shown<'_> {
         let from = |stop: &Stop| {
             format!(
                 "switched off at {} s, {}",
-                short(stop.time),
+                self.time(stop.time),
                 axis.place(stop.position)
             )
         };
@@ -77,9 +82,9 @@ impl Shown<'_> {
         Some(format!(
             "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
             self.way(axis, way.way),
-            short(way.time),
+            self.time(way.time),
             from(far),
-            short(time.time),
+            self.time(time.time),
             self.way(axis, time.way),
             from(slow)
         ))
@@ -120,7 +125,7 @@ impl Shown<'_> {
         Some(match self.found.reached {
             Some(reached) => format!(
                 "{speed} are reached {} s and {} {} after the start",
-                short(reached.time),
+                self.time(reached.time),
                 self.way(axis, reached.way),
                 axis.coordinate.unit()
             ),
@@ -153,7 +158,7 @@ impl Shown<'_> {
         } else {
             format!(
                 "its largest speed is {speed} at {} s",
-                short(effort.speed[1])
+                self.time(effort.speed[1])
             )
         };
         let [torque, at] = effort.torque;
@@ -163,12 +168,12 @@ impl Shown<'_> {
         }
         let power = match effort.power {
             [0.0, _] => "no power".to_owned(),
-            [power, at] => format!("up to {} W at {} s", short(power), short(at)),
+            [power, at] => format!("up to {} W at {} s", short(power), self.time(at)),
         };
         Some(format!(
             "the motor gives up to {} {unit} at {} s, RMS {} {unit}{until}, and {power}; {speed}",
             short(torque),
-            short(at),
+            self.time(at),
             short(effort.rms)
         ))
     }
@@ -195,7 +200,7 @@ impl Shown<'_> {
         Some(format!(
             "warning: the motor is at the limit of its torque {times}, for {} s in all; first at {} s, {}",
             short(limit.duration),
-            short(limit.time),
+            self.time(limit.time),
             axis.place(limit.position)
         ))
     }
@@ -214,7 +219,7 @@ impl Shown<'_> {
         Some(format!(
             "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
             axis.place(impacts.position),
-            short(impacts.time),
+            self.time(impacts.time),
             short(axis.rate(impacts.speed)),
             axis.coordinate.speed_unit()
         ))
@@ -226,12 +231,12 @@ impl Shown<'_> {
             let held = self.found.held.filter(|_| self.found.missing.is_none())?;
             return Some(format!(
                 "the machine comes to rest {} s and {} {} after the start, and friction holds it",
-                short(held.time),
+                self.time(held.time),
                 self.way(axis, held.way),
                 axis.coordinate.unit()
             ));
         };
-        let off = format!("the motor is switched off at {} s", short(halt.time));
+        let off = format!("the motor is switched off at {} s", self.time(halt.time));
         if self.found.halted_at.is_none() {
             return Some(format!("the run ends before {off}"));
         }

@@ -1,0 +1,91 @@
+//! A smooth stretch of the motion, and where its panels begin and end at first.
+
+use jred::Reducible as _;
+
+use crate::analysis::duty::INSIDE;
+use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
+
+/// Rounding of a number of panels, as a share of it.
+const WHOLE: f64 = 1e-12;
+
+/// A smooth stretch of the motion.
+pub(super) struct Stretch {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// Its times are taken from inside.
+    pub(super) inside: [f64; 2],
+    /// Whether torques have a sign that counts.
+    pub(super) moves: bool,
+    pub(super) rows: Vec<f64>,
+}
+
+impl Stretch {
+    pub(super) fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
+        let hair = INSIDE * (to - from);
+        let mut rows = motion.rows_within([from, to]);
+        for carriage in file.schedule.carriages() {
+            rows.extend(carriage.motion.rows_within([from, to]));
+        }
+        rows.sort_by(f64::total_cmp);
+        Self {
+            from,
+            to,
+            inside: [from + hair, (to - hair).min(to.next_down().max(from))],
+            moves: motion.at(from.midpoint(to)).omega != 0.0,
+            rows,
+        }
+    }
+
+    pub(super) fn clamp(&self, t: f64) -> f64 {
+        let [first, last] = self.inside;
+        t.max(first).min(last)
+    }
+
+    /// The rows strictly between two times.
+    pub(super) fn between(&self, [from, to]: [f64; 2]) -> &[f64] {
+        let first = self.rows.partition_point(|row| *row <= from);
+        let end = self.rows.partition_point(|row| *row < to);
+        self.rows.get(first..end).unwrap_or_default()
+    }
+
+    /// Where panels begin and end at first: about so many.
+    pub(super) fn borders(&self, count: f64) -> Vec<f64> {
+        let mut borders = vec![self.from];
+        let mut k = 1.0;
+        while k < count {
+            let even = self.from + (self.to - self.from) * (k / count);
+            let next = self.rows.partition_point(|row| *row < even);
+            let row = self.rows.get(next).copied();
+            let border = if self.rows.is_empty() {
+                Some(even)
+            } else {
+                row
+            };
+            // Between two rows they are even.
+            let last = borders[borders.len() - 1];
+            let border = border.filter(|t| *t > last && *t < self.to);
+            let even = (even > last && even < self.to).then_some(even);
+            let crowded = self.rows.len() as f64 >= count;
+            borders.extend(if crowded { border } else { even });
+            k += 1.0;
+        }
+        borders.push(self.to);
+        borders
+    }
+}
+
+/// A number, whole where it is but for roundings.
+pub(super) fn near_whole(count: f64) -> f64 {
+    if (count - count.round()).abs() < WHOLE * count {
+        count.round()
+    } else {
+        count
+    }
+}
+
+/// How many turns, or strokes, the drive link makes in a smooth stretch.
+pub(super) fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
+    let [a, b] = [from, to].map(|t| motion.at(t).phi);
+    (b - a).abs() / file.machine.domain().span()
+}
