@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 /// The memory that a command may take (MB): resident, and asked of the system for data and heap.
 pub const CEILING: u64 = 500;
 
+/// Processor time (s) that a quick command and one that is not may take: far above what they do, and far below a search without a bound.
+const SECONDS: [u32; 2] = [60, 900];
+
 /// A command with its heaviest input.
 #[derive(Clone, Copy, Debug)]
 pub struct Heavy {
@@ -20,12 +23,16 @@ pub struct Heavy {
 }
 
 /// The commands. What is not here takes what its machine file holds, which has 1 MiB at most.
-pub const COMMANDS: [Heavy; 28] = [
+pub const COMMANDS: [Heavy; 32] = [
     quick("size press.toml --steps 200000"),
     quick("size press.toml --steps 64 --catalogue drives --format csv"),
     quick("size press.toml --steps 64 --motors motors.csv --direct-only"),
     quick("ratio press.toml --steps 200000"),
     quick("check excavator-bucket.toml"),
+    quick("steady slow-steady.toml --torque 699.706_N_m --delta 0.00163033"),
+    quick("retime slow-retime.toml --ends zero --drive sgm7a-25a+npt025mf-4"),
+    quick("fastest slow-fastest.toml --torque 44.6344_N_m --motor-speed 10148.7_rpm").violated(),
+    slow("size excavator-bucket.toml --motion best"),
     slow("reduce press.toml --positions 1000000"),
     slow("reduce press.toml --positions 1000000 --format csv"),
     slow("reduce press.toml --positions 1000000 --format json"),
@@ -99,7 +106,9 @@ impl Inputs {
     pub fn write() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        for entry in std::fs::read_dir(crate::at("machines")).unwrap() {
+        let machines = ["machines", "tests/fuzz/heavy"]
+            .map(|name| std::fs::read_dir(crate::at(name)).unwrap());
+        for entry in machines.into_iter().flatten() {
             let path = entry.unwrap().path();
             if path.is_file() {
                 std::fs::copy(&path, at(path.file_name().unwrap().to_str().unwrap())).unwrap();
@@ -127,7 +136,11 @@ impl Inputs {
         // The rows of a study begin only where no file is.
         let _ = std::fs::remove_file(at("OUT"));
         // In kibibytes.
-        let limit = format!("ulimit -d {} && exec \"$@\"", CEILING * 1_000_000 / 1024);
+        let limit = format!(
+            "ulimit -d {} && ulimit -t {} && exec \"$@\"",
+            CEILING * 1_000_000 / 1024,
+            SECONDS[usize::from(!heavy.quick)]
+        );
         let start = Instant::now();
         let mut child = Command::new("sh")
             .args(["-c", &limit, "sh"])
@@ -157,7 +170,7 @@ impl Inputs {
         }
         let said = std::fs::read_to_string(at("stderr")).unwrap_or_default();
         Err(format!(
-            "jred {}: {taken:?}, but exit code {} within {CEILING} MB is expected\n{said}",
+            "jred {}: {taken:?}, but exit code {} within {CEILING} MB and the processor time is expected\n{said}",
             heavy.words, heavy.code
         ))
     }

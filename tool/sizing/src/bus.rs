@@ -59,13 +59,18 @@ pub fn power(
         }
         [sample.t, power]
     });
-    let mut points: Vec<[f64; 2]> = points.collect();
+    let samples: Vec<[f64; 2]> = points.collect();
     // Where the power turns, the voltage is at an extreme.
-    for k in (1..points.len()).rev() {
-        let [[t, a], [next, b]] = [points[k - 1], points[k]];
-        if a * b < 0.0 && next > t {
-            points.insert(k, [t + (next - t) * (a / (a - b)), 0.0]);
+    let mut points = Vec::with_capacity(samples.len());
+    for (k, sample) in samples.iter().enumerate() {
+        let [next, b] = *sample;
+        if let Some([t, a]) = k.checked_sub(1).map(|before| samples[before])
+            && a * b < 0.0
+            && next > t
+        {
+            points.push([t + (next - t) * (a / (a - b)), 0.0]);
         }
+        points.push(*sample);
     }
     PowerCurve::new(points, cycle.duration())
 }

@@ -151,10 +151,9 @@ fn a_profile_of_the_drive_link_does_not_go_with_a_motion_of_the_tool() {
     .ends(0);
     let motion = "[motion]\ntype = \"profile\"\nfile = \"p.csv\"\nof = { point = \"slider\", along = \"x\" }\nnear = \"90 deg\"\n\n";
     let wrong = folder.file("wrong.toml", with_motion(&rested(), motion));
-    run(&["check", wrong.to_str().unwrap()]).ends(2).says(&[
-        "the file has positions of the drive link",
-        "remove `of` from [motion]",
-    ]);
+    run(&["check", wrong.to_str().unwrap()])
+        .ends(2)
+        .says(&["positions of the drive link", "remove `of` from [motion]"]);
 }
 
 /// The drive that the motion is made for is the first of the list, and every drive that was tried stands with its own motion and what that saves.

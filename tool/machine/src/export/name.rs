@@ -7,6 +7,9 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(pub(super) String);
 
+/// How names of the library begin, in C with an underscore behind.
+const LIBRARY: &str = "jred";
+
 /// Words that Rust has for itself, of those that a name can be.
 const RUST: [&str; 50] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
@@ -34,6 +37,12 @@ impl Name {
         if !is_word {
             let why = "a name in a program begins with a letter from a to z, and has such letters, digits and underscores";
             return Err((why.to_owned(), Self(word(text))));
+        }
+        if text == LIBRARY || text.starts_with(&[LIBRARY, "_"].concat()) {
+            return Err((
+                "names of the library begin so".to_owned(),
+                Self(["my_", text].concat()),
+            ));
         }
         if RUST.contains(&text.to_lowercase().as_str()) {
             return Err((
@@ -104,6 +113,8 @@ mod tests {
             ("\u{51b2}", "u51b2"),
             ("type", "type_table"),
             ("Self", "Self_table"),
+            ("jred", "my_jred"),
+            ("jred_f32", "my_jred_f32"),
         ] {
             let (why, found) = Name::new(name).unwrap_err();
             assert_eq!(found.as_str(), proposed, "{name}: {why}");

@@ -93,10 +93,10 @@ pub(super) fn read(
         match (&prescribed.tool, section.get("of")) {
             (Some(tool), Some(of)) => of
                 .problem(
-                    &format!("is {}, but the file has {has}", tool.name()),
+                    &format!("is {}, but the file has {has}, positions of the drive link", tool.name()),
                     "not those of the file",
                 )
-                .help("remove `of` from [motion] if they are those of the drive link: `jred fastest` and `jred retime` write such profiles where the part does not go evenly with it"),
+                .help("remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link"),
             _ => {
                 let (does, own) = match other {
                     Coordinate::Length => ("turns", "phi [deg]"),

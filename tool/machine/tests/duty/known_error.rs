@@ -7,6 +7,7 @@ use std::path::Path;
 
 use crate::support::{Folder, budget, near, press_text, within};
 use jred_machine::analysis::duty::{Duty, Fault, Sampling};
+use jred_machine::analysis::inspect::Findings;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Node};
 use jred_machine::read;
@@ -218,6 +219,48 @@ fn too_many_turns_are_refused() {
     let words = format!("{fault}; {}", fault.cure());
     for part in ["4000000 instants", "of 100000 s", "one cycle that repeats"] {
         assert!(words.contains(part), "{words}");
+    }
+    // No tolerance helps.
+    assert!(!words.contains("--tolerance"), "{words}");
+}
+
+/// `check` sees every turn, or some whole ones; a motion at an even speed, whose acceleration is a rounding, and one with times that are
+/// rounded satisfy it.
+#[test]
+fn work_and_energy_of_many_turns_agree() {
+    let holds = |file: &MachineFile| {
+        let findings = Findings::of(file).unwrap();
+        assert!(findings.holds(), "{:?}", findings.violations());
+    };
+    for turns in [1.0, 1000.0, 3000.0, 5000.0, 1e6] {
+        holds(&turning(360.0 * turns, ""));
+    }
+    for tiny in [
+        "dwell = \"1e7 s\"",
+        "dwell = \"1 us\"",
+        "law = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"1 us\"",
+    ] {
+        let text = format!(
+            "{DRUM}[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"360 deg\"\nduration = \"3600 s\"\n\
+             [[motion.segment]]\n{tiny}\n"
+        );
+        holds(&read::parse("drum.toml", &text, Path::new("")).unwrap());
+    }
+    let folder = Folder::new();
+    for (header, scale) in [
+        ("phi [deg]", 3.6),
+        ("phi [rad]", 0.06),
+        ("phi [turn]", 0.01),
+    ] {
+        let rows =
+            (0..=200).map(|k| format!("{:.4},{:.6}\n", 0.005 * f64::from(k), scale * f64::from(k)));
+        folder.file(
+            "log.csv",
+            &format!("t [s],{header}\n{}", rows.collect::<String>()),
+        );
+        let text = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { inertia = \"1 kg m^2\" }\n\
+                    [motion]\ntype = \"profile\"\nfile = \"log.csv\"\ncyclic = false\n";
+        holds(&read::parse("table.toml", text, &folder.path("")).unwrap());
     }
 }
 

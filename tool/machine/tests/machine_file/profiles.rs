@@ -116,7 +116,10 @@ fn wrong_profiles_are_shown_in_the_csv_file() {
         (
             turn(header, at(4, "0.4,")),
             "",
-            &["row 5: the column \"phi [deg]\" is empty", "leave no cell empty"],
+            &[
+                "row 5: the column \"phi [deg]\" is empty",
+                "leave no cell empty",
+            ],
         ),
         (
             turn(header, at(4, "0,4,180")),

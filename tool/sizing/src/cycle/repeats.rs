@@ -1,6 +1,6 @@
 //! A cycle without its repeats: the many turns of a constant speed have one peak, and a search that looks at all of them cannot exclude any.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::Sample;
@@ -9,8 +9,17 @@ use super::tree::Tree;
 use crate::cycle::form::LOADS;
 use jred_machine::analysis::duty::Smooth;
 
-/// Two values are one if they differ by less than about this share of the largest: rounding of a position after many turns.
+/// Two values are one if they differ by less than this share of the largest: rounding of a position after many turns.
 const SAME: f64 = 1e-10;
+
+/// Panels are compared where their values are one when rounded to this share: so coarse that rounding seldom parts two that are one.
+const ALIKE: f64 = 1e-5;
+
+/// Mixes the values of a panel into one number (D. Knuth's 2⁶⁴/golden ratio).
+const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The most panels that one is compared with.
+const COMPARED: usize = 8;
 
 /// Share of the samples that may be left if it is to be worth a tree of its own.
 const WORTH: f64 = 0.5;
@@ -49,13 +58,15 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
     }
     // At a constant speed the acceleration is a rounding.
     largest[0] = largest[0].max(largest[2] * largest[2]);
-    let whole = |sample: &Sample| {
+    let shares = |sample: &Sample| {
         let values = values(sample);
-        std::array::from_fn::<i64, 3, _>(|k| {
-            (values[k] / largest[k].max(f64::MIN_POSITIVE) / SAME).round() as i64
-        })
+        std::array::from_fn::<f64, 3, _>(|k| values[k] / largest[k].max(f64::MIN_POSITIVE))
     };
-    let mut seen = HashSet::new();
+    let are_one = |a: &Sample, b: &Sample| {
+        let pairs = shares(a).into_iter().zip(shares(b));
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < SAME
+    };
+    let mut seen: HashMap<u64, Vec<Range<usize>>> = HashMap::new();
     let mut left: Vec<Range<usize>> = Vec::new();
     let mut keep = |part: Range<usize>| match left.last_mut() {
         Some(last) if last.end == part.start => last.end = part.end,
@@ -66,8 +77,23 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
     for panel in smooth.panels(samples.len()) {
         keep(end..panel.start.max(end));
         end = panel.end;
-        let own: Vec<[i64; 3]> = samples[panel.clone()].iter().map(whole).collect();
-        if seen.insert(own) {
+        let own = &samples[panel.clone()];
+        let coarse = own
+            .iter()
+            .flat_map(shares)
+            .map(|share| (share / ALIKE).round() as i64);
+        let mark = coarse.fold(0, |mark: u64, x| {
+            (mark.rotate_left(5) ^ x as u64).wrapping_mul(MIX)
+        });
+        let like = seen.entry(mark).or_default();
+        let is_known = like.iter().any(|other| {
+            let other = &samples[other.clone()];
+            own.iter().zip(other).all(|(a, b)| are_one(a, b))
+        });
+        if !is_known {
+            if like.len() < COMPARED {
+                like.push(panel.clone());
+            }
             keep(panel);
         }
     }

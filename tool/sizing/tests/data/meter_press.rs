@@ -5,7 +5,7 @@
 // motor: Yaskawa SGMSH-30A
 // gearbox: Beckhoff AG3400 NPT025 MF i=3
 // rules: general (General practice)
-// assumed: weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of this motor; choose it with a brake of at least 1.662 N m, or hold the machine in another way
+// assumed: weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of this motor; choose it with a brake of at least 2.493 N m, or hold the machine in another way
 // assumed: corner of the peak torque not given; using peak torque up to rated speed
 // assumed: peak torque at maximum speed not given; using a straight line to the rated torque
 // assumed: standstill torque not given; using the rated torque

@@ -6,6 +6,9 @@ use jred::Error;
 
 use crate::number::rounding::short;
 
+/// A larger error that may be proposed.
+const LARGER: f64 = 1e-6;
+
 /// A duty whose error is not known to be small enough is no duty.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
@@ -21,6 +24,8 @@ pub enum Fault {
         tolerance: f64,
         /// The most instants.
         most: usize,
+        /// Whether the turns alone need them, at any tolerance.
+        of_turns: bool,
     },
     /// The integrals do not reach the tolerance, however small the steps.
     Rough {
@@ -55,17 +60,28 @@ impl Fault {
     pub fn cure(&self) -> String {
         match self {
             Self::Machine(error) => error.cure().to_string(),
-            Self::Fine { .. } => "describe one cycle that repeats, with fewer turns or rows; or allow a larger error, such as \
-                 --tolerance 1e-6"
-                .to_owned(),
+            Self::Fine {
+                tolerance,
+                of_turns,
+                ..
+            } => {
+                let cure = "describe one cycle that repeats, with fewer turns or rows";
+                if *of_turns || *tolerance >= LARGER {
+                    cure.to_owned()
+                } else {
+                    format!("{cure}; or allow a larger error, such as --tolerance {LARGER:e}")
+                }
+            }
             Self::Rough { reached, .. } => format!(
                 "look at the motion and the loads at that time: a segment far shorter than the cycle is lost in the rounding of the \
                  time; or allow a larger error, --tolerance {}",
                 short(2.0 * reached)
             ),
-            Self::Unbalanced { .. } => "look at the motion at that time: its position, speed and acceleration must belong \
+            Self::Unbalanced { .. } => {
+                "look at the motion at that time: its position, speed and acceleration must belong \
                  together; if they do, please report the machine file as a fault of this program"
-                .to_owned(),
+                    .to_owned()
+            }
         }
     }
 }
@@ -79,6 +95,7 @@ impl fmt::Display for Fault {
                 duration,
                 tolerance,
                 most,
+                ..
             } => write!(
                 f,
                 "the load of the cycle needs more than {most} instants at a tolerance of {tolerance:e}: they reach to {} s of {} s",

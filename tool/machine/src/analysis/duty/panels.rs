@@ -36,7 +36,11 @@ const MOST_CUTS: usize = 16;
 const LITTLE: f64 = 0.7;
 
 /// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
-const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
+const IDLE: [(u32, f64); 2] = [(2, 1e-10), (MOST_IDLE, 1e-6)];
+const MOST_IDLE: u32 = 5;
+
+/// Roundings of the time that an error of roundings may be as large as.
+const TIMES: f64 = 4.0;
 
 /// Halvings of a panel at most.
 const DEEPEST: u32 = 60;
@@ -131,6 +135,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 duration,
                 tolerance: sampling.tolerance,
                 most: MOST_INSTANTS,
+                of_turns: true,
             });
         }
         let borders: Vec<(Stretch, Vec<f64>)> = (stretches.iter().zip(&each))
@@ -284,9 +289,12 @@ impl<'a, 'm> Panels<'a, 'm> {
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
         let way = way.further(rough);
+        // The times of a short stretch late in a long motion are rounded.
+        let rounded = TIMES * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
         let is_noise = IDLE
             .iter()
-            .any(|(idle, noise)| way.idle >= *idle && rough <= *noise);
+            .any(|(idle, noise)| way.idle >= *idle && rough <= *noise)
+            || way.idle >= 1 && rough <= rounded;
         if excess > 1.0 && !is_short && !is_noise {
             let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
             return self.parts(stretch, ends, &[cut], false, way);
@@ -357,6 +365,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 duration: self.duration,
                 tolerance: self.tolerance,
                 most: MOST_INSTANTS,
+                of_turns: false,
             });
         }
         Ok(())

@@ -32,8 +32,18 @@ const PANELS: u32 = 96;
 /// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
 const ROW_PANELS: usize = 8192;
 
+/// Parts of a turn or stroke, at least, and the most of these of a stretch that are looked at: a balance holds over any of its parts.
+const PANELS_OF_TURN: f64 = 8.0;
+const MOST_TURNS: f64 = 250.0;
+
+/// Share of the energy of the machine that counts as moved: at an even speed no more than its rounding is.
+const STORED: f64 = 1e-6;
+
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
+
+/// Roundings of the time that the length of a stretch has.
+const TIMES: f64 = 2.0;
 
 /// The ends of a stretch are taken from inside by this share of it.
 const HAIR: f64 = 1e-13;
@@ -222,7 +232,11 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     let stretches = duty::smooth_stretches(file, motion);
     let parts: Vec<Part> = stretches
         .into_iter()
-        .map(|(from, to)| Part::new(file, machines, motion, [from, to]))
+        .map(|(from, to)| {
+            let turns = turns(file, motion, [from, to]);
+            let to = from + (to - from) * (MOST_TURNS / turns).min(1.0);
+            Part::new(file, machines, motion, [from, to])
+        })
         .collect();
     let duration = motion.duration();
     // Between two rows of a recorded or computed motion, where it is smooth.
@@ -236,7 +250,8 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
             let panels = f64::from(PANELS) * (pair[1] - pair[0]) / duration;
-            let panels = panels.ceil().max(least as f64) as u32;
+            let of_turns = PANELS_OF_TURN * turns(file, motion, [pair[0], pair[1]]);
+            let panels = panels.max(of_turns).ceil().max(least as f64) as u32;
             let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
             sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
         }
@@ -247,17 +262,27 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         .map(|part| over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY))
         .collect::<Result<Vec<f64>, Error>>()?;
     let all: f64 = moved.iter().sum();
-    let (mut work, mut gain) = (0.0, 0.0);
+    let (mut work, mut gain, mut stored, mut rounding) = (0.0, 0.0, 0.0_f64, 0.0);
     for (part, moved) in parts.iter().zip(moved) {
         let [from, to] = part.span;
         // Of its own energy, or by the time: in a short part of a long motion that would be less than rounding.
         let tolerance = SHARE * moved.max(all * (to - from) / duration);
         work += over(part, &|t| part.power(t), tolerance)?;
-        gain += part.energy(to)? - part.energy(from)?;
+        let [before, after] = [part.energy(from)?, part.energy(to)?];
+        gain += after - before;
+        stored = stored.max(before.abs()).max(after.abs());
+        // The times of a short stretch late in a long motion are rounded, and so is its work.
+        rounding += moved * TIMES * f64::EPSILON * to / (to - from);
     }
-    let moved = all;
-    let off = (work - gain).abs();
+    let moved = all + STORED * stored;
+    let off = ((work - gain).abs() - rounding).max(0.0);
     Ok(if moved > 0.0 { off / moved } else { off })
+}
+
+/// Turns, or strokes, of the drive link between two times of a smooth stretch.
+fn turns(file: &MachineFile, motion: &Motion, span: [f64; 2]) -> f64 {
+    let [a, b] = span.map(|t| motion.at(t).phi);
+    (b - a).abs() / file.machine.domain().span()
 }
 
 /// A time (s), the state of the drive link, and the machine.
