@@ -151,7 +151,8 @@ typedef struct {
     int32_t rest;
 } jred_stroke_encoder;
 
-/* Of the stroke in jred_info. JRED_FIGURE: a stroke of less than 16 or more than 2^53 counts, home 100,000 strokes away, NaN. */
+/* Of the stroke in jred_info. JRED_FIGURE: a stroke of less than 16 or more than 2^53 counts, home 100,000 strokes away, NaN: then
+ * every count is limited. One that was never made (zeros) gives phase 0. */
 jred_status jred_stroke_encoder_make(jred_stroke_encoder *encoder, float from, float to, const jred_scaled *scaled);
 
 /* A phase of a stroke; limited to its ends, and whether it was. */
@@ -221,7 +222,7 @@ static inline jred_place jred_stroke_encoder_phase_wide(const jred_stroke_encode
     return jred_place_(upper * encoder->step + (int64_t)lower * (encoder->step >> 32) + parts + encoder->start);
 }
 
-/* Extends the reading of a counter of so many bits, 1 to 32, that overflows: the count nearest to the last one, *count. The machine must
+/* Extends the reading of a counter of so many bits, 1 to 32 (others are not refused), that overflows: the count nearest to the last one, *count. The machine must
  * move less than half of the counter's range between two readings. */
 static inline int64_t jred_counter_extend(int64_t *count, uint32_t bits, uint32_t reading) {
     const uint32_t shift = (32u - bits) & 31u;
@@ -300,7 +301,7 @@ typedef struct {
  * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_checked says so and gives a torque
  * that is neither. The words must live and stay the same as long as
  * the model is ticked. A tick of
- * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
+ * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0, and press_checked flags both. An acceleration that does not fit is the nearest end of the range;
  * press_acceleration_range says so of each.
  *
  * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32,
@@ -486,7 +487,8 @@ JRED_FOLLOWER_(q15)
     static inline jred_##n##_checked name##_checked(const name##_model *model, const jred_##n##_motion_range *range,          \
                                                     uint32_t phase, jred_##n omega, jred_##n alpha,                           \
                                                     jred_##n##_sliding sliding) {                                             \
-        jred_##n##_checked checked;                                                                                           \
+        jred_##n##_checked checked = {0, true, true};                                                                         \
+        if (!JRED_IS_LOADED_(model, set)) return checked;                                                                     \
         checked.speed_beyond = jred_##n##_exceeds_(omega, range->omega) ||                                                    \
                                (sliding.is_share ? jred_##n##_no_share_(sliding.number)                                       \
                                                  : jred_##n##_exceeds_(sliding.number, range->omega));                        \

@@ -33,13 +33,17 @@ impl From<CMounting> for Mounting {
     }
 }
 
-/// Keeps what was made; zeros, whose phase is 0, if it cannot be.
-fn keep<E>(memory: &mut MaybeUninit<E>, made: Result<E, AxisError>) -> Status {
+/// Keeps what was made; if it cannot be, the other.
+fn keep<E>(
+    memory: &mut MaybeUninit<E>,
+    made: Result<E, AxisError>,
+    other: MaybeUninit<E>,
+) -> Status {
     if let Ok(encoder) = made {
         memory.write(encoder);
         Status::Ok
     } else {
-        *memory = MaybeUninit::zeroed();
+        *memory = other;
         Status::Figure
     }
 }
@@ -52,7 +56,12 @@ pub(crate) extern "C" fn jred_encoder_make(
     let (Some(encoder), Some(mounting)) = (encoder, mounting) else {
         return Status::Null;
     };
-    keep(encoder, Encoder::new((*mounting).into()))
+    // Zeros, whose phase is 0.
+    keep(
+        encoder,
+        Encoder::new((*mounting).into()),
+        MaybeUninit::zeroed(),
+    )
 }
 
 #[unsafe(no_mangle)]
@@ -68,5 +77,6 @@ pub(crate) extern "C" fn jred_stroke_encoder_make(
     keep(
         encoder,
         StrokeEncoder::new(Domain::Stroke { from, to }, *scaled),
+        MaybeUninit::new(StrokeEncoder::NOWHERE),
     )
 }

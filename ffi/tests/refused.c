@@ -189,6 +189,8 @@ int main(void) {
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
     encoders();
     set_points(&press, &info);
+    const jred_f32_checked nothing = press_checked(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, 0, 1.0f, 1.0f, jred_f32_against(1.0f));
+    CLAIM(nothing.torque == 0.0f && nothing.speed_beyond && nothing.acceleration_beyond);
     CLAIM(fixed_checked(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, 0, INT32_MIN, INT32_MAX, jred_q31_share(INT32_MIN)).speed_beyond);
 
     /* What is no plan is not followed; no follower waits. */

@@ -72,6 +72,17 @@ const UNITS: f64 = 4_294_967_296.0;
 const FAR: i64 = 1 << 61;
 
 impl StrokeEncoder {
+    /// Of no stroke: every count is flagged. For a place that waits for its encoder.
+    pub const NOWHERE: Self = Self {
+        step: 0,
+        start: FAR,
+        start_narrow: FAR,
+        middle: 0,
+        reach: 0,
+        part: 0,
+        rest: 0,
+    };
+
     /// Of an encoder mounted like this, on a drive link with this stroke.
     ///
     /// # Errors

@@ -28,6 +28,7 @@ use crate::options::catalogue::CatalogueFiles;
 use crate::output;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::warnings::of_motion;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -218,4 +219,11 @@ fn profile_written(file: &MachineFile, path: &Path) -> String {
         "profile written to {}; as [motion]: type = \"profile\", file = \"…\" with its path from the machine file{of}\n",
         plain::path(path)
     )
+}
+
+/// Warns of noise and wrong rows of a recorded motion, and of implausible speeds.
+fn warn_of_motion(file: &MachineFile) {
+    for warning in of_motion(file) {
+        output::warn(&warning);
+    }
 }

@@ -148,3 +148,35 @@ fn the_supply_of_the_machine_file_moves_the_limits() {
     let (higher, _) = limits("\n[supply]\nbus_voltage = \"650 V\"\n");
     near("higher voltage", higher, full, budget::CLOSED_FORM);
 }
+
+/// However many stops are simulated, what is assumed of the motor is said once.
+#[test]
+fn a_warning_is_given_once() {
+    let folder = Folder::new();
+    // The stop is behind a whole cycle.
+    let text = std::fs::read_to_string(machine_path("vertical-axis.toml")).unwrap();
+    let mut text = text.replace(
+        "duration = \"0.8 s\"\noutput_step",
+        "duration = \"6 s\"\noutput_step",
+    );
+    text = text.replace("time = \"0.45 s\"", "time = \"5 s\"");
+    let machine = folder.file("axis.toml", text);
+    let words: [&dyn AsRef<std::ffi::OsStr>; 6] = [
+        &"simulate",
+        &machine,
+        &"--drive",
+        &"sgm7j-06a",
+        &"--stops",
+        &"3",
+    ];
+    let run = jred(words).ends(0);
+    let mut warnings: Vec<&str> = run
+        .err
+        .lines()
+        .filter(|line| line.starts_with("warning:"))
+        .collect();
+    let count = warnings.len();
+    warnings.sort_unstable();
+    warnings.dedup();
+    assert!(count > 0 && warnings.len() == count, "{}", run.err);
+}

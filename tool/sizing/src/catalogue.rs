@@ -138,3 +138,16 @@ impl Catalogue {
         })
     }
 }
+
+/// On the straight lines between points, level beyond them; one without any.
+fn broken_line(points: &[[f64; 2]], at: f64) -> f64 {
+    let after = points.partition_point(|p| p[0] <= at);
+    match (
+        after.checked_sub(1).and_then(|k| points.get(k)),
+        points.get(after),
+    ) {
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (at - x0) / (x1 - x0),
+        (Some([_, y]), None) | (None, Some([_, y])) => *y,
+        (None, None) => 1.0,
+    }
+}

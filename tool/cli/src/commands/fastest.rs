@@ -11,7 +11,9 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
-use crate::commands::{Done, drive_named, envelope, print, profile_written, quantity, rate};
+use crate::commands::{
+    Done, drive_named, envelope, print, profile_written, quantity, rate, warn_of_motion,
+};
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files, print_parts};
 use jred::Reducible as _;
@@ -62,6 +64,7 @@ struct Chosen {
 /// Bad input, or no motion within the limits.
 pub fn fastest(options: &Options) -> Result<Done> {
     let file = read::read(&options.file)?;
+    warn_of_motion(&file);
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
     file.refuse_timed("fastest")?;

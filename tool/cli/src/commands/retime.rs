@@ -6,7 +6,9 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
-use crate::commands::{Done, drive_asked, print_parts, profile_written, warn_of_supply};
+use crate::commands::{
+    Done, drive_asked, print_parts, profile_written, warn_of_motion, warn_of_supply,
+};
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
 use jred_machine::model::drive_train;
@@ -33,6 +35,7 @@ use jred_sizing::study::chosen::ChosenDrive;
 /// Bad input, or no motion of moves and pauses.
 pub fn retime(options: &Retime) -> Result<Done> {
     let file = read::read(&options.file)?;
+    warn_of_motion(&file);
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
     file.refuse_timed("retime")?;

@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive_asked, envelope, print_parts, rate};
+use crate::commands::{Done, drive_asked, envelope, print_parts, rate, warn_of_motion};
 use crate::options::simulate::Simulate;
 use crate::output;
 use jred_machine::analysis::reduce::{Sets, add_columns};
 use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
-use jred_machine::analysis::warnings::of_motion;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::simulation::Simulation;
@@ -64,9 +63,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         to_speed: to_speed.map(f64::abs),
         ..own.clone()
     };
-    for warning in of_motion(&file) {
-        output::warn(&warning);
-    }
+    warn_of_motion(&file);
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
     let (mut found, drive) = match &chosen {

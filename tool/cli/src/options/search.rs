@@ -39,7 +39,7 @@ pub struct SizingOptions {
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Which drives")]
 pub struct Search {
-    /// Rank by this instead of power, warnings and margin.
+    /// Rank by this instead of the smallest motor first.
     #[arg(long, value_parser = word::<Objective>())]
     pub rank: Option<Objective>,
     /// Only motors and gearboxes of matching makers; may be repeated.

@@ -90,6 +90,11 @@ impl CsvFile {
             item.problem(&format!("cannot be read: {}", fault.message), "this file")
                 .help(fault.help)
         })?;
+        if text.trim().is_empty() {
+            return Err(item.problem("is an empty file", "this file").help(
+                "the first line gives column names with units; one row for each point follows",
+            ));
+        }
         let name = files.shown(file);
         Ok(Self {
             text: Arc::new(text),

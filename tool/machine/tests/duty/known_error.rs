@@ -224,6 +224,88 @@ fn too_many_turns_are_refused() {
     assert!(!words.contains("--tolerance"), "{words}");
 }
 
+/// Dry friction adds its square over the time of the moves to ∫T², for the acceleration's mean is zero: whatever the law, and however its speed is
+/// rounded where it comes to rest.
+#[test]
+fn friction_ends_where_a_move_rests() {
+    let of = |moment: f64, segment: &str| {
+        let text = format!(
+            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = {{ inertia = \"0.5 kg m^2\" }}\n\
+             [[load]]\non = \"table\"\nopposing_moment = \"{moment} N m\"\n[motion]\ntype = \"cycle\"\n\
+             [[motion.segment]]\n{segment}\n[[motion.segment]]\ndwell = \"0.3 s\"\n"
+        );
+        let file = read::parse("table.toml", &text, Path::new("")).unwrap();
+        let duty = duty(&file, 2000).unwrap_or_else(|fault| panic!("{segment}: {fault}"));
+        let time = file.motion.as_ref().unwrap().duration() - 0.3;
+        (duty.integral(|i| i.input_torque * i.input_torque), time)
+    };
+    let mut segments: Vec<String> = [
+        "polynomial-345",
+        "polynomial-4567",
+        "cycloidal",
+        "modified-sine",
+    ]
+    .map(|law| format!("law = \"{law}\"\nmove = \"90 deg\"\nduration = \"0.37 s\""))
+    .into();
+    for way in [30, 45, 50, 70, 90, 110, 200, 333] {
+        for speed in [40, 60, 90] {
+            segments.push(format!(
+                "law = \"jerk-limited\"\nmove = \"{way} deg\"\nmax_speed = \"{speed} rpm\"\nmax_acceleration = \"40 rad/s^2\"\n\
+                 max_jerk = \"1000 rad/s^3\""
+            ));
+        }
+    }
+    for segment in &segments {
+        let (without, time) = of(0.0, segment);
+        for moment in [1e-3, 2.0, 500.0] {
+            let (with, _) = of(moment, segment);
+            near(
+                segment,
+                with,
+                without + moment * moment * time,
+                budget::DUTY,
+            );
+        }
+    }
+}
+
+/// J·ω² is no part of the torque at an even speed: a light load of many harmonics on a fast flywheel is found as exactly as on a small one.
+#[test]
+fn a_flywheel_hides_no_error() {
+    let of = |flywheel: &str, tolerance: f64| {
+        let text = format!(
+            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\nflywheel = \"{flywheel} kg m^2\"\n\
+             crank = {{ length = \"30 mm\", mass = \"0 kg\", inertia = \"0 kg m^2\" }}\n\
+             rod = {{ length = \"30.3 mm\", mass = \"0 kg\", inertia = \"0 kg m^2\" }}\nslider = {{ mass = \"0 kg\" }}\n\
+             [[load]]\non = \"slider\"\nviscous_force = \"0.02 N s/m\"\n[motion]\ntype = \"cycle\"\n\
+             [[motion.segment]]\nlaw = \"constant-speed\"\nspeed = \"6000 rpm\"\nmove = \"36000 deg\"\n"
+        );
+        let file = read::parse("crank.toml", &text, Path::new("")).unwrap();
+        let sampling = Sampling {
+            tolerance,
+            steps: 64,
+        };
+        duty(&file, sampling).unwrap().figures(|i| i.input_torque)
+    };
+    // c·ω·(ds/dφ)², s = r·cos φ + √(l² − r²·sin²φ), at equal places: exact but for roundings.
+    let (r, l, omega) = (0.03_f64, 0.0303_f64, 200.0 * PI);
+    const PLACES: u32 = 1 << 16;
+    let torque = |k: u32| {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(PLACES)).sin_cos();
+        let slope = -r * sin - r * r * sin * cos / (l * l - r * r * sin * sin).sqrt();
+        0.02 * omega * slope * slope
+    };
+    let mean = (0..PLACES).map(torque).sum::<f64>() / f64::from(PLACES);
+    let square = (0..PLACES).map(|k| torque(k).powi(2)).sum::<f64>() / f64::from(PLACES);
+    for flywheel in ["0.001", "2", "200"] {
+        for tolerance in [1e-9, 1e-6, 1e-3] {
+            let found = of(flywheel, tolerance);
+            near(flywheel, found.mean, mean, 4.0 * tolerance);
+            near(flywheel, found.rms, square.sqrt(), 4.0 * tolerance);
+        }
+    }
+}
+
 /// `check` sees every turn, or some whole ones; a motion at an even speed, whose acceleration is a rounding, and one with times that are
 /// rounded satisfy it.
 #[test]

@@ -3,7 +3,7 @@
 //! The maker's points hold where the catalogue has them; otherwise the general rules of docs/sizing-rules.md. Neither reaches
 //! further than its source: [`Derated::hottest`] and [`Derated::highest`] are where it ends.
 
-use super::{Amplifier, Motor};
+use super::{Amplifier, Motor, broken_line};
 use jred_machine::model::surroundings::{LOW, REFERENCE, Surroundings};
 
 /// The highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
@@ -63,19 +63,6 @@ pub struct Derated {
     pub altitude: Basis,
 }
 
-/// On the straight lines between points, level beyond them.
-fn between(points: &[[f64; 2]], at: f64) -> f64 {
-    let after = points.partition_point(|p| p[0] <= at);
-    match (
-        after.checked_sub(1).and_then(|k| points.get(k)),
-        points.get(after),
-    ) {
-        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (at - x0) / (x1 - x0),
-        (Some([_, y]), None) | (None, Some([_, y])) => *y,
-        (None, None) => 1.0,
-    }
-}
-
 impl Motor {
     /// Its S1 torque at a site: T/T_N = √(rise left/rated rise) where the winding's highest temperature is known.
     pub fn derated(&self, site: &Surroundings) -> Derated {
@@ -85,7 +72,7 @@ impl Motor {
         let (mut torque, mut rise) = (1.0, 1.0);
         let temperature = match (by_maker.temperature.last(), limit) {
             (Some(_), _) => {
-                torque *= between(&by_maker.temperature, site.ambient);
+                torque *= broken_line(&by_maker.temperature, site.ambient);
                 Basis::Maker
             }
             (None, Some(limit)) => {
@@ -102,7 +89,7 @@ impl Motor {
             rise *= air;
             if air < 1.0 { Basis::Rise } else { Basis::None }
         } else {
-            torque *= between(&by_maker.altitude, site.altitude);
+            torque *= broken_line(&by_maker.altitude, site.altitude);
             Basis::Maker
         };
         let general = limit.map_or(HOTTEST_MOTOR, |limit| limit.min(HOTTEST_MOTOR));
@@ -133,11 +120,11 @@ impl Amplifier {
         let temperature = basis(&by_maker.temperature, hot);
         let altitude = basis(&by_maker.altitude, thin);
         let in_heat = match temperature {
-            Basis::Maker => between(&by_maker.temperature, site.around_amplifier()),
+            Basis::Maker => broken_line(&by_maker.temperature, site.around_amplifier()),
             _ => (1.0 - CURRENT_PER_KELVIN * hot).max(0.0),
         };
         let in_air = match altitude {
-            Basis::Maker => between(&by_maker.altitude, site.altitude),
+            Basis::Maker => broken_line(&by_maker.altitude, site.altitude),
             _ => site.altitude_factor(),
         };
         Derated {

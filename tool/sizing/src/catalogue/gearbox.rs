@@ -1,5 +1,7 @@
 //! A gearbox of the catalogue.
 
+use super::broken_line;
+
 /// A gearbox; SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gearbox {
@@ -65,18 +67,7 @@ impl Gearbox {
     /// The maker's shock factor f_s at a number of cycles per hour: linear between the maker's points, constant beyond them; one if
     /// the maker gives none.
     pub fn shock_factor(&self, cycles: f64) -> f64 {
-        let points = &self.shock_factors;
-        let above = points.partition_point(|[at, _]| *at <= cycles);
-        match (
-            above.checked_sub(1).and_then(|k| points.get(k)),
-            points.get(above),
-        ) {
-            (Some([from, low]), Some([to, high])) => {
-                low + (high - low) * (cycles - from) / (to - from)
-            }
-            (Some([_, factor]), None) | (None, Some([_, factor])) => *factor,
-            (None, None) => 1.0,
-        }
+        broken_line(&self.shock_factors, cycles)
     }
 
     /// Largest output torque (N·m) at a number of cycles per hour: T2B/f_s. `None`: T2B is not given.

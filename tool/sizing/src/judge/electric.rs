@@ -58,7 +58,13 @@ fn peak_current(context: &Context) -> f64 {
         let current = motor.current(torque, sample.speed() * ratio);
         current.unwrap_or(f64::NAN)
     });
-    currents.fold(0.0, f64::max)
+    currents.fold(0.0, |most: f64, current| {
+        if most.is_nan() || current <= most {
+            most
+        } else {
+            current
+        }
+    })
 }
 
 /// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].

@@ -22,12 +22,20 @@ const PROCESS: usize = 17;
 /// Roundings of a torque, as a share of the sum of its terms' magnitudes.
 const ROUNDING: f64 = 1e-13;
 
+/// How many roundings of the time, as a share of half the panel, the curve through the places may be off at the ends, as a share of the torque.
+const TO_THE_ENDS: f64 = 64.0;
+
 /// Share of the tolerance up to which an error that is that share of the terms' magnitudes counts as a rounding: where the terms nearly cancel, what is
 /// left of them is known no better.
 const OF_TERMS: f64 = 0.01;
 
-/// Share of the tolerance of a whole integral that one panel may add, where its curve jumps unseen.
-const OF_WHOLE: f64 = 1e-3;
+/// Share of the tolerance of a whole integral that one panel may add, where its curve jumps unseen, and what all may add so.
+const OF_WHOLE: [f64; 2] = [1e-3, 2.0];
+
+/// The share of a whole integral that each of so many panels counts as having at least.
+pub(super) fn of_whole(panels: usize) -> f64 {
+    OF_WHOLE[0].min(OF_WHOLE[1] / panels as f64)
+}
 
 /// The integrands at an instant, and their roundings.
 pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
@@ -91,6 +99,8 @@ pub(super) struct Allowed<'s> {
     pub(super) sizes: &'s [f64; COUNT],
     /// The panel's share of the time.
     pub(super) share: f64,
+    /// The share of the whole integral that it counts as having at least: see [`of_whole`].
+    pub(super) of_whole: f64,
 }
 
 impl Sums {
@@ -127,14 +137,19 @@ impl Sums {
                     let x = (end.instant.t - middle) / half;
                     (rule.at(values, x) - end.instant.input_torque).abs()
                 });
-                off[0] + off[1]
+                // Towards the ends the curve through the places makes more of the roundings of their times.
+                let most = values
+                    .iter()
+                    .fold(0.0f64, |most, value| most.max(value.abs()));
+                let rounding = TO_THE_ENDS * f64::EPSILON * middle.abs() / half * most;
+                (off[0] + off[1] - rounding).max(0.0)
             } else {
                 0.0
             };
             // A kink between the last place and the end, which neither rule sees.
             let beyond = 0.5 * (1.0 - rule.places()[places.len() - 1]) * beyond;
             let [error, size] = [half * (error + beyond), half * size];
-            let whole = allowed.sizes[j] * allowed.share.max(OF_WHOLE);
+            let whole = allowed.sizes[j] * allowed.share.max(allowed.of_whole);
             let terms = half * roundings[j] / ROUNDING;
             let rounding = terms * ROUNDING.max(OF_TERMS * allowed.tolerance);
             let most = (0.5 * allowed.tolerance * size.max(whole)).max(rounding);

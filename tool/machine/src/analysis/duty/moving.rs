@@ -141,7 +141,7 @@ impl<'a> Moving<'a> {
         let accelerating = (instant.input_inertia * instant.input_alpha).abs();
         Evaluated {
             loss: input.loss,
-            magnitude: magnitudes / ratio.abs() + accelerating + squared,
+            magnitude: magnitudes / ratio.abs() + accelerating,
             ratio,
             energy: 0.5 * squared + reduction.potential_energy,
             instant,

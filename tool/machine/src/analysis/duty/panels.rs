@@ -8,7 +8,7 @@ mod signs;
 mod stretch;
 
 use super::fault::Fault;
-use super::integrands::{Allowed, COUNT, Sums, integrands};
+use super::integrands::{Allowed, COUNT, Sums, integrands, of_whole};
 use super::moving::{Evaluated, Moving};
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use crate::number::quadrature::GAUSS_3;
@@ -107,6 +107,7 @@ pub(super) struct Panels<'a, 'm> {
     /// The largest torque at the input.
     largest: f64,
     most_parts: f64,
+    of_whole: f64,
     pub(super) sums: Sums,
     /// The panel with the largest error, and that.
     worst: ([f64; 2], f64),
@@ -164,6 +165,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             flows: Vec::new(),
             largest: 0.0,
             most_parts: refined::most_parts(15 * count),
+            of_whole: of_whole(count),
             sums: Sums::default(),
             worst: ([0.0, duration], 0.0),
             gain: 0.0,
@@ -285,6 +287,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             tolerance: self.tolerance,
             sizes: &self.sizes,
             share: (to - from) / self.duration,
+            of_whole: self.of_whole,
         };
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);

@@ -3,11 +3,18 @@
 
 use jred::{Domain, Reducible as _};
 
+use super::INSIDE;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 
 /// Cuts nearer to each other than this share of the time are one: rounding.
 const SHORTEST: f64 = 8.0 * f64::EPSILON;
+
+/// A speed that is a smaller share of the largest one is a rounding.
+const ROUNDED: f64 = 1e-13;
+
+/// The largest share of a stretch that is left out at an end: a law of seventh degree reaches that speed after 3e-5.
+const MOST_HAIR: f64 = 1e-3;
 
 /// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
 fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
@@ -59,6 +66,23 @@ fn crossings(
     crossings(number, [middle, to], least, cuts);
 }
 
+/// How far from its first end (s) a stretch is taken: where a move rests at the end with a soft law, its speed near there is a rounding, whose sign
+/// would be that of friction.
+pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
+    let (length, inwards) = ((other - end).abs(), (other - end).signum());
+    let speed = |share: f64| motion.at(end + inwards * share * length).omega.abs();
+    let most = [0.25, 0.5, 0.75].map(speed).into_iter().fold(0.0, f64::max);
+    let mut share = INSIDE;
+    // A recorded motion knows itself when it stands still.
+    if motion.is_recorded() {
+        return share * length;
+    }
+    while speed(share) < ROUNDED * most && share < MOST_HAIR {
+        share *= 2.0;
+    }
+    share * length
+}
+
 /// The direction of the drive link.
 fn direction(motion: &Motion, t: f64) -> i64 {
     let omega = motion.at(t).omega;
@@ -84,6 +108,8 @@ pub(crate) fn smooth_stretches(file: &MachineFile, motion: &Motion) -> Vec<(f64,
             let ends = [pair[0], pair[1]].map(|t| (t, way(t)));
             crossings(&way, ends, least, &mut turns);
         }
+        let [first, end] = [[from, to], [to, from]].map(|ends| hair(motion, ends));
+        turns.retain(|t| *t > from + first && *t < to - end);
         let one_way: Vec<f64> = ([from].into_iter().chain(turns.iter().copied()))
             .chain([to])
             .collect();

@@ -42,7 +42,7 @@ const STORED: f64 = 1e-6;
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
 
-/// Roundings of the time that the length of a stretch has.
+/// Roundings of the time that the length of a stretch has; what is more than ordinary is not held against it.
 const TIMES: f64 = 2.0;
 
 /// The ends of a stretch are taken from inside by this share of it.
@@ -204,7 +204,13 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
         }
         let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
         let found = machine.forces(phi, omega, alpha)?.drive;
-        worst = worst.max((found - terms.total()).abs());
+        let off = (found - terms.total()).abs();
+        // What is not a number agrees with nothing.
+        worst = if worst.is_nan() || off <= worst {
+            worst
+        } else {
+            off
+        };
         largest = terms
             .values()
             .into_iter()
@@ -253,7 +259,10 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
             let of_turns = PANELS_OF_TURN * turns(file, motion, [pair[0], pair[1]]);
             let panels = panels.max(of_turns).ceil().max(least as f64) as u32;
             let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
-            sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance * share)?;
+            // Nor is it closer than the roundings of times between near rows.
+            let rounded = 1.0 + 16.0 * f64::EPSILON * pair[1] / (pair[1] - pair[0]) / SHARE;
+            let tolerance = tolerance * share * rounded;
+            sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance)?;
         }
         Ok::<f64, Error>(sum)
     };
@@ -262,20 +271,20 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         .map(|part| over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY))
         .collect::<Result<Vec<f64>, Error>>()?;
     let all: f64 = moved.iter().sum();
-    let (mut work, mut gain, mut stored, mut rounding) = (0.0, 0.0, 0.0_f64, 0.0);
+    let (mut off, mut stored) = (0.0, 0.0_f64);
     for (part, moved) in parts.iter().zip(moved) {
         let [from, to] = part.span;
         // Of its own energy, or by the time: in a short part of a long motion that would be less than rounding.
         let tolerance = SHARE * moved.max(all * (to - from) / duration);
-        work += over(part, &|t| part.power(t), tolerance)?;
+        let work_here = over(part, &|t| part.power(t), tolerance)?;
         let [before, after] = [part.energy(from)?, part.energy(to)?];
-        gain += after - before;
         stored = stored.max(before.abs()).max(after.abs());
         // The times of a short stretch late in a long motion are rounded, and so is its work.
-        rounding += moved * TIMES * f64::EPSILON * to / (to - from);
+        let rounded = TIMES * f64::EPSILON * to / (to - from);
+        let more = moved * (rounded - SHARE).max(0.0);
+        off += ((work_here - (after - before)).abs() - more).max(0.0);
     }
     let moved = all + STORED * stored;
-    let off = ((work - gain).abs() - rounding).max(0.0);
     Ok(if moved > 0.0 { off / moved } else { off })
 }
 

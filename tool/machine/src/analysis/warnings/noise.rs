@@ -61,7 +61,7 @@ pub(super) fn of(file: &MachineFile) -> Option<String> {
         ("positions", rows, speed)
     };
     let cure = motion.quiet_cutoff(&noise).map_or_else(
-        || "no `smoothing` keeps this motion: record it with finer values, or write the motion as segments".to_owned(),
+        || "the motion itself hardly accelerates more than what is left of the noise: write a low frequency as `smoothing`, record finer values, or write the motion as segments".to_owned(),
         |cutoff| {
             format!(
                 "write smoothing = \"{} Hz\" in [motion], or a lower frequency that is well above those of the motion",

@@ -82,7 +82,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
 
 /// Largest speed and acceleration of a motion: in m/s and m/s², and in rad/s and rad/s².
 const LENGTHS: [f64; 2] = [100.0, 1e5];
-const ANGLES: [f64; 2] = [2e4, 1e8];
+const ANGLES: [f64; 2] = [1e4, 1e7];
 
 /// Instants of a smooth stretch at which a motion is looked at: only the size counts.
 const INSTANTS: u32 = 8;

@@ -26,6 +26,9 @@ const ALTERNATES: f64 = -0.4;
 const FIRST: f64 = 1.179_960;
 const SECOND: f64 = 6.0;
 
+/// The fewest rows that tell how much rows usually scatter.
+const SOME: usize = 32;
+
 /// Share of the acceleration of the motion that noise may have after smoothing.
 const QUIET: f64 = 0.05;
 
@@ -95,7 +98,7 @@ pub(super) fn usual_step(t: &[f64]) -> Option<f64> {
     middle(t.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
-pub(super) fn middle(figures: impl Iterator<Item = f64>) -> Option<f64> {
+fn middle(figures: impl Iterator<Item = f64>) -> Option<f64> {
     let mut figures: Vec<f64> = figures.collect();
     figures.sort_by(f64::total_cmp);
     figures.get(figures.len() / 2).copied()
@@ -115,15 +118,27 @@ pub(super) fn residuals<'c>(t: &'c [f64], y: &'c [f64]) -> impl Iterator<Item = 
     })
 }
 
+/// The middle magnitude of those residuals that are more than rounding, where there are some: a rest has none; else the rounding.
+pub(super) fn usual(residuals: impl Iterator<Item = f64>, y: &[f64]) -> Option<f64> {
+    let rounding = rounding(y);
+    let sizes: Vec<f64> = (residuals.map(f64::abs))
+        .filter(|r| *r > rounding)
+        .collect();
+    if sizes.len() < SOME {
+        return Some(rounding);
+    }
+    middle(sizes.into_iter())
+}
+
 /// Magnitude of a residual that is one of the last digits of the numbers themselves.
-pub(super) fn rounding(y: &[f64]) -> f64 {
+fn rounding(y: &[f64]) -> f64 {
     16.0 * f64::EPSILON * y.iter().fold(0.0_f64, |most, y| most.max(y.abs()))
 }
 
 /// σ of the rows, if they scatter.
 fn scatter(t: &[f64], y: &[f64]) -> Option<f64> {
     let residuals: Vec<f64> = residuals(t, y).map(|[missed, of]| missed / of).collect();
-    let middle = middle(residuals.iter().map(|r| r.abs()))?;
+    let middle = usual(residuals.iter().copied(), y)?;
     if middle <= rounding(y) {
         return None;
     }

@@ -5,7 +5,7 @@
 //! which a motion may have, never does.
 
 use super::Motion;
-use super::noise::{middle, residuals, rounding, usual_step};
+use super::noise::{residuals, usual, usual_step};
 
 /// Residuals beside that of an outlier, as shares of it.
 const BESIDE: [f64; 2] = [-1.1, -0.3];
@@ -59,7 +59,7 @@ impl Motion {
             0
         };
         let missed: Vec<f64> = residuals(&t, &y).map(|[missed, _]| missed).collect();
-        let usual = middle(missed.iter().map(|r| r.abs()))?.max(rounding(&y));
+        let usual = usual(missed.iter().copied(), &y)?;
         let (k, by) = (missed.windows(3).enumerate())
             .filter(|(_, near)| {
                 let beside = |r: f64| (BESIDE[0]..=BESIDE[1]).contains(&(r / near[1]));

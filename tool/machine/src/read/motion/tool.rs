@@ -20,8 +20,11 @@ use crate::text::section::Section;
 /// Share of the tool's way within which it is at its dead centre: nearer to it the drive link's acceleration has no bound.
 const AT_DEAD_CENTRE: f64 = 1e-8;
 
-/// Share of the tool's way by which it may pass the end of the drive link's stroke: rounding.
+/// Share of a stroke that is a rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// The same of the curve through recorded rows, which swings about a rest at the end of the stroke.
+const OF_CURVE: f64 = 1e-7;
 
 /// The coordinate whose motion is prescribed: that of the drive link, or one of the tool.
 pub(in crate::read) struct Prescribed<'a> {
@@ -186,7 +189,7 @@ impl<'a> Prescribed<'a> {
         // How far the tool stays away from each end.
         let [low, high] = ends.map(|[phi, _]| {
             if is_stroke(phi) {
-                -ROUNDING * way
+                -OF_CURVE * way
             } else {
                 AT_DEAD_CENTRE * way
             }

@@ -2,7 +2,7 @@
 
 use jred::Reducible as _;
 
-use crate::analysis::duty::INSIDE;
+use crate::analysis::duty::stretches::hair;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 
@@ -22,7 +22,7 @@ pub(super) struct Stretch {
 
 impl Stretch {
     pub(super) fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
-        let hair = INSIDE * (to - from);
+        let [first, last] = [[from, to], [to, from]].map(|ends| hair(motion, ends));
         let mut rows = motion.rows_within([from, to]);
         for carriage in file.schedule.carriages() {
             rows.extend(carriage.motion.rows_within([from, to]));
@@ -31,7 +31,7 @@ impl Stretch {
         Self {
             from,
             to,
-            inside: [from + hair, (to - hair).min(to.next_down().max(from))],
+            inside: [from + first, (to - last).min(to.next_down().max(from))],
             moves: motion.at(from.midpoint(to)).omega != 0.0,
             rows,
         }
