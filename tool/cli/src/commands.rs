@@ -227,3 +227,10 @@ fn warn_of_motion(file: &MachineFile) {
         output::warn(&warning);
     }
 }
+
+/// A machine file, with the warnings of its motion.
+fn read_warned(path: &Path) -> Result<MachineFile> {
+    let file = read::read(path)?;
+    warn_of_motion(&file);
+    Ok(file)
+}

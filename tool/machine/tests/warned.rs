@@ -250,8 +250,10 @@ fn noisy_records_name_their_cure() {
 fn a_row_that_stands_out_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let written = |cyclic: bool, column: &str, rows: &[[f64; 2]]| {
-        let csv: String = rows.iter().map(|[t, y]| format!("{t:e},{y:e}\n")).collect();
-        let csv = format!("t [s],{column}\n{csv}");
+        let mut csv = format!("t [s],{column}\n");
+        for [t, y] in rows {
+            writeln!(csv, "{t:e},{y:e}").unwrap();
+        }
         std::fs::write(folder.path().join("log.csv"), csv).unwrap();
         format!(
             "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = {{ inertia = \"1 kg m^2\" }}\n\

@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::busy;
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print, warn, warn_of_motion};
+use crate::commands::{Done, print, read_warned, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
@@ -72,8 +72,7 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::Export) -> Result<Done> {
-    let file = read::read(&options.file)?;
-    warn_of_motion(&file);
+    let file = read_warned(&options.file)?;
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
     variator::refuse(&file, "export")?;

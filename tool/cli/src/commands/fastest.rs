@@ -12,7 +12,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{
-    Done, drive_named, envelope, print, profile_written, quantity, rate, warn_of_motion,
+    Done, drive_named, envelope, print, profile_written, quantity, rate, read_warned,
 };
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files, print_parts};
@@ -63,8 +63,7 @@ struct Chosen {
 /// # Errors
 /// Bad input, or no motion within the limits.
 pub fn fastest(options: &Options) -> Result<Done> {
-    let file = read::read(&options.file)?;
-    warn_of_motion(&file);
+    let file = read_warned(&options.file)?;
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
     file.refuse_timed("fastest")?;

@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
 use crate::commands::{
-    Done, drive_asked, print_parts, profile_written, warn_of_motion, warn_of_supply,
+    Done, drive_asked, print_parts, profile_written, read_warned, warn_of_supply,
 };
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
@@ -17,7 +17,6 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::model::variator;
 use jred_machine::number::rounding::short;
 use jred_machine::plain;
-use jred_machine::read;
 use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
 use jred_motion::gentlest::{Fault, without_drive};
@@ -34,8 +33,7 @@ use jred_sizing::study::chosen::ChosenDrive;
 /// # Errors
 /// Bad input, or no motion of moves and pauses.
 pub fn retime(options: &Retime) -> Result<Done> {
-    let file = read::read(&options.file)?;
-    warn_of_motion(&file);
+    let file = read_warned(&options.file)?;
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
     file.refuse_timed("retime")?;

@@ -90,25 +90,21 @@ pub(super) fn read(
             Coordinate::Angle => "angles",
             Coordinate::Length => "lengths",
         };
-        match (&prescribed.tool, section.get("of")) {
-            (Some(tool), Some(of)) => of
-                .problem(
-                    &format!("is {}, but the file has {has}, positions of the drive link", tool.name()),
-                    "not those of the file",
-                )
-                .help("remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link"),
-            _ => {
-                let (does, own) = match other {
-                    Coordinate::Length => ("turns", "phi [deg]"),
-                    Coordinate::Angle => ("slides", "s [mm]"),
-                };
-                item.problem(&format!("has {has}, but the drive link {does}"), "not of the drive link")
-                    .help(format!(
-                        "name in [motion] the part that the file tells of, as in the motion that it was made from: of = {{ point = \"carriage\", \
-                         along = \"x\" }}; or give the positions of the drive link, \"t [s],{own}\""
-                    ))
-            }
+        if let (Some(tool), Some(of)) = (&prescribed.tool, section.get("of")) {
+            let what = format!("is {}, but the file has {has}, positions of the drive link", tool.name());
+            return of.problem(&what, "not those of the file").help(
+                "remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link",
+            );
         }
+        let (does, own) = match other {
+            Coordinate::Length => ("turns", "phi [deg]"),
+            Coordinate::Angle => ("slides", "s [mm]"),
+        };
+        let what = format!("has {has}, but the drive link {does}");
+        item.problem(&what, "not of the drive link").help(format!(
+            "name in [motion] the part that the file tells of, as in the motion that it was made from: of = {{ point = \"carriage\", \
+             along = \"x\" }}; or give the positions of the drive link, \"t [s],{own}\""
+        ))
     })?;
     check_request(&request, &columns, prescribed)?;
     let repeats =

@@ -282,11 +282,7 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
             format.min_rows
         ))
         .at(end..end, "ends here")
-        .help(if whole.trim().is_empty() {
-            format!("the first line gives column names with units: {}; then one row for each point follows", format.example)
-        } else {
-            "add a row for each point".to_owned()
-        })
+        .help("add a row for each point")
         .into());
     }
     Ok(Columns {

@@ -289,14 +289,14 @@ fn a_flywheel_hides_no_error() {
     };
     // c·ω·(ds/dφ)², s = r·cos φ + √(l² − r²·sin²φ), at equal places: exact but for roundings.
     let (r, l, omega) = (0.03_f64, 0.0303_f64, 200.0 * PI);
-    const PLACES: u32 = 1 << 16;
+    let places = 1 << 16;
     let torque = |k: u32| {
-        let (sin, cos) = (TAU * f64::from(k) / f64::from(PLACES)).sin_cos();
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(places)).sin_cos();
         let slope = -r * sin - r * r * sin * cos / (l * l - r * r * sin * sin).sqrt();
         0.02 * omega * slope * slope
     };
-    let mean = (0..PLACES).map(torque).sum::<f64>() / f64::from(PLACES);
-    let square = (0..PLACES).map(|k| torque(k).powi(2)).sum::<f64>() / f64::from(PLACES);
+    let mean = (0..places).map(torque).sum::<f64>() / f64::from(places);
+    let square = (0..places).map(|k| torque(k).powi(2)).sum::<f64>() / f64::from(places);
     for flywheel in ["0.001", "2", "200"] {
         for tolerance in [1e-9, 1e-6, 1e-3] {
             let found = of(flywheel, tolerance);
@@ -338,11 +338,11 @@ fn work_and_energy_of_many_turns_agree() {
             (0..=200).map(|k| format!("{:.4},{:.6}\n", 0.005 * f64::from(k), scale * f64::from(k)));
         folder.file(
             "log.csv",
-            &format!("t [s],{header}\n{}", rows.collect::<String>()),
+            format!("t [s],{header}\n{}", rows.collect::<String>()),
         );
         let text = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { inertia = \"1 kg m^2\" }\n\
                     [motion]\ntype = \"profile\"\nfile = \"log.csv\"\ncyclic = false\n";
-        holds(&read::parse("table.toml", text, &folder.path("")).unwrap());
+        holds(&read::parse("table.toml", text, folder.path("").as_path()).unwrap());
     }
 }
 
