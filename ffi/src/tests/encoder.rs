@@ -229,7 +229,7 @@ fn an_encoder_is_that_of_the_header() {
 }
 
 #[test]
-fn an_encoder_that_cannot_be_has_the_phase_0() {
+fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
     let good = CMounting {
         counts_per_turn: 10_000,
         gear: [17, 2],
@@ -319,9 +319,9 @@ fn an_encoder_that_cannot_be_has_the_phase_0() {
         let mut memory = MaybeUninit::uninit();
         let made = jred_stroke_encoder_make(Some(&mut memory), from, to, Some(&wrong));
         assert_eq!(made, Status::Figure, "{from} {to} {wrong:?}");
-        // SAFETY: zeros are an encoder.
+        // SAFETY: an encoder of no stroke was written.
         let encoder: StrokeEncoder = unsafe { memory.assume_init() };
-        assert_eq!(encoder.phase(77).value.to_bits(), 0);
+        assert!(encoder.phase(77).saturated && encoder.phase_wide(77).saturated);
     }
     assert_eq!(
         jred_stroke_encoder_make(None, 0.0, 0.5, Some(&good)),
