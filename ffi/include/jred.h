@@ -222,8 +222,8 @@ static inline jred_place jred_stroke_encoder_phase_wide(const jred_stroke_encode
     return jred_place_(upper * encoder->step + (int64_t)lower * (encoder->step >> 32) + parts + encoder->start);
 }
 
-/* Extends the reading of a counter of so many bits, 1 to 32 (others are not refused), that overflows: the count nearest to the last one, *count. The machine must
- * move less than half of the counter's range between two readings. */
+/* Extends the reading of a counter of so many bits, 1 to 32 (others are not refused), that overflows: the count nearest to the last one,
+ * *count. The machine must move less than half of the counter's range between two readings. */
 static inline int64_t jred_counter_extend(int64_t *count, uint32_t bits, uint32_t reading) {
     const uint32_t shift = (32u - bits) & 31u;
     const int32_t moved = (int32_t)((reading << shift) - ((uint32_t)*count << shift)) >> shift;
@@ -301,8 +301,8 @@ typedef struct {
  * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_checked says so and gives a torque
  * that is neither. The words must live and stay the same as long as
  * the model is ticked. A tick of
- * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0, and press_checked flags both. An acceleration that does not fit is the nearest end of the range;
- * press_acceleration_range says so of each.
+ * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0, and press_checked flags both. An
+ * acceleration that does not fit is the nearest end of the range; press_acceleration_range says so of each.
  *
  * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32,
  * slider_crank_f32.

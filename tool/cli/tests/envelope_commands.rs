@@ -149,7 +149,7 @@ fn the_supply_of_the_machine_file_moves_the_limits() {
     near("higher voltage", higher, full, budget::CLOSED_FORM);
 }
 
-/// However many stops are simulated, what is assumed of the motor is said once.
+/// The assumptions about the motor are printed once, however many stops are simulated.
 #[test]
 fn a_warning_is_given_once() {
     let folder = Folder::new();

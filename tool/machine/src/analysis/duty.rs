@@ -21,7 +21,7 @@ pub use panels::MOST_INSTANTS;
 use panels::Panels;
 use refined::insert_extremes;
 pub use smooth::{MOST_RAISED, Panel, Smooth, Values};
-pub(crate) use stretches::{passages, smooth_stretches};
+pub(crate) use stretches::{passages, smooth_stretches, turns};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
 /// output of its gearbox is coupled to.

@@ -153,7 +153,7 @@ fn a_drum_gives_back_what_it_takes() {
     }
 }
 
-/// Turns that are like one another are looked at once, and the one that is not is not missed: a moment of 5 N m in the last turn, or for a
+/// Of equal turns one is searched, and the turn that differs is found: a moment of 5 N m in the last turn, or for a
 /// quarter of a turn while the weight is at the top of its torque, in the middle of a hundred turns of 0.1 s.
 #[test]
 fn the_one_turn_that_differs_has_the_peak() {

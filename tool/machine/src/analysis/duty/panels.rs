@@ -10,11 +10,12 @@ mod stretch;
 use super::fault::Fault;
 use super::integrands::{Allowed, COUNT, Sums, integrands, of_whole};
 use super::moving::{Evaluated, Moving};
+use super::stretches::turns;
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use crate::number::quadrature::GAUSS_3;
 use crate::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
 use signs::UNSIGNED;
-use stretch::{Stretch, near_whole, turns};
+use stretch::{Stretch, near_whole};
 
 /// Most instants of a duty: with what is made of them they take 200 bytes each.
 pub const MOST_INSTANTS: usize = 4_000_000;
@@ -36,8 +37,7 @@ const MOST_CUTS: usize = 16;
 const LITTLE: f64 = 0.7;
 
 /// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
-const IDLE: [(u32, f64); 2] = [(2, 1e-10), (MOST_IDLE, 1e-6)];
-const MOST_IDLE: u32 = 5;
+const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
 
 /// Roundings of the time that an error of roundings may be as large as.
 const TIMES: f64 = 4.0;

@@ -83,6 +83,12 @@ pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
     share * length
 }
 
+/// How many turns, or strokes, the drive link makes in a smooth stretch.
+pub(crate) fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
+    let [a, b] = [from, to].map(|t| motion.at(t).phi);
+    (b - a).abs() / file.machine.domain().span()
+}
+
 /// The direction of the drive link.
 fn direction(motion: &Motion, t: f64) -> i64 {
     let omega = motion.at(t).omega;

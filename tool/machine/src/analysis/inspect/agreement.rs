@@ -32,8 +32,10 @@ const PANELS: u32 = 96;
 /// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
 const ROW_PANELS: usize = 8192;
 
-/// Parts of a turn or stroke, at least, and the most of these of a stretch that are looked at: a balance holds over any of its parts.
+/// Fewest panels for a turn or stroke.
 const PANELS_OF_TURN: f64 = 8.0;
+
+/// The balance of a longer stretch is that of its first turns, so many: energy balances over every part of a motion.
 const MOST_TURNS: f64 = 250.0;
 
 /// Share of the energy of the machine that counts as moved: at an even speed no more than its rounding is.
@@ -169,8 +171,7 @@ fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64;
     let parts: Vec<(Span, usize)> = duty::smooth_stretches(file, motion)
         .into_iter()
         .map(|(from, to)| {
-            let [a, b] = [from, to].map(|t| motion.at(t).phi);
-            let turns = (b - a).abs() / file.machine.domain().span();
+            let turns = duty::turns(file, motion, (from, to));
             let time = (to - from) / motion.duration();
             ([from, to], steps_of(turns.max(time)))
         })
@@ -239,7 +240,7 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     let parts: Vec<Part> = stretches
         .into_iter()
         .map(|(from, to)| {
-            let turns = turns(file, motion, [from, to]);
+            let turns = duty::turns(file, motion, (from, to));
             let to = from + (to - from) * (MOST_TURNS / turns).min(1.0);
             Part::new(file, machines, motion, [from, to])
         })
@@ -256,7 +257,7 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
             let panels = f64::from(PANELS) * (pair[1] - pair[0]) / duration;
-            let of_turns = PANELS_OF_TURN * turns(file, motion, [pair[0], pair[1]]);
+            let of_turns = PANELS_OF_TURN * duty::turns(file, motion, (pair[0], pair[1]));
             let panels = panels.max(of_turns).ceil().max(least as f64) as u32;
             let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
             // Nor is it closer than the roundings of times between near rows.
@@ -286,12 +287,6 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     }
     let moved = all + STORED * stored;
     Ok(if moved > 0.0 { off / moved } else { off })
-}
-
-/// Turns, or strokes, of the drive link between two times of a smooth stretch.
-fn turns(file: &MachineFile, motion: &Motion, span: [f64; 2]) -> f64 {
-    let [a, b] = span.map(|t| motion.at(t).phi);
-    (b - a).abs() / file.machine.domain().span()
 }
 
 /// A time (s), the state of the drive link, and the machine.

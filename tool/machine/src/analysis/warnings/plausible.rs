@@ -84,7 +84,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
 const LENGTHS: [f64; 2] = [100.0, 1e5];
 const ANGLES: [f64; 2] = [1e4, 1e7];
 
-/// Instants of a smooth stretch at which a motion is looked at: only the size counts.
+/// Instants of a smooth stretch whose speed and acceleration are compared with the limits: only their order of magnitude matters.
 const INSTANTS: u32 = 8;
 
 /// A warning for a prescribed motion that is implausibly fast.

@@ -1,7 +1,5 @@
 //! A smooth stretch of the motion, and where its panels begin and end at first.
 
-use jred::Reducible as _;
-
 use crate::analysis::duty::stretches::hair;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
@@ -82,10 +80,4 @@ pub(super) fn near_whole(count: f64) -> f64 {
     } else {
         count
     }
-}
-
-/// How many turns, or strokes, the drive link makes in a smooth stretch.
-pub(super) fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
-    let [a, b] = [from, to].map(|t| motion.at(t).phi);
-    (b - a).abs() / file.machine.domain().span()
 }
