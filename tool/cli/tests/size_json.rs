@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::schema::faults;
-use crate::support::{Folder, edited_press, jred, jred_with, press_file};
+use crate::support::{Folder, budget, edited_press, jred, jred_with, press_file};
 use serde_json::{Value, json};
 
 fn docs(name: &str) -> String {
@@ -39,7 +39,7 @@ fn answers_follow_the_schema() {
     let shares = effects
         .iter()
         .map(|e| e["share of mean square"].as_f64().unwrap());
-    crate::support::within("shares", shares.sum(), 1.0, crate::support::budget::CELLS);
+    crate::support::within("shares", shares.sum(), 1.0, budget::CELLS);
     assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
     assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
     for (name, motors) in [
@@ -288,4 +288,73 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
         let motor = class["first"]["motor"].as_str().unwrap();
         assert!(page.contains(&format!("the first is rank {}: {motor}", class["rank"])));
     }
+}
+
+/// Every figure of two answers, and of the objects in them, whose path tells where it stands. A figure is compared as a share of the largest of its
+/// group (a mean of nearly nothing beside its RMS), a margin as one of its limit.
+fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
+    match (found, exact) {
+        (Value::Object(found), Value::Object(exact)) => {
+            let keys = |of: &serde_json::Map<String, Value>| of.keys().cloned().collect::<Vec<_>>();
+            assert_eq!(keys(found), keys(exact), "{path}");
+            let group = ["rms", "max"].map(|key| exact.get(key).and_then(Value::as_f64));
+            let group = group
+                .into_iter()
+                .flatten()
+                .fold(0.0, |m: f64, x| m.max(x.abs()));
+            // A note is of rounded figures.
+            let figures = found.iter().filter(|(key, _)| *key != "note");
+            let figures = figures.map(|(key, value)| {
+                let least = if key == "margin" { 1.0 } else { group };
+                compare(&format!("{path}/{key}"), value, &exact[key], least)
+            });
+            figures.sum()
+        }
+        (Value::Array(found), Value::Array(exact)) => {
+            assert_eq!(found.len(), exact.len(), "{path}");
+            let figures = found.iter().zip(exact).enumerate();
+            figures
+                .map(|(k, (found, exact))| compare(&format!("{path}/{k}"), found, exact, 0.0))
+                .sum()
+        }
+        (Value::Number(found), Value::Number(exact)) => {
+            let [found, exact] = [found, exact].map(|number| number.as_f64().unwrap());
+            let off = (found - exact).abs() / exact.abs().max(least).max(f64::MIN_POSITIVE);
+            assert!(off <= budget::DUTY, "{path}: {found} {exact} {off:e}");
+            1
+        }
+        _ => {
+            assert_eq!(found, exact, "{path}");
+            0
+        }
+    }
+}
+
+/// Integrals, peaks, margins and the order of the drives.
+#[test]
+fn every_figure_is_that_of_a_smaller_tolerance() {
+    let (mut machines, mut figures) = (0, 0);
+    for entry in std::fs::read_dir(machine("")).unwrap() {
+        let file = entry.unwrap().path();
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        // No drive of the catalogue slides, and no ratio over the time can be sized.
+        let is_refused = ["linear-gripper.toml", "variator-press.toml"].contains(&name.as_str());
+        if is_refused || file.extension().is_none_or(|end| end != "toml") {
+            continue;
+        }
+        let size = |tolerance: &str| {
+            let run = jred([
+                &"size",
+                &file,
+                &"--format",
+                &"json",
+                &"--tolerance",
+                &tolerance,
+            ]);
+            run.json()
+        };
+        figures += compare(&name, &size("1e-9"), &size("1e-12"), 0.0);
+        machines += 1;
+    }
+    assert!(machines > 35 && figures > 20_000, "{machines} {figures}");
 }

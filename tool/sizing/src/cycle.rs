@@ -282,7 +282,7 @@ impl Cycle {
         let stretches = self.stretches();
         let mut is_known = false;
         for range in self.smooth.panels(self.samples.len()) {
-            if let Some(panel) = stretches.panel(range.start) {
+            if let Some(panel) = stretches.panel(range) {
                 let torque = |k: usize| coefficients.torque(&self.samples[k].loads());
                 let speed = |k: usize| self.samples[k].speed() * ratio;
                 take(&panel, &panel.values(torque), &panel.values(speed));

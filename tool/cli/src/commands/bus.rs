@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 
 use crate::busy;
 use crate::commands::core_error::duty_report;
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, read_warned};
 use crate::options::bus::Bus as Options;
 use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
@@ -16,7 +16,6 @@ use jred_machine::model::site::Site;
 use jred_machine::model::supply::Supply;
 use jred_machine::model::variator;
 use jred_machine::plain;
-use jred_machine::read;
 use jred_report::list::listing;
 use jred_report::table::output::Format;
 use jred_sizing::bus::answer::{Answer, Axis};
@@ -47,7 +46,7 @@ impl Watch for Bar<'_> {
 pub fn run(options: &Options) -> Result<Done> {
     bounded(options)?;
     let catalogue = options.catalogue.open()?;
-    let files = options.files.iter().map(|path| read::read(path));
+    let files = options.files.iter().map(|path| read_warned(path));
     let mut files = files.collect::<Result<Vec<MachineFile>>>()?;
     let [own, common] = supply(options, &files)?;
     let named = named(options)?;

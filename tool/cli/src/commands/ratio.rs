@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, read_warned};
 use crate::options::search::Ratio;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::read;
@@ -21,7 +21,7 @@ use jred_sizing::study::ratio::Ratios;
 /// # Errors
 /// Bad input.
 pub fn ratio(options: &Ratio) -> Result<Done> {
-    let mut file = read::read(&options.file)?;
+    let mut file = read_warned(&options.file)?;
     if let Some(set) = options.supply.rule_set()? {
         file.rules = read::rules_based_on(&file.rules, set)?;
     }

@@ -5,7 +5,7 @@ use miette::Result;
 
 use crate::busy;
 use crate::commands::vary::study;
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, warn_of_motion};
 use crate::options::search::Sensitivity as Options;
 use jred_report::list::sensitivity::sheet;
 use jred_sizing::study::chosen::ChosenDrive;
@@ -19,6 +19,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
     let sampling = options.supply.course.with(&options.accuracy);
     let study = study(&options.file, &options.supply, &filter, sampling)?;
+    warn_of_motion(&study.nominal);
     options.search.check(&study.catalogue, &[])?;
     let one = ChosenDrive::choose(
         &study,

@@ -4,7 +4,7 @@ use jred_machine::plain;
 use miette::{Result, miette};
 
 use crate::commands::vary::{stopped, study};
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, warn_of_motion};
 use crate::options::search::Tolerance as Options;
 use crate::output;
 use crate::rows::run::run;
@@ -24,6 +24,7 @@ pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
     let sampling = options.supply.course.sampling();
     let study = study(&options.file, &options.supply, &filter, sampling)?;
+    warn_of_motion(&study.nominal);
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let given = options.tolerance.iter().map(|text| given(text));

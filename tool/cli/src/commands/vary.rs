@@ -4,7 +4,7 @@ use std::path::Path;
 
 use miette::{Result, miette};
 
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, warn_of_motion};
 use crate::options::search::{Merge, Rows, SizingOptions, Vary};
 use crate::output;
 use crate::rows::merge::merge;
@@ -79,6 +79,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         &filter,
         options.supply.course.with(&options.accuracy),
     )?;
+    warn_of_motion(&study.nominal);
     output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let axes = options

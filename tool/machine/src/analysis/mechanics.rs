@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::{Domain, Reducible as _};
 
-use crate::analysis::duty::Instant;
+use crate::analysis::duty::{Instant, Smooth};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::site::ToolPlace;
@@ -49,7 +49,12 @@ pub struct Mechanics {
 
 impl Mechanics {
     /// The figures of a motion; `rest`: the torques at rest without losses.
-    pub fn new(file: &MachineFile, instants: &[Instant], duration: f64, rest: Rest) -> Self {
+    pub fn new(
+        file: &MachineFile,
+        (instants, smooth): (&[Instant], &Smooth),
+        duration: f64,
+        rest: Rest,
+    ) -> Self {
         let moves = moves::Moves::of(
             instants,
             duration,
@@ -71,7 +76,7 @@ impl Mechanics {
             slides: file.machine.mechanism().coordinate() == Coordinate::Length,
             ..Self::default()
         };
-        motion.with_loads(file, instants, 1.0, rest)
+        motion.with_loads(file, (instants, smooth), 1.0, rest)
     }
 
     /// The figures of the same motion in `time` times its time, under other loads: those of `instants`, which may be some of its
@@ -80,7 +85,7 @@ impl Mechanics {
     pub fn with_loads(
         &self,
         file: &MachineFile,
-        instants: &[Instant],
+        (instants, smooth): (&[Instant], &Smooth),
         time: f64,
         rest: Rest,
     ) -> Self {
@@ -105,7 +110,7 @@ impl Mechanics {
             rest: rest.times(1.0 / efficiency),
             constant,
             falls: self.falls,
-            stop: Stop::of(instants, ratio),
+            stop: Stop::of(instants, smooth, ratio),
             train_ratio: ratio,
             tool_slope: self.tool_slope,
         }

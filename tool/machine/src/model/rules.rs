@@ -125,8 +125,8 @@ impl RuleSet {
     }
 }
 
-/// Share of a limit that is rounding: a mean speed of 1500 rpm is at a limit of 1500 rpm, whatever its last digits.
-const ROUNDING: f64 = 1e-12;
+/// Share of a limit that is the error of a duty: a mean speed of 1500 rpm is at a limit of 1500 rpm, whatever its last digits.
+const ROUNDING: f64 = 1e-9;
 
 #[inline]
 fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {

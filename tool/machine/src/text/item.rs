@@ -273,12 +273,12 @@ impl<'a> Item<'a> {
     /// Two quantities.
     pub(crate) fn pair(&self, kinds: [&'static Kind; 2]) -> Result<[Value; 2]> {
         let [first, second] = kinds;
-        let second = if std::ptr::eq(first, second) {
-            format!("0 {}", second.unit)
+        // Coordinates, or the ends of a range, which rises.
+        let example = if std::ptr::eq(first, second) {
+            format!("[\"0 {}\", \"{}\"]", first.unit, second.example)
         } else {
-            second.example.to_owned()
+            format!("[\"{}\", \"{}\"]", first.example, second.example)
         };
-        let example = format!("[\"{}\", \"{second}\"]", first.example);
         let list = self.list("value", &example)?;
         let [first, second] = list.as_slice() else {
             let count = list.len();

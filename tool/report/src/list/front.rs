@@ -2,9 +2,11 @@
 
 use serde_json::{Value, json};
 
+use super::marks;
 use crate::table::output::{Format, text_table};
 use crate::table::rows::csv_line;
 use jred_machine::number::rounding::rounded;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::select::pareto::{Front, Point};
 use jred_sizing::select::rank::Objective;
 use jred_sizing::study::cell::Cell;
@@ -39,18 +41,18 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
         Format::Table => {
             let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
             for point in &front.points {
-                let [motor, gearbox, amplifier] = row(point);
-                let gearbox = if gearbox.is_empty() {
-                    "direct".to_owned()
-                } else {
-                    gearbox
-                };
                 let values = point.values.iter().map(|x| rounded(*x));
                 let known = |figure: Option<f64>| figure.map_or("–".to_owned(), rounded);
                 let figures = figures(point).into_iter().map(known);
-                let row = [motor, gearbox, amplifier].into_iter().chain(figures);
+                let row = marks::drive(&point.candidate.drive)
+                    .into_iter()
+                    .chain(figures);
                 table.add_row(row.chain(values));
             }
+            let drives: Vec<Drive> = front.points.iter().map(|p| p.candidate.drive).collect();
+            let legend: Vec<String> = (marks::legend(&drives).iter())
+                .map(|line| format!("{line}\n"))
+                .collect();
             let gaps: Vec<String> = front
                 .gaps()
                 .iter()
@@ -63,9 +65,10 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
                 );
             }
             format!(
-                "{title}\n{table}\n{} of {} drives: no other suitable drive is as good in all of these and better in one\n{gaps}",
+                "{title}\n{table}\n{} of {} drives: no other suitable drive is as good in all of these and better in one\n{}{gaps}",
                 front.points.len(),
-                front.compared
+                front.compared,
+                legend.concat()
             )
         }
         Format::Csv => {

@@ -11,6 +11,7 @@ pub mod front;
 pub mod inspection;
 pub mod kept;
 pub mod listing;
+mod marks;
 pub mod plan;
 pub mod ratio;
 pub mod retime;

@@ -95,8 +95,9 @@ impl<'c> Bent<'c> {
     }
 
     fn panel(&self, k: usize) -> Option<(Panel, usize)> {
-        let end = self.stretches.panel_end(k)?;
-        Some((self.stretches.panel(k)?, end))
+        let range = (self.stretches.smooth).panel_of(k, self.stretches.samples.len())?;
+        let end = range.end;
+        Some((self.stretches.panel(range)?, end))
     }
 
     fn ruled(&self, panel: &Panel, f: &impl Fn(f64, f64) -> f64) -> f64 {
@@ -132,11 +133,6 @@ impl<'c> Bent<'c> {
 }
 
 impl Stretches<'_> {
-    /// The sample after the panel of the sample `k`.
-    fn panel_end(self, k: usize) -> Option<usize> {
-        Some(self.smooth.panel_of(k, self.samples.len())?.end)
-    }
-
     /// Samples, in order, of all panels in whose range of speeds (rad/s, at the gearbox output, without sign) something `is_open`.
     pub(super) fn at_speeds(self, is_open: &impl Fn([f64; 2]) -> bool) -> Vec<usize> {
         let mut found = Vec::new();

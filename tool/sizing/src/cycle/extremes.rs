@@ -8,6 +8,8 @@
 //! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed
 //! over: else a constant torque would be looked at sample by sample.
 
+use std::ops::Range;
+
 use super::floor::{Falling, Floor, Level, Straight};
 use super::front::Front;
 use super::tree::{Direction, Node, Tree};
@@ -152,11 +154,29 @@ impl Stretches<'_> {
         ratio: f64,
         used: impl Fn(f64, f64) -> f64,
     ) -> Option<Peak> {
+        if !self.smooth.knows_peaks() {
+            return None;
+        }
+        // The last sample of a panel is where the next one begins, and the peak may lie on either side.
+        let panels = self.smooth.panels_beside(k, self.samples.len());
+        let panels = panels.filter_map(|range| self.panel(range));
+        let peaks = panels.filter_map(|panel| self.peak_in(&panel, k, c, ratio, &used));
+        peaks.max_by(|a, b| a.used.total_cmp(&b.used))
+    }
+
+    /// That in one of the panels.
+    fn peak_in(
+        self,
+        panel: &Panel,
+        k: usize,
+        c: &Coefficients,
+        ratio: f64,
+        used: impl Fn(f64, f64) -> f64,
+    ) -> Option<Peak> {
         let at = |k: usize| {
             let sample = &self.samples[k];
             (c.torque(&sample.loads()), sample.speed() * ratio)
         };
-        let panel = self.panel(k).filter(|_| self.smooth.knows_peaks())?;
         let kind = |k: usize| {
             let [_, driving, back, _, sign] = self.samples[k].loads();
             [driving, back, sign].map(|x| x != 0.0)
@@ -181,9 +201,8 @@ impl Stretches<'_> {
         })
     }
 
-    /// The panel of the sample `k`.
-    pub(super) fn panel(self, k: usize) -> Option<Panel> {
-        let range = self.smooth.panel_of(k, self.samples.len())?;
+    /// The panel of these samples.
+    pub(super) fn panel(self, range: Range<usize>) -> Option<Panel> {
         Panel::of(range, |k| [self.samples[k].t, self.samples[k].weight])
     }
 

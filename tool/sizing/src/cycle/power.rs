@@ -76,7 +76,7 @@ impl Stretches<'_> {
         if work.mended.replace(range.start) == Some(range.start) {
             return;
         }
-        let Some(panel) = self.panel(k + 1) else {
+        let Some(panel) = self.panel(range.clone()) else {
             return;
         };
         let over = panel.values(power);

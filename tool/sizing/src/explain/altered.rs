@@ -146,7 +146,12 @@ impl<'a> Altered<'a> {
         let rest = Rest::new(&held, weights).times(1.0 / ratio.abs());
         let hold_torque = rest.largest();
         Duty {
-            mechanics: (self.duty.mechanics).with_loads(self.file, &instants, by.time, rest),
+            mechanics: (self.duty.mechanics).with_loads(
+                self.file,
+                (&instants, &Smooth::default()),
+                by.time,
+                rest,
+            ),
             hold_torque,
             duration,
             instants,

@@ -65,7 +65,7 @@ impl Fault {
                 of_turns,
                 ..
             } => {
-                let cure = "describe one cycle that repeats, with fewer turns or rows";
+                let cure = "describe one cycle that repeats, with fewer turns or rows, and smooth a noisy recording (`smoothing` in [motion])";
                 if *of_turns || *tolerance >= LARGER {
                     cure.to_owned()
                 } else {

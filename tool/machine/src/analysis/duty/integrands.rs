@@ -101,6 +101,8 @@ pub(super) struct Allowed<'s> {
     pub(super) share: f64,
     /// The share of the whole integral that it counts as having at least: see [`of_whole`].
     pub(super) of_whole: f64,
+    /// The largest torque at the input.
+    pub(super) largest: f64,
 }
 
 impl Sums {
@@ -142,7 +144,14 @@ impl Sums {
                     .iter()
                     .fold(0.0f64, |most, value| most.max(value.abs()));
                 let rounding = TO_THE_ENDS * f64::EPSILON * middle.abs() / half * most;
-                (off[0] + off[1] - rounding).max(0.0)
+                let off = (off[0] + off[1] - rounding).max(0.0);
+                let allowed_off = allowed.tolerance * allowed.largest;
+                // A peak lies between the places.
+                if off > allowed_off {
+                    excess = excess.max(off / allowed_off);
+                    rough = rough.max(off / allowed.largest);
+                }
+                off
             } else {
                 0.0
             };

@@ -155,6 +155,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             })
             .collect();
         let count: usize = borders.iter().map(|(_, borders)| borders.len() - 1).sum();
+        let rows: usize = borders.iter().map(|(stretch, _)| stretch.rows.len()).sum();
         let mut panels = Self {
             moving,
             tolerance: sampling.tolerance,
@@ -165,7 +166,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             flows: Vec::new(),
             largest: 0.0,
             most_parts: refined::most_parts(15 * count),
-            of_whole: of_whole(count),
+            of_whole: of_whole(count.max(rows)),
             sums: Sums::default(),
             worst: ([0.0, duration], 0.0),
             gain: 0.0,
@@ -288,6 +289,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             sizes: &self.sizes,
             share: (to - from) / self.duration,
             of_whole: self.of_whole,
+            largest: self.largest,
         };
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);

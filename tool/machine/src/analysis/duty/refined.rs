@@ -53,13 +53,16 @@ pub(super) fn insert_extremes(
     instants: &mut Vec<Instant>,
     smooth: &mut Smooth,
 ) -> Result<(), Error> {
-    let quantities: [fn(&Instant) -> f64; 6] = [
+    let quantities: [fn(&Instant) -> f64; 9] = [
         |i| i.terms.total(),
         |i| i.input_inertia,
         |i| i.input_speed,
         |i| i.input_alpha,
         |i| i.input_torque,
         |i| i.input_torque * i.input_speed,
+        |i| i.input_inertia * i.input_speed * i.input_speed,
+        |i| i.terms.potential + i.terms.process,
+        |i| i.terms.potential + i.terms.viscous + i.terms.coulomb,
     ];
     for quantity in quantities {
         for sign in [-1.0, 1.0] {

@@ -74,6 +74,13 @@ impl Smooth {
         (!panel.is_empty()).then_some(panel)
     }
 
+    /// The panels on whose curve the instant `k` of `count` lies, each by one of its instants: its own, and the next one where that begins with it.
+    pub fn panels_beside(&self, k: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
+        let next = self.panel_of(k + 1, count);
+        let next = next.filter(|range| range.start == k + 1);
+        self.panel_of(k, count).into_iter().chain(next)
+    }
+
     /// The instants of every panel of `count` instants, in order.
     pub fn panels(&self, count: usize) -> impl Iterator<Item = Range<usize>> {
         let firsts = self.panels.iter();
@@ -174,6 +181,14 @@ impl Panel {
         ((t - self.middle) / self.half).clamp(-1.0, 1.0)
     }
 
+    /// The places on −1 to 1 of the instants before and after the instant `k`, whose times are asked for, or the ends.
+    pub(in crate::analysis) fn around(&self, k: usize, time: impl Fn(usize) -> f64) -> [f64; 2] {
+        let before = k.checked_sub(1).filter(|j| *j >= self.first);
+        let after = Some(k + 1).filter(|j| *j < self.end);
+        let place = |j: Option<usize>, end: f64| j.map_or(end, |j| self.place(time(j)));
+        [place(before, -1.0), place(after, 1.0)]
+    }
+
     /// Where a quantity that is largest of all instants at the instant `k` of this panel is larger still: the place on −1 to 1 and its value there.
     /// `known` is the quantity at an instant, `value` between the instants.
     pub fn peak(
@@ -185,10 +200,7 @@ impl Panel {
     ) -> Option<(f64, f64)> {
         const SECTION: f64 = 0.381_966_011_250_105_1;
         let most = known(k);
-        let before = k.checked_sub(1).filter(|j| *j >= self.first);
-        let after = Some(k + 1).filter(|j| *j < self.end);
-        let neighbour = |j: Option<usize>, end: f64| j.map_or(end, |j| self.place(time(j)));
-        let (mut low, mut high) = (neighbour(before, -1.0), neighbour(after, 1.0));
+        let [mut low, mut high] = self.around(k, time);
         if high <= low {
             return None;
         }

@@ -17,7 +17,10 @@
 
 use std::cmp::Ordering;
 
-use crate::analysis::duty::Instant;
+use crate::analysis::duty::{Instant, Panel, Smooth};
+
+/// Parts of the way between the instants beside one on the hull: its sagitta falls with the square.
+const PARTS: u32 = 128;
 
 /// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and
 /// d that rises with d, so its maximum lies on that hull and nothing but it on the way along.
@@ -60,16 +63,52 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 
 impl Stop {
     /// The states of a motion whose drive train has this ratio (without sign).
-    pub(super) fn of(instants: &[Instant], ratio: f64) -> Self {
-        let moving = instants.iter().filter(|i| i.omega != 0.0);
-        let states = moving.flat_map(|instant| {
+    pub(super) fn of(instants: &[Instant], smooth: &Smooth, ratio: f64) -> Self {
+        let states = |instant: &Instant| {
             let terms = &instant.terms;
             let slow = terms.potential + terms.process + terms.coulomb;
             let fast = slow + terms.velocity + terms.viscous;
             let driving = |torque: f64| -torque * instant.omega.signum() / ratio;
             [slow, fast].map(|torque| [instant.input_inertia, driving(torque)])
-        });
-        Self::among(states.collect())
+        };
+        let moves = |k: &usize| instants[*k].omega != 0.0;
+        let moving = || (0..instants.len()).filter(moves);
+        let mut all = Self::among(moving().flat_map(|k| states(&instants[k])).collect());
+        if !smooth.knows_peaks() {
+            return all;
+        }
+        // Between the instants too, beside the first instant at each state of the hull.
+        let mut known = vec![false; all.hull.len()];
+        let mut is_new = |state: &[f64; 2]| {
+            let place = all.hull.partition_point(|of_hull| of_hull[0] < state[0]);
+            all.hull.get(place) == Some(state) && !std::mem::replace(&mut known[place], true)
+        };
+        let mut between = Vec::new();
+        for k in moving() {
+            let [slow, fast] = states(&instants[k]).map(|state| is_new(&state));
+            if !(slow || fast) {
+                continue;
+            }
+            for range in smooth.panels_beside(k, instants.len()) {
+                let Some(panel) = Panel::of(range, |k| [instants[k].t, instants[k].weight]) else {
+                    continue;
+                };
+                if !panel.indices().iter().all(moves) {
+                    continue;
+                }
+                let [from, to] = panel.around(k, |k| instants[k].t);
+                let curve = |speed: usize, figure: usize| {
+                    panel.values(|k| states(&instants[k])[speed][figure])
+                };
+                let curves = [0, 1].map(|speed| [curve(speed, 0), curve(speed, 1)]);
+                for part in 1..PARTS {
+                    let x = from + (to - from) * f64::from(part) / f64::from(PARTS);
+                    between.extend(curves.map(|[inertia, driving]| [inertia.at(x), driving.at(x)]));
+                }
+            }
+        }
+        between.append(&mut all.hull);
+        Self::among(between)
     }
 
     /// The upper hull of states [J (kg·m²), d (N·m)].

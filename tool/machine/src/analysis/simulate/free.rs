@@ -141,7 +141,8 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
     fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<Missing>, Error> {
         let [given, _] = self.motor(0.0);
         let push = (given * self.ratio()).signum();
-        if given == 0.0 || self.simulation.halt.is_some() {
+        let is_off = (self.simulation.halt).is_some_and(|halt| t >= halt.time);
+        if given == 0.0 || is_off {
             return Ok(None);
         }
         // Both by what acts at rest and by what acts in motion.

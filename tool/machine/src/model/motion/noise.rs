@@ -12,6 +12,8 @@
 //! Of rows at steps h the interpolating spline makes errors of 1.18·σ/h in its first derivative and 6·σ/h² in its second (RMS: the means
 //! over all frequencies of its response to a sine), the smoothing one with the cut-off ω σ·√(h·ω³/(8·√2)) and σ·√(h·ω⁵/(8·√2)).
 
+use std::f64::consts::TAU;
+
 use super::Motion;
 use super::piece::Kind;
 use crate::number::spline::Spline;
@@ -32,7 +34,7 @@ const SOME: usize = 32;
 /// Share of the acceleration of the motion that noise may have after smoothing.
 const QUIET: f64 = 0.05;
 
-/// Cut-off frequencies that are tried lie in this ratio.
+/// Cut-off frequencies that are tried lie in this ratio at least.
 const STEP: f64 = 1.25;
 
 /// Noise of a recorded motion, all RMS values, of what it prescribes.
@@ -163,16 +165,19 @@ fn smoothing(curve: &Spline, t: &[f64], order: usize, rows: f64) -> Option<f64> 
     let h = usual_step(t)?;
     let duration = curve.range()[1] - curve.range()[0];
     let [lowest, highest] = super::recording::cutoffs(t.len(), duration);
+    let power = if order == 2 { 5 } else { 3 };
+    let noise = |omega: f64| rows * (h * omega.powi(power) / 128.0_f64.sqrt()).sqrt();
     let mut cutoff = highest;
     while cutoff >= lowest {
-        let omega = std::f64::consts::TAU * cutoff;
-        let power = if order == 2 { 5 } else { 3 };
-        let noise = rows * (h * omega.powi(power) / 128.0_f64.sqrt()).sqrt();
+        let omega = TAU * cutoff;
         let smooth = curve.smoothed(omega).ok()?;
-        if noise <= QUIET * derivative(&smooth, t, order) {
+        let allowed = QUIET * derivative(&smooth, t, order);
+        if noise(omega) <= allowed {
             return Some(cutoff);
         }
-        cutoff /= STEP;
+        // A lower cut-off leaves no more of the acceleration, and may have no more noise than that allows.
+        let allows = (allowed / noise(omega)).powf(2.0 / f64::from(power));
+        cutoff *= allows.min(1.0 / STEP);
     }
     None
 }

@@ -196,12 +196,13 @@ impl<'a> Prescribed<'a> {
         });
         let within = |value: f64| (ends[0][1] + low..=ends[1][1] - high).contains(&value);
         let mut before = 0.0;
-        for Reach {
+        let reaches = motion.reaches();
+        for &Reach {
             segment,
             of_drive,
             t,
             position: value,
-        } in motion.reaches()
+        } in &reaches
         {
             if of_drive {
                 continue;
@@ -236,6 +237,13 @@ impl<'a> Prescribed<'a> {
                 tool.symbol(),
                 self.axis.distance(end)
             );
+            // The first that is out of reach may lie on the way: the farthest says how much too far.
+            let farthest = (reaches.iter())
+                .filter(|reach| reach.segment == segment && !reach.of_drive)
+                .map(|reach| reach.position)
+                .filter(|position| (position - end) * (value - end) > 0.0)
+                .max_by(|a, b| (a - end).abs().total_cmp(&(b - end).abs()))
+                .unwrap_or(value);
             let beyond = (value - end).abs() > AT_DEAD_CENTRE * way;
             let message = if first <= 0.0 && !within(motion.prescribed(0.0).phi) {
                 format!(
@@ -244,7 +252,7 @@ impl<'a> Prescribed<'a> {
             } else if beyond {
                 format!(
                     "leads {name} to {}: at t = {} s it reaches {what} at {place}, and no position of the drive link takes it further",
-                    self.axis.distance(value),
+                    self.axis.distance(farthest),
                     figure(first),
                 )
             } else {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
 use super::{Asked, Explanation, List};
+use crate::list::marks;
 use crate::table::output::text_table;
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::machine::MachineFile;
@@ -15,7 +16,7 @@ use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{cleared, rounded, short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
-use jred_sizing::catalogue::MotorKind;
+use jred_sizing::catalogue::{Drive, MotorKind};
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Judged, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Class, Gap, Selection};
@@ -333,21 +334,18 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
             row.push(
                 judged
                     .resistor
-                    .map_or("–".to_owned(), |r| marked(&r.key, r.from_maker)),
+                    .map_or("–".to_owned(), |r| marks::key(&r.key, r.from_maker)),
             );
         }
         table.add_row(row);
     }
-    let drives = || shown.iter().map(|(_, candidate)| candidate.drive);
+    let drives: Vec<Drive> = shown.iter().map(|(_, c)| c.drive).collect();
     let mut remarks = String::new();
-    if drives().any(|drive| !drive.from_makers()) {
-        remarks += "\n* figures not from the maker's own document";
+    for line in marks::legend(&drives) {
+        let _ = write!(remarks, "\n{line}");
     }
-    if drives().any(|drive| drive.motor.made_for().is_none()) {
+    if drives.iter().any(|drive| drive.motor.made_for().is_none()) {
         remarks += "\n– voltage that the motor is made for not stated in the catalogue";
-    }
-    if drives().any(|drive| !drive.is_paired()) {
-        remarks += "\n† nobody states that this amplifier runs this motor; ask the makers";
     }
     if resistors {
         remarks +=
@@ -365,12 +363,6 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
         remarks = format!("\nranked: {}{remarks}", selection.ranking(words));
     }
     format!("{table}{remarks}")
-}
-
-/// A key of the catalogue, marked if its figures are not from the maker's own document.
-fn marked(key: &str, from_maker: bool) -> String {
-    let mark = if from_maker { "" } else { " *" };
-    format!("{key}{mark}")
 }
 
 /// Rows of min, mean, max and RMS, each in its unit.
@@ -472,18 +464,14 @@ pub(crate) fn figure(value: Option<f64>) -> String {
 fn rank_row(rank: usize, judged: &Judged) -> [String; 13] {
     let drive = &judged.drive;
     let power = judged.rated_power();
+    let [motor, gearbox, amplifier] = marks::drive(drive);
     [
         rank.to_string(),
-        marked(&drive.motor.key, drive.motor.from_maker),
+        motor,
         (drive.motor.made_for()).map_or("–".to_owned(), |made| made.words()),
-        drive
-            .gearbox
-            .map_or("direct".to_owned(), |g| marked(&g.key, g.from_maker)),
+        gearbox,
         rounded(drive.ratio()),
-        drive.amplifier.map_or("–".to_owned(), |a| {
-            let mark = if drive.is_paired() { "" } else { " †" };
-            marked(&a.key, a.from_maker) + mark
-        }),
+        amplifier,
         power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
         figure(drive.mass()),
         figure(judged.price()),
