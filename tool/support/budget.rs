@@ -207,8 +207,8 @@ pub(crate) const BEST_RATIO: f64 = 1e-6;
 /// RMS torque from its moments and from the instants: sums of some thousand terms in another order, of which parts cancel.
 pub(crate) const MOMENTS: f64 = 1e-10;
 
-/// Ends of a range of ratios, in closed form and by halving.
-pub(crate) const RATIO_END: f64 = 1e-9;
+/// Ends of a range of ratios, in closed form and by halving: a limit counts as kept up to 1e-9 beyond it.
+pub(crate) const RATIO_END: f64 = 2e-9;
 
 /// The least share of a limit over the gear ratios, closed in by steps of 0.01 %, against steps of 0.23 %.
 pub(crate) const LEAST_USE: f64 = 5e-3;

@@ -41,6 +41,15 @@ fn options_of_size() {
             .all(|d| d["motor"].as_str().unwrap().starts_with("sgm"))
     );
 
+    let listed = jred([&"size", &press, &"--pareto", &"power,energy"]).ends(0);
+    assert!(
+        listed.out.contains(" * ")
+            && listed
+                .out
+                .contains("* figures not from the maker's own document"),
+        "{}",
+        listed.out
+    );
     let run = jred([
         &"size",
         &press,

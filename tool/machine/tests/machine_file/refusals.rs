@@ -67,7 +67,10 @@ fn wrong_quantities_are_shown_with_their_cure() {
         (
             "com = [\"6 mm\", \"0 mm\"]",
             "com = [\"6 mm\"]",
-            &["must have two values, but has 1"],
+            &[
+                "must have two values, but has 1",
+                "write com = [\"0 mm\", \"120 mm\"]",
+            ],
         ),
         (
             "\"9.81 m/s^2\"",

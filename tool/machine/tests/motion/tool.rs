@@ -325,6 +325,14 @@ fn what_no_drive_can_do_is_refused() {
             "keep x of slider between 150 mm and 210 mm",
         ],
     );
+    // The end of the move, not the first piece of it that is out of reach.
+    let pieces = law
+        .replace("cycloidal", "trapezoid")
+        .replace("10 mm", "30 mm");
+    refuses(
+        &ram(&format!("near = \"90 deg\"; start = \"205 mm\"; {pieces}")),
+        &["leads x of slider to 235 mm: at t = "],
+    );
     // A full stroke begins and ends at dead centres.
     let back = law.replace("10 mm", "-60 mm");
     refuses(

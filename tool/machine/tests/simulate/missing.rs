@@ -35,6 +35,15 @@ fn a_motor_that_cannot_start_its_machine_is_short_of_the_friction() {
     }
     assert_eq!(run("1.1 N m"), None);
     assert_eq!(run("0 N m"), None);
+    // Until it is switched off; after that it drives nothing.
+    let stopped = |time: &str| {
+        let motor = format!(
+            "duration = \"0.1 s\"\noutput_step = \"10 ms\"\ntorque = \"0.7 N m\"\nstop = {{ time = \"{time}\", brake_torque = \"3 N m\" }}"
+        );
+        found(&turntable(friction, &motor)).missing
+    };
+    assert_eq!(stopped("50 ms"), run("0.7 N m"));
+    assert_eq!(stopped("0 s"), None);
 }
 
 /// A pendulum under a constant torque turns round where T·θ = m·g·a·(1 − cos θ), and m·g·a·sin θ − T is missing there.

@@ -19,8 +19,11 @@ use std::cmp::Ordering;
 
 use crate::analysis::duty::{Instant, Panel, Smooth};
 
-/// Parts of the way between the instants beside one on the hull: its sagitta falls with the square.
-const PARTS: u32 = 128;
+/// Share of the largest d by which the hull may cut off the curve between two of its states.
+const CUT_OFF: f64 = 1e-10;
+
+/// Most parts of the way between the instants beside one on the hull.
+const MOST_PARTS: f64 = 256.0;
 
 /// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and
 /// d that rises with d, so its maximum lies on that hull and nothing but it on the way along.
@@ -78,15 +81,20 @@ impl Stop {
             return all;
         }
         // Between the instants too, beside the first instant at each state of the hull.
-        let mut known = vec![false; all.hull.len()];
-        let mut is_new = |state: &[f64; 2]| {
+        let mut parts = all.parts();
+        let mut taken = |state: [f64; 2]| {
             let place = all.hull.partition_point(|of_hull| of_hull[0] < state[0]);
-            all.hull.get(place) == Some(state) && !std::mem::replace(&mut known[place], true)
+            if all.hull.get(place) == Some(&state) {
+                std::mem::replace(&mut parts[place], 1)
+            } else {
+                1
+            }
         };
         let mut between = Vec::new();
         for k in moving() {
-            let [slow, fast] = states(&instants[k]).map(|state| is_new(&state));
-            if !(slow || fast) {
+            let [slow, fast] = states(&instants[k]).map(&mut taken);
+            let parts = slow.max(fast);
+            if parts == 1 {
                 continue;
             }
             for range in smooth.panels_beside(k, instants.len()) {
@@ -101,14 +109,37 @@ impl Stop {
                     panel.values(|k| states(&instants[k])[speed][figure])
                 };
                 let curves = [0, 1].map(|speed| [curve(speed, 0), curve(speed, 1)]);
-                for part in 1..PARTS {
-                    let x = from + (to - from) * f64::from(part) / f64::from(PARTS);
+                for part in 1..parts {
+                    let x = from + (to - from) * f64::from(part) / f64::from(parts);
                     between.extend(curves.map(|[inertia, driving]| [inertia.at(x), driving.at(x)]));
                 }
             }
         }
         between.append(&mut all.hull);
         Self::among(between)
+    }
+
+    /// In how many parts the way between the instants beside each state is to be cut: the sagitta falls with the square.
+    fn parts(&self) -> Vec<u32> {
+        let largest = self.hull.iter().map(|state| state[1].abs());
+        let allowed = CUT_OFF * largest.fold(0.0, f64::max);
+        let sagittas = self.hull.windows(3).map(|three| match three {
+            [a, b, c] => -turn(*a, *b, *c) / (c[0] - a[0]),
+            _ => 0.0,
+        });
+        let mut sagittas: Vec<f64> = sagittas.collect();
+        // The ends are like their neighbours.
+        let [first, last] = [sagittas.first(), sagittas.last()].map(Option::<&f64>::copied);
+        sagittas.insert(0, first.unwrap_or(f64::INFINITY));
+        sagittas.push(last.unwrap_or(f64::INFINITY));
+        let parts = sagittas.iter().map(|sagitta| {
+            if *sagitta > allowed {
+                (sagitta / allowed).sqrt().ceil().min(MOST_PARTS) as u32
+            } else {
+                1
+            }
+        });
+        parts.take(self.hull.len()).collect()
     }
 
     /// The upper hull of states [J (kg·m²), d (N·m)].
