@@ -208,7 +208,7 @@ pub struct Size {
     /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
     /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
-        "rank", "all_gearboxes", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
+        "rank", "all_gearboxes", "full", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
     ])]
     pub pareto: Option<Objectives>,
     /// Which drives are considered and how they are ranked.
@@ -222,9 +222,12 @@ pub struct Size {
     /// List every gearbox and amplifier of a motor instead of the first.
     #[arg(long)]
     pub all_gearboxes: bool,
-    /// Number of motors to list, each with its first gearbox and amplifier, or of drives with --all-gearboxes; in CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
-    #[arg(long, default_value_t = 10)]
-    pub top: usize,
+    /// Print the duty, every rule with figure, limit and margin, what is not checked, and the ranking below the first screen.
+    #[arg(long)]
+    pub full: bool,
+    /// Rank so many motors, each with its first gearbox and amplifier, or drives with --all-gearboxes: 10 if not given. In CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
+    #[arg(long, value_name = "N")]
+    pub top: Option<usize>,
     /// Number of refused drives to list in CSV and JSON and to explain with --explain, closest first.
     #[arg(long, default_value_t = 3)]
     pub nearest: usize,

@@ -18,6 +18,7 @@ use std::time::Duration;
 use crate::busy;
 use jred_machine::plain;
 use jred_machine::text::disk;
+use jred_report::list::listing::Screen;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
     miette,
@@ -37,12 +38,21 @@ pub fn print(text: &str) -> Result<()> {
 /// As for [`print()`].
 pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
     let mut stdout = stdout()?;
+    let coloured = stdout.is_terminal() && has_colour();
     for part in parts {
         if stdout.is_terminal() {
             busy::end();
         }
+        let text = plain::lines(part.as_ref());
         let written = stdout
-            .write_all(plain::lines(part.as_ref()).as_bytes())
+            .write_all(
+                if coloured {
+                    painted(&text).into()
+                } else {
+                    text
+                }
+                .as_bytes(),
+            )
             .and_then(|()| stdout.flush());
         match written {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
@@ -55,6 +65,42 @@ pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<(
         }
     }
     Ok(())
+}
+
+/// Whether the terminal shows colours and the user wants them: <https://no-color.org>.
+fn has_colour() -> bool {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
+}
+
+/// The verdicts at the ends of lines, and the word in front of a warning, in colour.
+fn painted(text: &str) -> String {
+    const GREEN: &str = "32";
+    const YELLOW: &str = "33";
+    const RED: &str = "1;31";
+    let paint = |colour: &str, word: &str| format!("\u{1b}[{colour}m{word}\u{1b}[0m");
+    let line = |line: &str| {
+        if let Some(rest) = line.strip_prefix("warning:") {
+            return paint(YELLOW, "warning:") + rest;
+        }
+        let verdicts = [(" ok", GREEN), (" warning", YELLOW), (" FAIL", RED)];
+        let end = line.trim_end_matches([' ', '\n']);
+        for (word, colour) in verdicts {
+            if let Some(start) = end.strip_suffix(word) {
+                return format!("{start}{}{}", paint(colour, word), &line[end.len()..]);
+            }
+        }
+        line.to_owned()
+    };
+    text.split_inclusive('\n').map(line).collect()
+}
+
+/// The screen that stdout is shown on; 80 columns elsewhere.
+pub fn screen() -> Screen {
+    let terminal = terminal_size::terminal_size_of(std::io::stdout());
+    terminal.map_or_else(Screen::default, |(width, _)| Screen {
+        width: usize::from(width.0).max(40),
+    })
 }
 
 /// Stdout, if it is not a file that this command has read.

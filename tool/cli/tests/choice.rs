@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::size_json::schema;
 use crate::support::schema::faults;
-use crate::support::{Folder, Run, jred_with};
+use crate::support::{Folder, Run, jred, jred_with, press_file};
 use serde_json::Value;
 
 fn engineer(name: &str) -> PathBuf {
@@ -27,7 +27,7 @@ fn with_catalogue(command: &str, machine: &str, more: &[&str]) -> Run {
 /// The lift of which the catalogue has the resistor: 17.3 kg and 740 + 820 + 520 for motor, gearbox and amplifier, 60 for the resistor.
 #[test]
 fn every_output_names_what_is_chosen() {
-    let text = with_catalogue("size", "lift.toml", &[]).ends(0);
+    let text = with_catalogue("size", "lift.toml", &["--full"]).ends(0);
     let row = text
         .out
         .lines()
@@ -119,7 +119,7 @@ fn a_drive_that_is_given_is_not_the_best() {
     ];
     let run = with_catalogue("size", "lift.toml", &drive).ends(0);
     assert!(
-        run.out.contains("\nDrive: sm100ab + g115-16 on a6\n"),
+        run.out.contains("(sm100ab") && run.out.contains("(g115-16") && run.out.contains("(a6"),
         "{}",
         run.out
     );
@@ -168,4 +168,37 @@ fn collect(value: &Value, place: &str, found: &mut Vec<String>) {
         }
         _ => {}
     }
+}
+
+/// 80 columns, 24 lines, for every machine; what does not fit is asked for.
+#[test]
+fn the_first_answer_fits_on_a_screen() {
+    let mut machines = 0;
+    for entry in std::fs::read_dir(press_file().parent().unwrap()).unwrap() {
+        let file = entry.unwrap().path();
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        // No drive of the catalogue slides, and no ratio over the time can be sized.
+        let is_refused = ["linear-gripper.toml", "variator-press.toml"].contains(&name.as_str());
+        if is_refused || file.extension().is_none_or(|end| end != "toml") {
+            continue;
+        }
+        let text = jred([&"size", &file]).out;
+        let widest = text.lines().map(|line| line.chars().count()).max().unwrap();
+        assert!(widest <= 80 && text.lines().count() <= 24, "{name}\n{text}");
+        for word in [
+            "motor",
+            "gearbox",
+            "amplifier",
+            "brake",
+            "resistor",
+            "order",
+        ] {
+            let starts = |line: &str| line.starts_with(&format!(" {word} "));
+            assert!(text.lines().any(starts), "{name}: no {word}\n{text}");
+        }
+        // Only a terminal has colours.
+        assert!(!text.contains('\u{1b}'));
+        machines += 1;
+    }
+    assert!(machines > 35, "{machines}");
 }

@@ -68,7 +68,7 @@ fn a_link_that_slides_takes_a_linear_motor() {
     assert_eq!(peak["unit"], "N");
     assert!(peak["value"].as_f64().unwrap() > input);
     assert_eq!(check(medium, "speed")["unit"], "m/s");
-    let text = jred([&"size", &machine, &"--motors", &linear]);
+    let text = jred([&"size", &machine, &"--motors", &linear, &"--full"]);
     for word in [
         "force [N]",
         "speed [m/s]",

@@ -183,7 +183,7 @@ fn the_next_smaller_motor_says_why_not() {
         let some = ["size", press.to_str().unwrap(), "--motor", "sgm*"];
         jred_with(&[&some[..], more].concat()).ends(0)
     };
-    let text = size(&[]).out;
+    let text = size(&["--full"]).out;
     let (_, rest) = text.split_once("next smaller motor, ").unwrap();
     let line = rest.lines().next().unwrap();
     let (power, reason) = line.split_once(" kW: ").unwrap();
@@ -230,7 +230,7 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
     let power = |drive: &Value| drive["rated power [W]"].as_f64().unwrap();
     let words = ["makers-figures", "other-figures", "voltage-unknown"];
     assert_eq!(classes.len(), 3);
-    let text = size(&[]).out;
+    let text = size(&["--full"]).out;
     let csv = size(&["--top", "1", "--format", "csv"]).out;
     let mut least = f64::INFINITY;
     for (class, word) in classes.iter().zip(words) {

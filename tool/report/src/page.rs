@@ -240,9 +240,7 @@ fn ranked(selection: &Selection) -> Vec<FitRow> {
     let list = listing::List {
         top: LISTED,
         nearest: 0,
-        refused: false,
-        all: false,
-        all_gearboxes: false,
+        ..listing::List::default()
     };
     let listed = list.ranked(selection).into_iter();
     listed

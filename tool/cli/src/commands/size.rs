@@ -31,6 +31,9 @@ use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::Objective;
 use jred_sizing::select::size::Selection;
 
+/// Motors that are ranked.
+const TOP: usize = 10;
+
 /// Runs `jred size`.
 ///
 /// # Errors
@@ -140,11 +143,18 @@ impl Answer<'_, '_> {
     fn print(&self) -> Result<()> {
         let options = self.options;
         let list = listing::List {
-            top: options.top,
+            top: options.top.unwrap_or(TOP),
             nearest: options.nearest,
             refused: options.refused,
             all: options.all,
             all_gearboxes: options.all_gearboxes,
+            full: options.full || options.why.is_some(),
+            is_ranked: options.top.is_some()
+                || options.all
+                || options.all_gearboxes
+                || options.search.rank.is_some(),
+            explained: self.explanation.is_some(),
+            screen: output::screen(),
         };
         match options.format {
             Format::Table => {
@@ -328,7 +338,7 @@ fn explanation(
         let explanation = Explanation::new(file, duty, selection, &drive, nearest);
         return explanation.map(Some).map_err(core_report);
     }
-    if options.format == Format::Table && selection.fit.is_empty() {
+    if options.full && selection.fit.is_empty() {
         let nearest = Explanation::of_refused(file, duty, selection, options.nearest);
         return nearest.map(Some).map_err(core_report);
     }

@@ -25,6 +25,7 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
         &"--report",
         &path,
         &"--explain",
+        &"--full",
     ]);
     assert!(run.code < 2, "{}", run.err);
     let page = std::fs::read_to_string(&path).unwrap();

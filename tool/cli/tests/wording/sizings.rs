@@ -13,7 +13,8 @@ fn heavy() -> Desk {
 fn size() {
     let press = press();
     let size = |more: &[&str]| press.run(&sized(&[&["size", "press.toml"], more].concat()));
-    compare("size", &size(&[]));
+    compare("size-screen", &size(&[]));
+    compare("size", &size(&["--full"]));
     compare("size-explain", &size(&["--explain", "--nearest", "1"]));
     compare("size-motion", &size(&["--motion", "best", "--top", "3"]));
     compare("size-all", &size(&["--all"]));
@@ -78,6 +79,7 @@ fn size_linear() {
         "size-linear",
         &desk.runs(&[
             &size,
+            &[&size[..], &["--full"]].concat(),
             &[&size[..], &["--explain", "--why", "slide"]].concat(),
         ]),
     );
@@ -149,13 +151,13 @@ fn size_by_voltage() {
     compare(
         "size-voltage",
         &desk.runs(&[
-            &sized(&["size", "400.toml", "--refused"]),
+            &sized(&["size", "400.toml", "--refused", "--full"]),
             &sized(&["size", "200.toml", "--top", "9"]),
             &sized(&["size", "none.toml", "--top", "1"]),
             &sized(&["size", "400.toml", "--why", "unknown+npt025mf-5"]),
             &sized(&["size", "400.toml", "--why", "class200+npt025mf-5"]),
             &sized(&["ratio", "400.toml", "--motor", "class*"]),
-            &[&["size", "400.toml", "--refused"], &own[..]].concat(),
+            &[&["size", "400.toml", "--refused", "--full"], &own[..]].concat(),
             &[&["size", "none.toml", "--top", "9"], &own[..]].concat(),
         ]),
     );

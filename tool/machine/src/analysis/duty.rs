@@ -1,5 +1,7 @@
 //! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
+use std::ops::Range;
+
 use jred::machine::TorqueTerms;
 
 use crate::analysis::mechanics::{Held, Mechanics, Rest, constant_loads};
@@ -197,18 +199,21 @@ impl Duty {
     /// The same of what a motor changes: its extremes lie between the instants.
     pub fn figures_between(&self, values: &[f64]) -> Figures {
         let between = |k: usize, sign: f64| {
-            let panel = self.panel_of(k)?;
-            let over = panel.values(|k| sign * values[k]);
-            let time = |k: usize| self.instants[k].t;
-            let (_, value) = panel.peak(k, time, |k| sign * values[k], |x| over.at(x))?;
-            Some(sign * value)
+            let panels = self.smooth.panels_beside(k, self.instants.len());
+            let peaks = panels.filter_map(|range| {
+                let panel = self.panel(range)?;
+                let over = panel.values(|k| sign * values[k]);
+                let time = |k: usize| self.instants[k].t;
+                let (_, value) = panel.peak(k, time, |k| sign * values[k], |x| over.at(x))?;
+                Some(value)
+            });
+            peaks.max_by(f64::total_cmp).map(|value| sign * value)
         };
         self.figures_at(|k| values[k], between)
     }
 
-    /// The panel of an instant.
-    fn panel_of(&self, k: usize) -> Option<Panel> {
-        let range = self.smooth.panel_of(k, self.instants.len())?;
+    /// The panel of these instants.
+    fn panel(&self, range: Range<usize>) -> Option<Panel> {
         let at = |k: usize| [self.instants[k].t, self.instants[k].weight];
         Panel::of(range, at)
     }

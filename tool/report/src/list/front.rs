@@ -39,14 +39,17 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
     let columns = front.objectives.iter().map(|o| o.column().to_owned());
     match format {
         Format::Table => {
+            let mut names = names;
+            names.insert(1, "made for".to_owned());
             let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
             for point in &front.points {
                 let values = point.values.iter().map(|x| rounded(*x));
                 let known = |figure: Option<f64>| figure.map_or("–".to_owned(), rounded);
                 let figures = figures(point).into_iter().map(known);
-                let row = marks::drive(&point.candidate.drive)
-                    .into_iter()
-                    .chain(figures);
+                let drive = &point.candidate.drive;
+                let [motor, gearbox, amplifier] = marks::drive(drive);
+                let row = [motor, marks::made_for(drive), gearbox, amplifier];
+                let row = row.into_iter().chain(figures);
                 table.add_row(row.chain(values));
             }
             let drives: Vec<Drive> = front.points.iter().map(|p| p.candidate.drive).collect();

@@ -1,6 +1,7 @@
 //! How a selection of drives is listed: as text, CSV or JSON.
 
 mod asked;
+mod brief;
 mod choice;
 mod comma;
 mod explanation;
@@ -8,6 +9,7 @@ mod json;
 mod text;
 
 pub use asked::Asked;
+pub use brief::Screen;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;

@@ -17,6 +17,12 @@ pub(crate) fn drive(drive: &Drive) -> [String; 3] {
     ]
 }
 
+/// The voltage that a motor is made for.
+pub(crate) fn made_for(drive: &Drive) -> String {
+    let made = drive.motor.made_for();
+    made.map_or("–".to_owned(), |made| made.words())
+}
+
 /// A key of the catalogue, marked if its figures are not from the maker's own document.
 pub(crate) fn key(key: &str, from_maker: bool) -> String {
     let mark = if from_maker { "" } else { " *" };
@@ -28,6 +34,9 @@ pub(crate) fn legend(drives: &[Drive]) -> Vec<&'static str> {
     let mut lines = Vec::new();
     if drives.iter().any(|drive| !drive.from_makers()) {
         lines.push("* figures not from the maker's own document");
+    }
+    if drives.iter().any(|drive| drive.motor.made_for().is_none()) {
+        lines.push("– voltage that the motor is made for not stated in the catalogue");
     }
     if drives.iter().any(|drive| !drive.is_paired()) {
         lines.push("† nobody states that this amplifier runs this motor; ask the makers");

@@ -1,6 +1,6 @@
 //! A drive checked against every rule, with words.
 
-use super::Context;
+use super::{Context, motor};
 use crate::catalogue::{Drive, Resistor};
 use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
@@ -18,6 +18,8 @@ pub struct Judged<'c> {
     pub duty: MotorDuty,
     /// Every rule.
     pub checks: Vec<Check>,
+    /// The least torque of a holding brake (N·m), if one is needed and the catalogue states none of this motor.
+    pub least_brake: Option<f64>,
     /// Assumptions about motor and gearbox, and second-hand data.
     pub assumptions: Vec<String>,
 }
@@ -30,6 +32,7 @@ impl<'c> Judged<'c> {
             resistor: context.resistor(),
             duty: context.cycle.motor_duty(&context.drive),
             checks: context.checks(rules),
+            least_brake: motor::least_brake(context, rules),
             assumptions: context.assumptions(rules),
         }
     }

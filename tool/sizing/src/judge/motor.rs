@@ -126,17 +126,22 @@ pub(super) fn falls(context: &Context) -> bool {
 
 /// A warning for a motor without a brake, if the machine does not stay where it is without current.
 pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
-    let share = rules.limit(Rule::BrakeTorque).fail.unwrap_or(1.0);
-    let unheld = context.drive.motor.brake.is_none() && falls(context);
     let words = context.vocabulary();
-    unheld.then(|| {
+    least_brake(context, rules).map(|least| {
         format!(
             "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
              this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
-            short(braked(context) / share / words.torque.scale),
+            short(least / words.torque.scale),
             words.torque.unit
         )
     })
+}
+
+/// The least torque (N·m) of a holding brake for a motor of which the catalogue states none, if the machine does not stay where it is.
+pub(super) fn least_brake(context: &Context, rules: &RuleSet) -> Option<f64> {
+    let share = rules.limit(Rule::BrakeTorque).fail.unwrap_or(1.0);
+    let unheld = context.drive.motor.brake.is_none() && falls(context);
+    unheld.then(|| braked(context) / share)
 }
 
 /// Torque of weight, springs and friction at the motor (N·m), the motor's and the gearbox's friction included at the largest

@@ -101,8 +101,8 @@ pub(super) struct Allowed<'s> {
     pub(super) share: f64,
     /// The share of the whole integral that it counts as having at least: see [`of_whole`].
     pub(super) of_whole: f64,
-    /// The largest torque at the input.
-    pub(super) largest: f64,
+    /// The largest torque at the input; `None` where smaller panels have brought the curve no nearer to it.
+    pub(super) largest: Option<f64>,
 }
 
 impl Sums {
@@ -145,11 +145,15 @@ impl Sums {
                     .fold(0.0f64, |most, value| most.max(value.abs()));
                 let rounding = TO_THE_ENDS * f64::EPSILON * middle.abs() / half * most;
                 let off = (off[0] + off[1] - rounding).max(0.0);
-                let allowed_off = allowed.tolerance * allowed.largest;
-                // A peak lies between the places.
-                if off > allowed_off {
-                    excess = excess.max(off / allowed_off);
-                    rough = rough.max(off / allowed.largest);
+                // A peak lies between the places; what is left where the terms cancel is known no better than for the integrals.
+                let known = ROUNDING.max(OF_TERMS * allowed.tolerance);
+                let known = ends.map(|end| known * end.magnitude);
+                if let Some(largest) = allowed.largest {
+                    let allowed_off = (allowed.tolerance * largest).max(known[0]).max(known[1]);
+                    if off > allowed_off {
+                        excess = excess.max(off / allowed_off);
+                        rough = rough.max(off / largest);
+                    }
                 }
                 off
             } else {

@@ -289,7 +289,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             sizes: &self.sizes,
             share: (to - from) / self.duration,
             of_whole: self.of_whole,
-            largest: self.largest,
+            largest: (way.idle == 0).then_some(self.largest),
         };
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);

@@ -19,6 +19,9 @@ use std::cmp::Ordering;
 
 use crate::analysis::duty::{Instant, Panel, Smooth};
 
+/// Share of an inertia that is a rounding.
+const SAME_INERTIA: f64 = 1e-12;
+
 /// Share of the largest d by which the hull may cut off the curve between two of its states.
 const CUT_OFF: f64 = 1e-10;
 
@@ -172,15 +175,19 @@ impl Stop {
         states.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let mut hull: Vec<[f64; 2]> = Vec::new();
         for point in states {
+            // States of one inertia but for roundings are one: the search along the hull must not meet a level stretch.
+            if let Some(last) = hull.last().copied()
+                && point[0] - last[0] <= SAME_INERTIA * point[0]
+            {
+                if point[1] <= last[1] {
+                    continue;
+                }
+                hull.pop();
+            }
             while let [.., a, b] = hull.as_slice() {
                 if turn(*a, *b, point) < 0.0 {
                     break;
                 }
-                hull.pop();
-            }
-            if let [single] = hull.as_slice()
-                && single[0] >= point[0]
-            {
                 hull.pop();
             }
             hull.push(point);

@@ -126,6 +126,12 @@ impl<'a> Prescribed<'a> {
             None => start
                 .problem(&format!("is {shown}, outside the stroke, {range}"), "out of reach")
                 .help("start at a position within the stroke"),
+            Some(tool) if self.has_no_dead_centre(tool) => start
+                .problem(
+                    &format!("is {shown}, but over the stroke {} goes from {range}", tool.name()),
+                    "out of reach",
+                )
+                .help("start in this range, or change the stroke of the mechanism"),
             Some(tool) => start
                 .problem(
                     &format!(
@@ -136,6 +142,17 @@ impl<'a> Prescribed<'a> {
                 )
                 .help("start in this range, or give near = \"…\", a position of the drive link on another branch"),
         })
+    }
+
+    /// Whether the tool's way ends where the stroke of the drive link does, and nowhere before.
+    fn has_no_dead_centre(&self, tool: &ToolCoordinate) -> bool {
+        let (Domain::Stroke { from, to }, Some([[low, _], [high, _]])) =
+            (self.drive.domain, tool.ends())
+        else {
+            return false;
+        };
+        let at_end = |phi: f64| (phi - from).abs().min((phi - to).abs()) <= ROUNDING * (to - from);
+        at_end(low) && at_end(high)
     }
 
     /// What a turn of the drive link adds to the coordinate, if it goes on without end.

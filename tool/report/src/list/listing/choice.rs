@@ -2,12 +2,14 @@
 
 use miette::{Result, miette};
 
+use super::Screen;
 use jred_machine::units::closest;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// Extent of a listing.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct List {
     /// Number of ranked drives.
     pub top: usize,
@@ -19,6 +21,14 @@ pub struct List {
     pub all: bool,
     /// A line for every drive instead of one for every motor.
     pub all_gearboxes: bool,
+    /// The duty, every rule, what is not checked and the ranking, below the first screen.
+    pub full: bool,
+    /// The ranking below the first screen.
+    pub is_ranked: bool,
+    /// An explanation follows.
+    pub explained: bool,
+    /// The screen that a text is for.
+    pub screen: Screen,
 }
 
 impl List {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
+use super::brief::{brief, choices, further};
 use super::{Asked, Explanation, List};
 use crate::list::marks;
 use crate::table::output::text_table;
@@ -16,10 +17,13 @@ use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{cleared, rounded, short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
-use jred_sizing::catalogue::{Drive, MotorKind};
+use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Judged, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Class, Gap, Selection};
+
+/// Rules that are listed on the first screen if no drive satisfies all.
+const MOST_VIOLATED: usize = 2;
 
 /// Width of the column "limit is".
 const NOTE_WIDTH: u16 = 72;
@@ -35,11 +39,65 @@ pub fn text(
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> String {
-    let input_power = |i: &Instant| i.input_torque * i.input_speed;
     let first = selection.fit.first().or(selection.refused.first());
-    let shown = asked.map(|asked| &asked.candidate).or(first);
-    let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
-    let words = kind.vocabulary();
+    let Some(shown) = asked.map(|asked| &asked.candidate).or(first) else {
+        return String::new();
+    };
+    let words = shown.drive.motor.kind.vocabulary();
+    let all = selection.fit.len() + selection.refused.len();
+    let mut parts = vec![brief(list.screen, file, selection, shown, warnings)];
+    if let Some(asked) = asked {
+        parts.push(asked_text(asked, selection));
+    } else if selection.fit.is_empty() && all > 1 {
+        let mut text = format!(
+            "None of {} satisfies every rule; this is the closest one. Violated:\n",
+            counted(all, "drive", "drives")
+        );
+        let most = if list.full { usize::MAX } else { MOST_VIOLATED };
+        for line in violations(selection).into_iter().take(most) {
+            list.screen.says(&mut text, &line);
+        }
+        parts.push(text);
+    } else {
+        parts.push(choices(list.screen, selection));
+    }
+    if list.full {
+        parts.push(full(file, duty, &selection.judged(shown)));
+    }
+    let is_whole = list.full && asked.is_none() && !selection.fit.is_empty();
+    if is_whole {
+        if all > 1 {
+            parts.push(counts(selection) + "\n");
+        }
+        parts.extend(not_checked(selection, words).map(|text| text + "\n"));
+    }
+    if is_whole || list.is_ranked && !selection.fit.is_empty() {
+        parts.push(ranking(list, selection, words) + "\n");
+    }
+    if is_whole {
+        parts.extend(smaller(selection).into_iter().map(|line| line + "\n"));
+    }
+    if let Some(explanation) = explanation {
+        parts.push(explanation.text(duty.duration));
+    }
+    if list.refused || list.all {
+        parts.push("Refused\n".to_owned());
+        for candidate in &list.refused(selection) {
+            let reasons = selection.judged(candidate).reasons();
+            parts.push(format!("  {}: {reasons}\n", candidate.drive.name()));
+        }
+    }
+    if all > 1 {
+        parts.push(further(list.screen, selection, list));
+    }
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    parts.concat()
+}
+
+/// The duty at the input, and all that is known of a drive.
+fn full(file: &MachineFile, duty: &Duty, judged: &Judged) -> String {
+    let input_power = |i: &Instant| i.input_torque * i.input_speed;
+    let words = judged.drive.motor.kind.vocabulary();
     let input = figures_table(&[
         (words.torque.label(), duty.figures(|i| i.input_torque), 1.0),
         (
@@ -54,66 +112,14 @@ pub fn text(
             words.inertia.scale,
         ),
     ]);
-    let warnings = warnings.iter().map(|words| format!("\nwarning: {words}"));
-    let mut parts = vec![format!(
-        "{}\n\n{}{}\n\nDuty at the {}, cycle {} s\n{input}\n",
-        file.title,
+    format!(
+        "\n{}\n\nDuty at the {}, cycle {} s\n{input}\n\n{}\n{}\n\n",
         supply(&file.site),
-        warnings.collect::<String>(),
         file.input_name(),
-        rounded(duty.duration)
-    )];
-    let all = selection.fit.len() + selection.refused.len();
-    if let Some(asked) = asked {
-        parts.push(asked_text(asked, selection));
-    } else if let Some(best) = selection.fit.first() {
-        let best = &selection.judged(best);
-        let which = if all == 1 { "Drive" } else { "Best drive" };
-        parts.push(format!(
-            "{which}: {}\n{}",
-            best.drive.name(),
-            drive_text(best)
-        ));
-        parts.push(String::new());
-        if all > 1 {
-            parts.push(counts(selection));
-        }
-        parts.extend(not_checked(selection, words));
-        parts.push(ranking(list, selection, words));
-        parts.extend(smaller(selection));
-    } else if let Some(nearest) = selection.refused.first() {
-        let nearest = &selection.judged(nearest);
-        let (name, text) = (nearest.drive.name(), drive_text(nearest));
-        parts.push(match all {
-            1 => format!("Drive: {name}, which violates a rule\n{text}"),
-            _ => format!(
-                "None of {} satisfies every rule. Violated:\n{}\n\nThe closest one: {name}\n{text}",
-                counted(all, "drive", "drives"),
-                violations(selection).join("\n"),
-            ),
-        });
-    }
-    if let Some(explanation) = explanation {
-        parts.push(explanation.text(duty.duration));
-    }
-    if list.refused || list.all {
-        parts.push("\nRefused".to_owned());
-        for candidate in &list.refused(selection) {
-            let reasons = selection.judged(candidate).reasons();
-            parts.push(format!("  {}: {reasons}", candidate.drive.name()));
-        }
-    } else if !selection.refused.is_empty() {
-        let explain = if explanation.is_some() {
-            ""
-        } else {
-            "; --explain shows what would have to change"
-        };
-        parts.push(format!(
-            "{} refused; --refused lists them with their reasons{explain}",
-            counted(selection.refused.len(), "drive", "drives")
-        ));
-    }
-    parts.join("\n") + "\n"
+        rounded(duty.duration),
+        judged.drive.name(),
+        drive_text(judged)
+    )
 }
 
 /// The supply that motors and amplifiers are judged at.
@@ -129,17 +135,13 @@ fn supply(site: &Site) -> String {
 
 /// The drive that was asked for, every rule, and the best one's name.
 fn asked_text(asked: &Asked, selection: &Selection) -> String {
-    let judged = &selection.judged(&asked.candidate);
-    let (name, place) = (judged.drive.name(), asked.place(selection));
+    let (name, place) = (asked.candidate.drive.name(), asked.place(selection));
     let best = match selection.fit.first() {
         Some(best) if asked.rank != Some(1) => format!("\nThe best drive is {}", best.drive.name()),
         Some(_) => String::new(),
         None => "\nNo drive satisfies every rule".to_owned(),
     };
-    format!(
-        "Requested drive: {name}\n{place}\n\n{}\n{best}",
-        drive_text(judged)
-    )
+    format!("Requested drive: {name}\n{place}{best}\n")
 }
 
 /// For each rule that is violated how many drives violate it, and the one of them that is refused by least.
@@ -221,7 +223,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
 }
 
 /// Why a drive ranks lower than others.
-const fn doubt(certainty: Certainty) -> &'static str {
+pub(super) const fn doubt(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "it is larger",
         Certainty::Others => {
@@ -344,9 +346,6 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     for line in marks::legend(&drives) {
         let _ = write!(remarks, "\n{line}");
     }
-    if drives.iter().any(|drive| drive.motor.made_for().is_none()) {
-        remarks += "\n– voltage that the motor is made for not stated in the catalogue";
-    }
     if resistors {
         remarks +=
             "\nbrake resistor: the smallest of the catalogue that fits; the price contains it";
@@ -468,7 +467,7 @@ fn rank_row(rank: usize, judged: &Judged) -> [String; 13] {
     [
         rank.to_string(),
         motor,
-        (drive.motor.made_for()).map_or("–".to_owned(), |made| made.words()),
+        marks::made_for(drive),
         gearbox,
         rounded(drive.ratio()),
         amplifier,
