@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::schema::faults;
-use crate::support::{Folder, budget, edited_press, jred, jred_with, press_file};
+use crate::support::{
+    Folder, budget, edited_press, jred, jred_with, press_file, sizeable_machines,
+};
 use serde_json::{Value, json};
 
 fn docs(name: &str) -> String {
@@ -302,7 +304,7 @@ fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
                 .into_iter()
                 .flatten()
                 .fold(0.0, |m: f64, x| m.max(x.abs()));
-            // A note is of rounded figures.
+            // Notes have rounded figures.
             let figures = found.iter().filter(|(key, _)| *key != "note");
             let figures = figures.map(|(key, value)| {
                 let least = if key == "margin" { 1.0 } else { group };
@@ -334,14 +336,8 @@ fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
 #[test]
 fn every_figure_is_that_of_a_smaller_tolerance() {
     let (mut machines, mut figures) = (0, 0);
-    for entry in std::fs::read_dir(machine("")).unwrap() {
-        let file = entry.unwrap().path();
-        let name = file.file_name().unwrap().to_string_lossy().into_owned();
-        // No drive of the catalogue slides, and no ratio over the time can be sized.
-        let is_refused = ["linear-gripper.toml", "variator-press.toml"].contains(&name.as_str());
-        if is_refused || file.extension().is_none_or(|end| end != "toml") {
-            continue;
-        }
+    for file in sizeable_machines() {
+        let name = file.display().to_string();
         let size = |tolerance: &str| {
             let run = jred([
                 &"size",

@@ -94,3 +94,16 @@ impl Run {
         Columns::of_csv(&self.out)
     }
 }
+
+/// The machine files of `machines/` that can be sized with the built-in catalogue.
+pub(crate) fn sizeable_machines() -> Vec<std::path::PathBuf> {
+    // No drive of the catalogue slides, and no ratio over the time can be sized.
+    let refused = ["linear-gripper.toml", "variator-press.toml"];
+    let files = std::fs::read_dir(press_file().parent().unwrap()).unwrap();
+    let files = files.map(|entry| entry.unwrap().path());
+    let is_machine = |file: &std::path::PathBuf| {
+        file.extension().is_some_and(|end| end == "toml")
+            && !refused.iter().any(|name| file.ends_with(name))
+    };
+    files.filter(is_machine).collect()
+}

@@ -74,7 +74,7 @@ impl Smooth {
         (!panel.is_empty()).then_some(panel)
     }
 
-    /// The panels on whose curve the instant `k` of `count` lies, each by one of its instants: its own, and the next one where that begins with it.
+    /// The instants of the panels on whose curve the instant `k` of `count` lies: its own, and the next one if it is where that begins.
     pub fn panels_beside(&self, k: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
         let next = self.panel_of(k + 1, count);
         let next = next.filter(|range| range.start == k + 1);

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use miette::Result;
 
 use super::explained;
+use super::text::kilowatts;
 use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::{short, significant};
+use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -88,10 +89,7 @@ impl<'c> Asked<'c> {
 fn figures(candidate: &Candidate) -> String {
     let outcome = &candidate.outcome;
     let power = candidate.drive.motor.rated_power();
-    let power = power.map_or_else(
-        || "rated power unknown".to_owned(),
-        |power| format!("{} kW", significant(power / 1000.0, 3)),
-    );
+    let power = power.map_or_else(|| "rated power unknown".to_owned(), kilowatts);
     let warnings = match outcome.warnings {
         0 => "no warning".to_owned(),
         n => counted(n as usize, "warning", "warnings"),

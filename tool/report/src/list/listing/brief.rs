@@ -6,13 +6,13 @@ use comfy_table::{CellAlignment, ContentArrangement};
 use textwrap::Options;
 
 use super::List;
-use super::text::doubt;
+use super::text::{doubt, kilowatts};
 use crate::list::marks;
 use crate::table::output::text_table;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::{short, significant};
+use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
@@ -27,7 +27,7 @@ const SHOWN_VIOLATED: usize = 6;
 /// By this factor the rated power of the next choice is larger, or smaller.
 const STEP: f64 = 1.03;
 
-/// Width of a name in front of what is said.
+/// Width of the name at the beginning of a line.
 const NAME: usize = 11;
 
 /// The screen that a text is for.
@@ -44,7 +44,7 @@ impl Default for Screen {
 }
 
 impl Screen {
-    /// A line with a name, and what is said in as many lines as it takes.
+    /// A name and its text, in as many lines as the width asks for.
     fn entry(self, text: &mut String, name: &str, says: &str) {
         self.fill(
             text,
@@ -75,11 +75,9 @@ impl Screen {
 pub(super) fn brief(
     screen: Screen,
     file: &MachineFile,
-    selection: &Selection,
-    candidate: &Candidate,
+    judged: &Judged,
     warnings: &[String],
 ) -> String {
-    let judged = &selection.judged(candidate);
     let mut text = String::new();
     screen.says(&mut text, &file.title);
     text.push('\n');
@@ -113,11 +111,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     };
     let [motor_key, gearbox_key, amplifier_key] = marks::drive(drive);
     let mut figures = Vec::new();
-    figures.extend(
-        judged
-            .rated_power()
-            .map(|p| format!("{} kW", significant(p / 1e3, 3))),
-    );
+    figures.extend(judged.rated_power().map(kilowatts));
     figures.extend(drive.motor.made_for().map(|made| made.words()));
     let motor = named(&drive.motor.maker, &drive.motor.model, &motor_key, &figures);
     screen.entry(text, "motor", &motor);
@@ -222,14 +216,14 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
         let by_use = b.use_of_limit().total_cmp(&a.use_of_limit());
         b.verdict.cmp(&a.verdict).then(by_use)
     });
-    let most = if fails { SHOWN_VIOLATED } else { SHOWN };
+    shown.truncate(if fails { SHOWN_VIOLATED } else { SHOWN });
     let title = if fails {
         "violated limits"
     } else {
         "uses most of its limits"
     };
     let mut table = text_table(&[title, "figure", "limit", "used", "verdict"]);
-    for check in shown.iter().take(most) {
+    for check in &shown {
         table.add_row([
             check.rule.to_owned(),
             check.figure(),
@@ -271,7 +265,7 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
             counted(checked, "rule", "rules")
         ),
     );
-    let in_table = |check: &&Check| shown.iter().take(most).any(|other| other.id == check.id);
+    let in_table = |check: &&Check| shown.iter().any(|other| other.id == check.id);
     let warned = judged.checks.iter().filter(is(Verdict::Warn));
     for check in warned.filter(|check| !in_table(check)) {
         let bound = check
@@ -284,14 +278,13 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
     }
 }
 
-/// The next smaller and the next larger choice, how many drives there are, and where to read on.
+/// The next smaller and the next larger choice.
 pub(super) fn choices(screen: Screen, selection: &Selection) -> String {
     let mut text = String::new();
     let Some(best) = selection.fit.first() else {
         return text;
     };
     let power = |candidate: &Candidate| candidate.drive.motor.rated_power();
-    let kilowatts = |power: f64| format!("{} kW", significant(power / 1e3, 3));
     let own = power(best).unwrap_or(f64::INFINITY);
     let ranked = selection.first_of_motors(usize::MAX);
     let beside = |is_next: &dyn Fn(f64) -> bool, order: f64| {

@@ -45,7 +45,8 @@ pub fn text(
     };
     let words = shown.drive.motor.kind.vocabulary();
     let all = selection.fit.len() + selection.refused.len();
-    let mut parts = vec![brief(list.screen, file, selection, shown, warnings)];
+    let judged = &selection.judged(shown);
+    let mut parts = vec![brief(list.screen, file, judged, warnings)];
     if let Some(asked) = asked {
         parts.push(asked_text(asked, selection));
     } else if selection.fit.is_empty() && all > 1 {
@@ -62,7 +63,7 @@ pub fn text(
         parts.push(choices(list.screen, selection));
     }
     if list.full {
-        parts.push(full(file, duty, &selection.judged(shown)));
+        parts.push(full(file, duty, judged));
     }
     let is_whole = list.full && asked.is_none() && !selection.fit.is_empty();
     if is_whole {
@@ -200,9 +201,7 @@ fn counts(selection: &Selection) -> String {
 pub(crate) fn class_text(class: &Class) -> String {
     let drive = &class.first.drive;
     let power = drive.motor.rated_power();
-    let power = power.map_or_else(String::new, |power| {
-        format!(", {} kW", significant(power / 1000.0, 3))
-    });
+    let power = power.map_or_else(String::new, |power| format!(", {}", kilowatts(power)));
     format!(
         "{} {}; the first is rank {}: {}{power}",
         class.count,
@@ -210,6 +209,11 @@ pub(crate) fn class_text(class: &Class) -> String {
         class.rank,
         drive.name()
     )
+}
+
+/// A power (W) as lists have it.
+pub(super) fn kilowatts(power: f64) -> String {
+    format!("{} kW", significant(power / 1e3, 3))
 }
 
 /// What is known of a drive.
@@ -281,8 +285,8 @@ pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
         if let Some(power) = power(&class.first).filter(|power| *power < least) {
             least = power;
             lines.push(format!(
-                "smaller motor, {} kW: {} violates no rule either, but ranks lower ({}): {}",
-                significant(power / 1e3, 3),
+                "smaller motor, {}: {} violates no rule either, but ranks lower ({}): {}",
+                kilowatts(power),
                 class.first.drive.name(),
                 class.rank,
                 doubt(class.certainty)
@@ -297,8 +301,8 @@ pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
 fn next_smaller(selection: &Selection) -> Option<String> {
     let next = &selection.judged(&selection.next_smaller()?);
     Some(format!(
-        "next smaller motor, {} kW: {} is refused: {}",
-        significant(next.rated_power()? / 1e3, 3),
+        "next smaller motor, {}: {} is refused: {}",
+        kilowatts(next.rated_power()?),
         next.drive.name(),
         next.reasons()
     ))
