@@ -34,8 +34,9 @@ use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::plain;
 use jred_machine::read;
-use jred_report::list;
-use jred_report::list::inspection;
+use jred_report::answer::Answer;
+use jred_report::list::{inspection, rule_list};
+use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::motor::envelope::{Envelope, Prepared};
 use jred_sizing::select::fit::fit_input;
@@ -81,12 +82,14 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Retime(options) => retime::retime(options),
         options::Command::Balance(options) => balance::balance(options),
         options::Command::Export(options) => export::run(options),
-        options::Command::Rules(options) => print(&list::rule_list::show(
-            options.set.as_deref(),
-            Path::new(""),
-            options.format,
-        )?),
-        options::Command::Split(options) => print(&split::run(options)?),
+        options::Command::Rules(options) => {
+            let Some(set) = &options.set else {
+                return print_answer(&rule_list::all(), options.format);
+            };
+            let set = read::rule_set(set, Path::new(""))?;
+            print_answer(&rule_list::answer(&set), options.format)
+        }
+        options::Command::Split(options) => print_answer(&split::run(options)?, options.format),
     }
 }
 
@@ -116,10 +119,7 @@ const fn doing(command: &options::Command) -> &'static str {
 fn run_check(options: &options::Check) -> Result<Done> {
     let file = read::read(&options.file)?;
     let findings = Findings::of(&file).map_err(core_report)?;
-    match options.format {
-        inspection::Format::Table => print(&inspection::text(&findings))?,
-        inspection::Format::Json => print(&format!("{:#}\n", inspection::json(&findings)))?,
-    };
+    print_answer(&inspection::answer(&findings), options.format.into())?;
     Ok(if findings.holds() {
         Done::Holds
     } else {
@@ -130,6 +130,11 @@ fn run_check(options: &options::Check) -> Result<Done> {
 /// Prints to stdout.
 pub(crate) fn print(text: &str) -> Result<Done> {
     output::print(text).map(|()| Done::Holds)
+}
+
+/// Prints an answer.
+fn print_answer(answer: &Answer, format: Format) -> Result<Done> {
+    print_parts(answer.write(format, output::screen()))
 }
 
 /// Prints a text in parts.
@@ -216,7 +221,7 @@ fn profile_written(file: &MachineFile, path: &Path) -> String {
         _ => "",
     };
     format!(
-        "profile written to {}; as [motion]: type = \"profile\", file = \"…\" with its path from the machine file{of}\n",
+        "profile written to {}; as [motion]: type = \"profile\", file = \"…\" with its path from the machine file{of}",
         plain::path(path)
     )
 }

@@ -18,7 +18,7 @@ use std::time::Duration;
 use crate::busy;
 use jred_machine::plain;
 use jred_machine::text::disk;
-use jred_report::list::listing::Screen;
+use jred_report::answer::screen::Screen;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
     miette,
@@ -98,9 +98,9 @@ fn painted(text: &str) -> String {
 /// The screen that stdout is shown on; 80 columns elsewhere.
 pub fn screen() -> Screen {
     let terminal = terminal_size::terminal_size_of(std::io::stdout());
-    terminal.map_or_else(Screen::default, |(width, _)| Screen {
-        width: usize::from(width.0).max(40),
-    })
+    Screen {
+        width: terminal.map(|(width, _)| usize::from(width.0).max(40)),
+    }
 }
 
 /// Stdout, if it is not a file that this command has read.

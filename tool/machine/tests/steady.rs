@@ -87,7 +87,7 @@ fn a_moment_resists_one_way_and_drives_the_other() {
         let figures = found.cycle.unwrap().figures;
         let drag = 3.0 - way;
         near("speed", figures.mean_speed, way * drag / 0.05, tight);
-        let [motor, process, losses] = figures.works;
+        let Energies { motor, process, losses } = figures.energy;
         near("motor", motor, 3.0 * TAU, tight);
         near("process", process, -way * TAU, tight);
         near("losses", losses, drag * TAU, tight);
@@ -105,7 +105,7 @@ fn a_motor_without_load_turns_at_no_load_speed() {
     ] {
         let figures = of(&rotor("", motor)).cycle.unwrap().figures;
         near("speed", figures.mean_speed, omega, budget::STEADY);
-        within("work", figures.works[0], 0.0, 1e-9);
+        within("work", figures.energy.motor, 0.0, 1e-9);
     }
 }
 
@@ -128,9 +128,9 @@ fn a_line_against_friction() {
     for (what, value) in ["mean", "RMS", "peak"].iter().zip(figures.torque) {
         near(what, value, torque, tight);
     }
-    near("power", figures.power[0], torque * omega, tight);
-    near("work", figures.works[0], torque * TAU, tight);
-    near("losses", figures.works[2], torque * TAU, tight);
+    near("power", figures.motor_power.mean, torque * omega, tight);
+    near("work", figures.energy.motor, torque * TAU, tight);
+    near("losses", figures.energy.losses, torque * TAU, tight);
     // A turn shrinks a deviation by exp(−slope·period/J).
     near(
         "left over",
@@ -174,29 +174,29 @@ fn a_load_made_for_a_motion() {
     let found = checked_to(budget::STEADY_RESIDUAL_OF_TABLES, of_file(&file, None));
     let figures = found.cycle.unwrap().figures;
     let tight = budget::STEADY_MADE;
-    near("begin", figures.begin, omega * (1.0 + share), tight);
-    near("fastest", figures.fastest[0], omega * (1.0 + share), tight);
-    near("slowest", figures.slowest[0], omega * (1.0 - share), tight);
-    within("its place", figures.slowest[1], TAU / 2.0, 1e-6);
+    near("begin", figures.speed_at_start_of_turn, omega * (1.0 + share), tight);
+    near("fastest", figures.max_speed, omega * (1.0 + share), tight);
+    near("slowest", figures.min_speed, omega * (1.0 - share), tight);
+    within("its place", figures.min_speed_at, TAU / 2.0, 1e-6);
     // ∫dφ/(1 + ε·cos φ) = 2π/√(1 − ε²)
     let root = (1.0 - share * share).sqrt();
     near("mean", figures.mean_speed, omega * root, tight);
     near("delta", figures.delta, 2.0 * share / root, tight);
     near("of extremes", figures.delta_of_extremes, 2.0 * share, tight);
     let mean = stall * (1.0 - omega * root / no_load);
-    near("mean torque", figures.torque[0], mean, tight);
+    near("mean torque", figures.motor_torque.mean, mean, tight);
     // The mean of ω² over the time is Ω²·√(1 − ε²).
     let square = stall
         * stall
         * (1.0 - 2.0 * omega * root / no_load + omega * omega * root / (no_load * no_load));
-    near("RMS", figures.torque[1], square.sqrt(), tight);
+    near("RMS", figures.motor_torque.rms, square.sqrt(), tight);
     let peak = stall * (1.0 - omega * (1.0 - share) / no_load);
-    near("peak", figures.torque[2], peak, tight);
+    near("peak", figures.motor_torque.peak, peak, tight);
     // ∮T dφ = 2π·T(Ω)
     let work = TAU * stall * (1.0 - omega / no_load);
-    near("work", figures.works[0], work, tight);
+    near("work", figures.energy.motor, work, tight);
     // The largest power of a line is at half of its no-load speed, which the motion passes.
-    near("power", figures.power[1], stall * no_load / 4.0, tight);
+    near("power", figures.motor_power.peak, stall * no_load / 4.0, tight);
 }
 
 /// Without friction, the mean of the motor torque over the *angle* is zero, so that the mean of ω over the angle is the no-load
@@ -213,10 +213,10 @@ fn an_unbalanced_rotor_turns_at_no_load_speed() {
     let cycle = found.cycle.unwrap();
     let figures = cycle.figures;
     // ∮T dφ = 30·(2π − ∮ω dφ/20) = 0
-    within("work", figures.works[0], 0.0, budget::STEADY * 30.0 * TAU);
+    within("work", figures.energy.motor, 0.0, budget::STEADY * 30.0 * TAU);
     // J = 0.5 + 20·0.1²; E + U is nearly constant: ω² swings by 4·m·g·r/J about its mean.
     let j = 0.5 + 20.0 * 0.01;
-    let swing = figures.fastest[0].powi(2) - figures.slowest[0].powi(2);
+    let swing = figures.max_speed.powi(2) - figures.min_speed.powi(2);
     near("swing", swing, 4.0 * 20.0 * 9.81 * 0.1 / j, 0.02);
     assert!(
         figures.delta > 0.13 && figures.delta < 0.15,
@@ -264,5 +264,5 @@ fn a_motor_that_runs_backwards() {
     let motor = "dc_motor = { no_load_speed = \"-60 rad/s\", stall_torque = \"-9 N m\" }";
     let figures = of(&rotor(loads, motor)).cycle.unwrap().figures;
     near("speed", figures.mean_speed, -9.0 / 0.2, budget::STEADY);
-    near("power", figures.power[0], 9.0 * 0.25 * 45.0, budget::STEADY);
+    near("power", figures.motor_power.mean, 9.0 * 0.25 * 45.0, budget::STEADY);
 }

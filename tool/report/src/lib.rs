@@ -3,11 +3,12 @@
 //! Behind [`jred_machine`], [`jred_sizing`] and [`jred_motion`], whose results are data, and before the command, which prints.
 //!
 //! 1. [`table`]: columns, rows and sheets as aligned tables, CSV or JSON.
-//! 2. [`list`]: what the commands answer, in words and as JSON.
+//! 2. [`answer`] and [`list`]: the answers of the commands, each built once and rendered as text, CSV, JSON and HTML.
 //! 3. [`plot`] and [`drawing`]: curves and mechanisms as SVG.
 //! 4. [`page`]: self-contained HTML pages.
 #![forbid(unsafe_code)]
 
+pub mod answer;
 pub mod drawing;
 pub mod list;
 pub mod page;

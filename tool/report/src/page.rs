@@ -394,14 +394,14 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 }
 
 /// The page with the plots of a simulation.
-pub fn simulation_page(shown: &list::simulation::Shown) -> String {
+pub fn simulation_page(shown: &list::simulation::View) -> String {
     let file = shown.machines.first;
     let sections = figures::simulation(&shown.found.columns);
     MotionPage::page(
         file,
         "simulation",
         shown.about(),
-        &shown.summary(),
+        &shown.answer(),
         sections,
     )
 }

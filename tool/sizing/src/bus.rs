@@ -16,7 +16,7 @@ pub mod axes;
 pub mod conflict;
 pub mod cure;
 pub mod curve;
-mod need;
+pub mod need;
 pub mod period;
 mod phases;
 pub mod store;

@@ -3,7 +3,7 @@
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print_parts};
+use crate::commands::{Done, print_answer};
 use crate::options;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
@@ -59,12 +59,12 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
         };
         report(options, &fault, &links)
     })?;
-    let shown = list::balance::Shown {
+    let view = list::balance::View {
         file: &file,
         request: &request,
         balanced: &balanced,
     };
-    print_parts([list::balance::write(&shown, options.format)])?;
+    print_answer(&list::balance::answer(&view), options.format.into())?;
     Ok(Done::Holds)
 }
 

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 
 use crate::busy;
 use crate::commands::core_error::duty_report;
-use crate::commands::{Done, print, read_warned};
+use crate::commands::{Done, print_answer, read_warned};
 use crate::options::bus::Bus as Options;
 use jred_machine::analysis::duty::{Duty, Sampling};
 use jred_machine::model::machine::MachineFile;
@@ -16,8 +16,7 @@ use jred_machine::model::site::Site;
 use jred_machine::model::supply::Supply;
 use jred_machine::model::variator;
 use jred_machine::plain;
-use jred_report::list::listing;
-use jred_report::table::output::Format;
+use jred_report::list::{self, listing};
 use jred_sizing::bus::answer::{Answer, Axis};
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::bus::{Watch, power};
@@ -73,14 +72,10 @@ pub fn run(options: &Options) -> Result<Done> {
     let bar = ProgressBar::new(0);
     let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();
-    match options.format {
-        Format::Table => print(&jred_report::list::bus_text::text(&answer))?,
-        Format::Csv => print(&jred_report::list::bus_text::csv(&answer)?)?,
-        Format::Json => print(&format!(
-            "{:#}\n",
-            jred_report::list::bus_json::json(&answer)
-        ))?,
-    };
+    print_answer(
+        &list::bus::answer(&answer, options.format)?,
+        options.format,
+    )?;
     Ok(if answer.holds() {
         Done::Holds
     } else {

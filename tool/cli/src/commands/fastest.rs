@@ -12,10 +12,10 @@ use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{
-    Done, drive_named, envelope, print, profile_written, quantity, rate, read_warned,
+    Done, drive_named, envelope, print_answer, profile_written, quantity, rate, read_warned,
 };
 use crate::options::fastest::{Asked, Fastest as Options};
-use crate::output::{self, Files, print_parts};
+use crate::output::{self, Files};
 use jred::Reducible as _;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::drive_train;
@@ -35,7 +35,6 @@ use jred_motion::way::{Actuator, Way};
 use jred_report::list;
 use jred_report::list::fastest::Warmth;
 use jred_report::page;
-use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::filter::Filter;
@@ -131,7 +130,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         (actuator, chosen.limits.gearbox_torque),
         &mut files,
     )?;
-    let answer = list::fastest::Answer {
+    let view = list::fastest::View {
         file: &file,
         drive: &chosen.name,
         asked,
@@ -147,15 +146,14 @@ pub fn fastest(options: &Options) -> Result<Done> {
         instants: options.instants as usize,
     };
     if let Some(path) = &options.report {
-        let page = page::fastest_page(&answer).map_err(core_report)?;
+        let page = page::fastest_page(&view).map_err(core_report)?;
         files.add(path, page.as_bytes())?;
     }
     files.finish()?;
-    print_parts(answer.write(options.format).map_err(core_report)?)?;
-    if options.format == Format::Table {
-        written(options, &file)?;
-        print(&planned)?;
-    }
+    let mut written = written(options, &file);
+    written.extend(planned);
+    let answer = view.answer(options.format, &written).map_err(core_report)?;
+    print_answer(&answer, options.format)?;
     let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
     let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
     Ok(if broken.is_some() || exceeds || violated {
@@ -179,17 +177,15 @@ fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
     Ok(())
 }
 
-/// Says which files were written.
-fn written(options: &Options, file: &MachineFile) -> Result<()> {
-    if let Some(path) = &options.profile {
-        print(&profile_written(file, path))?;
-    }
-    for (what, path) in [("cam table", &options.cam), ("report", &options.report)] {
-        if let Some(path) = path {
-            print(&format!("{what} written to {}\n", plain::path(path)))?;
-        }
-    }
-    Ok(())
+/// The files that were written.
+fn written(options: &Options, file: &MachineFile) -> Vec<String> {
+    let profile = options.profile.iter().map(|path| profile_written(file, path));
+    let others = [("cam table", &options.cam), ("report", &options.report)];
+    let others = others.into_iter().filter_map(|(what, path)| {
+        let path = path.as_ref()?;
+        Some(format!("{what} written to {}", plain::path(path)))
+    });
+    profile.chain(others).collect()
 }
 
 fn reserve(options: &Options, file: &MachineFile) -> Reserve {

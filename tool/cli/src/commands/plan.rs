@@ -15,7 +15,7 @@ use jred_motion::trace::Trace;
 use jred_motion::way::Actuator;
 use jred_report::list;
 
-/// Writes it, if it is asked for; a line that says so. `gearbox` is the largest torque at the output of the drive's (N·m).
+/// Writes it, if it is requested; returns the line that reports it. `gearbox` is the largest torque at the output of the drive's (N·m).
 ///
 /// # Errors
 /// A motion that no plan holds, or a file that cannot be written.
@@ -24,9 +24,9 @@ pub(super) fn write(
     (file, trace): (&MachineFile, &Trace),
     (actuator, gearbox): (&Actuator, Option<f64>),
     files: &mut Files,
-) -> Result<String> {
+) -> Result<Option<String>> {
     let Some(path) = &options.plan else {
-        return Ok(String::new());
+        return Ok(None);
     };
     let machine = jred_machine::export::identifier(&file.title);
     let ramp = least_ramp(file, actuator, gearbox, trace).map_err(core_report)?;
@@ -47,5 +47,8 @@ pub(super) fn write(
         Some(Form::Image) | None => plan.bytes(),
     };
     files.add(path, &bytes)?;
-    Ok(format!("plan written to {}: {says}\n", plain::path(path)))
+    Ok(Some(format!(
+        "plan written to {}: {says}",
+        plain::path(path)
+    )))
 }

@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print, read_warned};
+use crate::commands::{Done, print_answer, read_warned};
 use crate::options::search::Ratio;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::read;
@@ -57,6 +57,6 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
     let rows = study.rows();
     let any = rows.iter().any(|row| row.found.is_ok());
     let top = options.top.map(|top| top as usize);
-    print(&sheet(&study, rows, top).write(options.format))?;
+    print_answer(&sheet(&study, rows, top).answer(), options.format)?;
     Ok(if any { Done::Holds } else { Done::Violated })
 }

@@ -3,11 +3,10 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, print_parts, warn};
+use crate::commands::{Done, print_answer, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
-use jred_machine::analysis::inspect;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::model::axis::Axis;
@@ -15,8 +14,8 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
 use jred_machine::read;
+use jred_report::list::{self, reduction::not_contained};
 use jred_report::page;
-use jred_report::table::output as sheet;
 use jred_report::table::output::Format;
 
 /// Runs the command.
@@ -82,85 +81,25 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
         None => reduce::not_contained(&file, &request),
     };
     if !missing.is_empty() && !matches!(options.format, Format::Table) {
-        let missing = missing.join("; ");
-        output::say(&format!(
-            "warning: {NOT_CONTAINED}{missing}: use --over time"
-        ));
+        output::say(&format!("warning: {}", not_contained(&missing)));
     }
     // The forces in the joints are missing at a change point too; time, position and speed are not.
     let cells = if sets.reactions { 3 } else { usize::MAX };
     let passed = !(moves && columns.has_empty_cells(cells));
-    let title = reduce_title(&file, sets, (passed, at.is_some()), &missing);
-    match options.format {
-        Format::Table => {
-            let mut text = String::new();
-            if !largest.is_empty() {
-                let sentences: Vec<String> =
-                    largest.iter().map(reduce::Largest::sentence).collect();
-                text += "largest: ";
-                text += &sentences.join("; ");
-                text += "\n";
-            }
-            if let Some(path) = &options.report {
-                text += "report written to ";
-                text += &plain::path(path);
-                text += "\n";
-            }
-            print_parts(sheet::parts(&columns, Format::Table, &title).chain([text]))
-        }
-        Format::Json if sets.reactions => {
-            let mut after = serde_json::Map::new();
-            after.insert("title".into(), title.into());
-            after.insert("largest".into(), serde_json::json!(largest));
-            print_parts(sheet::json_parts(&columns, serde_json::Map::new(), after))
-        }
-        Format::Csv | Format::Json => print_parts(sheet::parts(&columns, options.format, &title)),
-    }
-}
-
-/// What goes by the motion, and is not in rows without it.
-const NOT_CONTAINED: &str = "not contained where no motion passes: ";
-
-/// The lines above a listing: what it is, and what is not in it, because the motion does not pass every position, or at single positions
-/// because they have no time.
-fn reduce_title(
-    file: &MachineFile,
-    sets: Sets,
-    (passed, single): (bool, bool),
-    missing: &[String],
-) -> String {
-    let mut title = if sets.curves {
-        format!(
-            "{}: reduced to the drive link, flywheel and drive train included",
-            file.title
-        )
-    } else {
-        file.title.clone()
+    let view = list::reduction::View {
+        file: &file,
+        sets,
+        columns: &columns,
+        largest: &largest,
+        passed,
+        is_at_positions: at.is_some(),
+        not_contained: &missing,
     };
-    if sets.reactions {
-        title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
-                  drive train turn with the drive link";
+    let mut answer = view.answer();
+    if let Some(path) = &options.report {
+        answer.sentence(format!("report written to {}", plain::path(path)));
     }
-    if sets.reactions
-        && let Some(guided) = inspect::change_points(file.machine.mechanism())
-    {
-        title += "\n";
-        title += &guided;
-    }
-    if !passed {
-        title += if single {
-            "\nthe motion does not pass every position exactly once: give speeds with the positions"
-        } else {
-            "\nthe motion does not pass every position exactly once: use --over time"
-        };
-    }
-    if !missing.is_empty() {
-        title += "\n";
-        title += NOT_CONTAINED;
-        title += &missing.join("; ");
-        title += ": use --over time";
-    }
-    title
+    print_answer(&answer, options.format)
 }
 
 /// Most numbers that are held at once: 320 MB.

@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
 use crate::commands::{
-    Done, drive_asked, print_parts, profile_written, read_warned, warn_of_supply,
+    Done, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
 };
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
@@ -64,23 +64,23 @@ pub fn retime(options: &Retime) -> Result<Done> {
         .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
     let rows = options.rows as usize;
     let trace = retimed.trace.of_axis(&file.axis());
-    let mut written = String::new();
+    let mut written = Vec::new();
     let mut files = Files::default();
     if let Some(path) = &options.profile {
         files.add(path, trace.profile().as_bytes())?;
-        written += &profile_written(&file, path);
+        written.push(profile_written(&file, path));
     }
     if let Some(path) = &options.cam {
         files.add(path, trace.cam(rows, options.master).as_bytes())?;
-        written += &["cam table written to ", &plain::path(path), "\n"].concat();
+        written.push(format!("cam table written to {}", plain::path(path)));
     }
     let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
-    written += &plan::write(
+    written.extend(plan::write(
         &options.plan,
         (&file, &retimed.trace),
         (&request.actuator, gearbox),
         &mut files,
-    )?;
+    )?);
     let checks = match drive {
         None => Vec::new(),
         Some(drive) => Judge::new(&file, drive, request.sampling)
@@ -88,23 +88,23 @@ pub fn retime(options: &Retime) -> Result<Done> {
             .map_err(duty_report)?,
     };
     let broken = broken(&file, &retimed.trace).map_err(core_report)?;
-    let mut shown = list::retime::Shown {
+    let mut shown = list::retime::View {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,
         retimed: &retimed,
         broken: broken.as_ref(),
         checks: &checks,
-        written: String::new(),
+        written: Vec::new(),
     };
     if let Some(path) = &options.report {
         let page = page::retime_page(&shown, motion).map_err(core_report)?;
         files.add(path, page.as_bytes())?;
-        written += &["report written to ", &plain::path(path), "\n"].concat();
+        written.push(format!("report written to {}", plain::path(path)));
     }
     files.finish()?;
     shown.written = written;
-    print_parts([list::retime::write(&shown, options.format)])?;
+    print_answer(&list::retime::answer(&shown), options.format)?;
     let mut violated = checks
         .iter()
         .filter(|check| check.verdict == Verdict::Fail && check.id.follows_motion());

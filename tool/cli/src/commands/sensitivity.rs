@@ -5,7 +5,7 @@ use miette::Result;
 
 use crate::busy;
 use crate::commands::vary::study;
-use crate::commands::{Done, print, warn_of_motion};
+use crate::commands::{Done, print_answer, warn_of_motion};
 use crate::options::search::Sensitivity as Options;
 use jred_report::list::sensitivity::sheet;
 use jred_sizing::study::chosen::ChosenDrive;
@@ -36,7 +36,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
     let sensitivity = Sensitivity::new(&study, &one, reach, || bar.inc(1))?;
     bar.finish_and_clear();
     let sheet = sheet(&study, &one, &sensitivity, reach);
-    print(&sheet.write(options.format))?;
+    print_answer(&sheet.answer(), options.format)?;
     Ok(if sensitivity.is_broken() {
         Done::Violated
     } else {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive_asked, envelope, print_parts, rate, warn_of_motion};
+use crate::commands::{Done, drive_asked, envelope, print_answer, rate, warn_of_motion};
 use crate::options::simulate::Simulate;
 use crate::output;
 use jred_machine::analysis::reduce::{Sets, add_columns};
@@ -93,7 +93,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         ..Sets::default()
     };
     widen(&mut found, &machines, asked)?;
-    let shown = list::simulation::Shown {
+    let shown = list::simulation::View {
         machines: &machines,
         simulation,
         found: &found,
@@ -103,7 +103,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     if let Some(path) = &options.plot {
         output::write(path, page::simulation_page(&shown).as_bytes())?;
     }
-    let done = print_parts(shown.write(options.format))?;
+    let done = print_answer(&shown.answer(), options.format)?;
     // The rows up to there are written before the reason is.
     found.ended.map_or(Ok(done), |error| Err(error.into()))
 }

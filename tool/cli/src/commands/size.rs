@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::retime::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print};
+use crate::commands::{Done, print, print_answer};
 use crate::options::{Moved, Size};
 use crate::output;
 use jred_machine::analysis::duty::Duty;
@@ -228,7 +228,7 @@ fn pareto(
         "{}: Pareto front of the drives that violate no rule",
         file.title
     );
-    print(&list::front::write(&front, options.format, &title))?;
+    print_answer(&list::front::answer(&front, &title), options.format)?;
     Ok(if front.points.is_empty() {
         Done::Violated
     } else {

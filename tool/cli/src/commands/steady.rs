@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::simulate::{read_all, starts};
-use crate::commands::{Done, rate};
+use crate::commands::{Done, print_answer, rate};
 use crate::options;
-use crate::output::{self, print, print_parts};
+use crate::output::{self, print};
 use jred_machine::analysis::simulate::Together;
 use jred_machine::analysis::steady::{self, Level, MeanSpeed, Request};
 use jred_machine::model::characteristic::Characteristic;
@@ -55,7 +55,7 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
         );
         output::write(path, page.as_bytes())?;
     }
-    print_parts(list::steady::write(&machines, &steady, options.format))?;
+    print_answer(&list::steady::answer(&machines, &steady), options.format)?;
     if let Some(path) = options
         .report
         .as_ref()

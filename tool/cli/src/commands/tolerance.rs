@@ -4,7 +4,7 @@ use jred_machine::plain;
 use miette::{Result, miette};
 
 use crate::commands::vary::{stopped, study};
-use crate::commands::{Done, print, warn_of_motion};
+use crate::commands::{Done, print_answer, warn_of_motion};
 use crate::options::search::Tolerance as Options;
 use crate::output;
 use crate::rows::run::run;
@@ -63,11 +63,8 @@ pub fn tolerance(options: &Options) -> Result<Done> {
                 .to_owned(),
         );
     }
-    print(&sheet.write(if plan.out.is_some() {
-        Format::Table
-    } else {
-        format
-    }))?;
+    let format = if plan.out.is_some() { Format::Table } else { format };
+    print_answer(&sheet.answer(), format)?;
     if !ended.is_complete() {
         return stopped(ended, &plan);
     }

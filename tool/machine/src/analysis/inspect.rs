@@ -47,7 +47,7 @@ const AGREED: f64 = 1e-10;
 const BALANCED: f64 = 1e-9;
 
 /// One joint.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct JointFinding {
     /// Its name.
     pub name: String,
@@ -62,7 +62,7 @@ pub struct JointFinding {
 }
 
 /// The smallest transmission index.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Transmission {
     /// The index, 0 (dead point) to 1.
     pub index: f64,

@@ -15,11 +15,13 @@ mod turn;
 pub use aim::{Held, Level, MeanSpeed};
 pub use cycle::{Cycle, Missing};
 pub use error::SteadyError;
-pub use figures::Figures;
+pub use figures::{Energies, Figures, MotorPower, MotorTorque};
 pub use flywheel::{Classical, Flywheel, Place, Wheel};
 pub use start::Start;
 
 use jred::{Domain, Reducible as _};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use crate::analysis::simulate::Together;
 use crate::analysis::simulate::run::HAIR;
@@ -60,21 +62,24 @@ impl Default for Request {
 }
 
 /// The steady motion of a machine.
-#[derive(Debug)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Steady {
-    /// Without a further flywheel; with one asked for, possibly the reason why there is none.
-    pub cycle: Result<Cycle, SteadyError>,
-    /// The flywheel, if one was asked for.
+    /// The cycle without a further flywheel.
+    pub cycle: Option<Cycle>,
+    /// Why the machine has no steady cycle without a further flywheel.
+    #[schemars(with = "Option<String>")]
+    pub no_cycle: Option<SteadyError>,
+    /// Whether the inductance of the motor's winding is neglected: the torque is that of the settled current at each speed.
+    pub inductance_left_out: bool,
+    /// The flywheel for the requested δ.
     pub flywheel: Option<Flywheel>,
-    /// Whether the motor has a winding whose current takes time to settle, which is not counted here.
-    pub settled: bool,
 }
 
 impl Steady {
     /// The cycle that the machine has in the end: with the flywheel, if there is one.
     pub fn last(&self) -> Option<&Cycle> {
         let with = self.flywheel.as_ref().map(|flywheel| &flywheel.cycle);
-        with.or(self.cycle.as_ref().ok())
+        with.or(self.cycle.as_ref())
     }
 }
 
@@ -137,15 +142,16 @@ pub fn steady_together(
         mean_speed,
     };
     let positions = request.positions;
-    let settled = simulation.winding.is_some();
+    let inductance_left_out = simulation.winding.is_some();
     let Some(delta) = request.delta else {
         let cycle = search.with(machines, None, |turning, ended| {
             Cycle::of(turning, ended, positions)
         })?;
         return Ok(Steady {
-            cycle: Ok(cycle),
+            cycle: Some(cycle),
+            no_cycle: None,
+            inductance_left_out,
             flywheel: None,
-            settled,
         });
     };
     let found = search.with(machines, None, |turning, ended| {
@@ -171,10 +177,15 @@ pub fn steady_together(
         Ok(None) => return Err(SteadyError::Integrator),
         Err(why) => return Err(why),
     };
+    let (cycle, no_cycle) = match cycle {
+        Ok(cycle) => (Some(cycle), None),
+        Err(why) => (None, Some(why)),
+    };
     Ok(Steady {
         cycle,
+        no_cycle,
+        inductance_left_out,
         flywheel: Some(flywheel),
-        settled,
     })
 }
 

@@ -117,7 +117,12 @@ impl Axis {
 
     /// The length of a way in degrees or millimetres, with its sign, from that of the drive link.
     pub fn shown_way(&self, way: f64) -> f64 {
-        self.coordinate.shown(self.scale * way)
+        self.coordinate.shown(self.distance(way))
+    }
+
+    /// The signed distance (rad or m) from that of the drive link.
+    pub fn distance(&self, way: f64) -> f64 {
+        self.scale * way
     }
 
     /// The position with symbol and unit, such as `x = 250 mm`.

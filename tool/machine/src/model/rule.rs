@@ -8,7 +8,7 @@ use crate::units::Vocabulary;
 macro_rules! rules {
     ($($(#[$doc:meta])+ $rule:ident, $name:literal $(/ $linear:literal)?, $key:literal;)+) => {
         /// One rule. A rule compares a figure of the duty with a share of a rating.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, schemars::JsonSchema)]
         #[serde(rename_all = "kebab-case")]
         pub enum Rule {
             $($(#[$doc])+ $rule,)+

@@ -15,7 +15,7 @@ pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
 pub use verdict::{Finding, Verdict};
 
 /// The limits of one rule, as shares of its rating. `None`: no such limit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Limit {
     /// Beyond this the rule is violated.
     pub fail: Option<f64>,

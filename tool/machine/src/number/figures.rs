@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use super::rounding::cleared;
 
 /// Extremes, mean and RMS of a quantity over the cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, schemars::JsonSchema)]
 pub struct Figures {
     /// Smallest value.
     pub min: f64,

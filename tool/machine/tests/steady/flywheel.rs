@@ -78,7 +78,7 @@ fn a_flywheel_on_each_shaft() {
         assert_eq!((share - 1.0).abs() < 1e-7, by_ratio, "{share}");
         assert!((share - 1.0).abs() < 0.1, "{share}");
         near("drive link", link.inertia, found.inertia, 1e-15);
-        near("motor", found.at_motor().unwrap(), motor.inertia, 1e-15);
+        near("motor", found.inertia_at_motor.unwrap(), motor.inertia, 1e-15);
         // In front of the belt the flywheel leaves the peaks to it; behind it, it takes them.
         assert!(
             motor.delivered[0] > 2.0 * link.delivered[0],

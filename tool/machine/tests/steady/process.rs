@@ -41,8 +41,8 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
     let held = cycle.held.as_ref().unwrap();
     let brake = GAS / (2.0 * TAU);
     near("torque", held.torque.unwrap(), -brake, 1e-9);
-    near("gas", figures.works[1], GAS, 1e-9);
-    near("brake", figures.works[0], -GAS, 1e-9);
+    near("gas", figures.energy.process, GAS, 1e-9);
+    near("brake", figures.energy.motor, -GAS, 1e-9);
     // The gas exceeds the brake from a place on one ramp to that on the other: 40·s(x) = brake with s = x³·(10 − 15·x + 6·x²).
     let s = |x: f64| x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
     let (mut low, mut high) = (0.0, 1.0);
@@ -59,14 +59,14 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
     let area = |x: f64| 2.5 * x.powi(4) - 3.0 * x.powi(5) + x.powi(6);
     let above = 2.0 * ramp * (40.0 * (area(1.0) - area(low)) - brake * (1.0 - low));
     let swing = above + (40.0 - brake) * 120.0 / 360.0 * TAU;
-    let [fast, slow] = [figures.fastest[0], figures.slowest[0]];
+    let [fast, slow] = [figures.max_speed, figures.min_speed];
     near(
         "swing",
         0.5 * 0.4 * (fast * fast - slow * slow),
         swing,
         1e-9,
     );
-    near("fluctuation", figures.fluctuation, swing, 1e-9);
+    near("fluctuation", figures.kinetic_energy_fluctuation, swing, 1e-9);
     // The flywheel: δ·J·ω² = swing with (ω_max + ω_min)/2; with the mean over the time it differs in the second order of δ.
     let request = Request {
         delta: Some(0.01),
@@ -92,7 +92,7 @@ fn a_generator_takes_what_an_engine_gives() {
         .unwrap();
     let figures = &cycle.figures;
     // The mean over the angle of 0.3·ω is GAS/4π.
-    near("works", figures.works[0], -GAS, 1e-9);
+    near("works", figures.energy.motor, -GAS, 1e-9);
     assert!(figures.mean_speed > 0.0);
     let mean = GAS / (2.0 * TAU) / 0.3;
     assert!(

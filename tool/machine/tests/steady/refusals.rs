@@ -105,6 +105,6 @@ fn a_flywheel_where_there_is_no_cycle_without() {
     let needed = needed.rsplit_once("asks for ").unwrap().1;
     let needed: f64 = needed.split_once(' ').unwrap().0.parse().unwrap();
     let given = try_of(&weak, Some(0.1)).unwrap().flywheel.unwrap();
-    let mean = given.cycle.figures.torque[0];
+    let mean = given.cycle.figures.motor_torque.mean;
     assert!(needed > 3.0 && needed < mean, "{needed} {mean}");
 }

@@ -27,13 +27,13 @@ fn simulations_come_to_the_same_cycle() {
     let phi = 180f64.to_radians();
     let turn = simulate(&with_start(
         &press,
-        [phi, figures.begin],
+        [phi, figures.speed_at_start_of_turn],
         figures.period,
         50,
     ));
     let omega = turn.get("omega [rad/s]");
     let tight = budget::STEADY_SIMULATED;
-    near("back", *omega.last().unwrap(), figures.begin, tight);
+    near("back", *omega.last().unwrap(), figures.speed_at_start_of_turn, tight);
     near(
         "a turn",
         turn.get("phi [deg]")[50] - turn.get("phi [deg]")[0],
@@ -43,20 +43,20 @@ fn simulations_come_to_the_same_cycle() {
     near(
         "work",
         turn.get("motor work [J]")[50],
-        figures.works[0],
+        figures.energy.motor,
         tight,
     );
     near(
         "losses",
         turn.get("losses [J]")[50],
-        figures.works[2],
+        figures.energy.losses,
         tight,
     );
     let torques = turn.get("motor torque [N m]");
     assert!(
         torques
             .iter()
-            .all(|t| *t <= figures.torque[2] * (1.0 + tight))
+            .all(|t| *t <= figures.motor_torque.peak * (1.0 + tight))
     );
 
     let long = simulate(&with_start(&press, [phi, 0.0], 20.0, 100));
@@ -65,7 +65,7 @@ fn simulations_come_to_the_same_cycle() {
     near(
         "from rest",
         long.get("omega [rad/s]")[100],
-        there.figures.begin,
+        there.figures.speed_at_start_of_turn,
         budget::STEADY_FROM_REST,
     );
 }
@@ -98,6 +98,6 @@ fn the_press_starts_in_the_time_that_a_simulation_takes() {
     // There, the speed is within 1 %; a 20th of a turn before it was not, or had not been for a turn.
     let phi = run.get("phi [deg]")[1].to_radians().rem_euclid(TAU);
     let there = of(&with_start(&press, [phi, 0.0], 1.0, 1)).cycle.unwrap();
-    let share = run.get("omega [rad/s]")[1] / there.figures.begin;
+    let share = run.get("omega [rad/s]")[1] / there.figures.speed_at_start_of_turn;
     assert!((share - 1.0).abs() <= 0.01 + 1e-6, "{share}");
 }

@@ -1,10 +1,10 @@
-//! Counterweights and springs that relieve the drive, for reading and as JSON.
+//! Counterweights and springs that relieve the drive.
 
-use std::fmt::Write as _;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use serde_json::{Value, json};
-
-use crate::list::inspection::Format;
+use crate::answer::Answer;
+use crate::answer::schema::Data;
 use jred::machine::Element;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::laden::Attached;
@@ -12,12 +12,9 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{figure, percent, short};
 use jred_motion::balance::{Balanced, Figures, Goal, Request};
 
-/// Name and version of the form in JSON.
-const SCHEMA: &str = "jred-balance/1";
-
-/// What is shown.
+/// What is view.
 #[derive(Debug)]
-pub struct Shown<'a> {
+pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// What was asked.
@@ -26,15 +23,7 @@ pub struct Shown<'a> {
     pub balanced: &'a Balanced,
 }
 
-/// The result in one of the formats.
-pub fn write(shown: &Shown, format: Format) -> String {
-    match format {
-        Format::Table => text(shown),
-        Format::Json => format!("{:#}\n", json(shown)),
-    }
-}
-
-impl Shown<'_> {
+impl View<'_> {
     fn coordinate(&self) -> Coordinate {
         self.file.machine.mechanism().coordinate()
     }
@@ -71,12 +60,8 @@ impl Shown<'_> {
     }
 }
 
-/// A line: its name, and what it says.
-fn line(text: &mut String, name: &str, says: &str) {
-    let _ = writeln!(text, "  {name:<18} {says}");
-}
-
-fn text(shown: &Shown) -> String {
+/// The result, the figures before and after, and what to write into the machine file.
+pub fn answer(view: &View) -> Answer<'static> {
     let Balanced {
         masses,
         springs,
@@ -84,69 +69,50 @@ fn text(shown: &Shown) -> String {
         before,
         after,
         bound,
-    } = shown.balanced;
-    let goal = shown.request.goal;
-    let (unit, [was, is]) = (shown.unit(), [before, after].map(|f| f.of(goal)));
-    let mut text = format!("{}: least {}\n\n", shown.file.title, shown.goal());
+    } = view.balanced;
+    let goal = view.request.goal;
+    let (unit, [was, is]) = (view.unit(), [before, after].map(|f| f.of(goal)));
+    let title = format!("{}: least {}", view.file.title, view.goal());
+    let mut answer = Answer::new(view.file.title.clone(), &data(view)).titled(title);
     let saved = if is <= was {
         format!("{} less", percent(1.0 - is / was))
     } else {
         "not less: nothing within the bounds is better".to_owned()
     };
-    line(
-        &mut text,
-        "result",
-        &format!(
-            "{} {unit} instead of {} {unit}, {saved}",
-            short(is),
-            short(was)
-        ),
-    );
-    line(
-        &mut text,
+    let [is, was, bound] = [is, was, *bound].map(short);
+    answer.fact("result", format!("{is} {unit} instead of {was} {unit}, {saved}"));
+    answer.fact(
         "optimum",
-        &format!(
-            "global: nothing within the bounds makes it less than {} {unit}",
-            short(*bound)
-        ),
+        format!("global: nothing within the bounds makes it less than {bound} {unit}"),
     );
-    table(&mut text, shown, [before, after]);
-    for warning in warnings(shown) {
-        line(&mut text, "warning", &warning);
+    table(&mut answer, view, [before, after]);
+    for warning in warnings(view) {
+        answer.warning(warning);
     }
-    let bodies = shown.request.counterweights.iter().zip(masses);
+    let bodies = view.request.counterweights.iter().zip(masses);
     for (asked, found) in bodies {
-        text.push('\n');
-        let on = shown.link(asked.link);
-        match found {
-            Some(found) => mass(&mut text, on, found),
-            None => {
-                let _ = writeln!(text, "# {on}: no counterweight is best");
-            }
-        }
+        let on = view.link(asked.link);
+        answer.code(match found {
+            Some(found) => mass(on, found),
+            None => format!("# {on}: no counterweight is best"),
+        });
     }
     let springs = springs.iter().zip(efforts);
-    for (number, (found, efforts)) in shown.request.springs.iter().zip(springs) {
-        text.push('\n');
-        let name = shown
-            .file
-            .elements
-            .get(*number)
-            .map_or("", |named| &named.name);
-        match found {
-            Some(found) => spring(&mut text, name, found, efforts.as_ref()),
-            None => {
-                let _ = writeln!(text, "# {name}: no spring is best");
-            }
-        }
+    for (number, (found, efforts)) in view.request.springs.iter().zip(springs) {
+        let named = view.file.elements.get(*number);
+        let name = named.map_or("", |named| &named.name);
+        answer.code(match found {
+            Some(found) => spring(name, found, efforts.as_ref()),
+            None => format!("# {name}: no spring is best"),
+        });
     }
-    text
+    answer
 }
 
-/// What the result has against it.
-fn warnings(shown: &Shown) -> Vec<String> {
-    let effort = &shown.coordinate().vocabulary().torque;
-    let heats = shown.balanced.heats().map(|share| {
+/// Disadvantages of the result.
+fn warnings(view: &View) -> Vec<String> {
+    let effort = &view.coordinate().vocabulary().torque;
+    let heats = view.balanced.heats().map(|share| {
         format!(
             "the RMS {effort} of the drive link rises by {}: the motor gets hotter; compare with --least rms",
             percent(share)
@@ -176,8 +142,8 @@ fn both_ways(found: &Element, [pull, push]: [f64; 2]) -> Option<String> {
 }
 
 /// The figures before and after.
-fn table(text: &mut String, shown: &Shown, figures: [&Figures; 2]) {
-    let coordinate = shown.coordinate();
+fn table(answer: &mut Answer, view: &View, figures: [&Figures; 2]) {
+    let coordinate = view.coordinate();
     let (effort, unit) = (&coordinate.vocabulary().torque, coordinate.effort_unit());
     let pair = |of: fn(&Figures) -> Option<[f64; 2]>, unit: &str| {
         let [Some(before), Some(after)] = figures.map(of) else {
@@ -186,7 +152,7 @@ fn table(text: &mut String, shown: &Shown, figures: [&Figures; 2]) {
         let [rms, peak] = [0, 1].map(|k| format!("{} -> {}", short(before[k]), short(after[k])));
         Some(format!("RMS {rms} {unit}, peak {peak} {unit}"))
     };
-    let input = input_unit(shown.file);
+    let input = input_unit(view.file);
     let rows = [
         ("drive link", pair(|f| f.torque, unit)),
         ("at the input", pair(|f| f.input, input)),
@@ -194,18 +160,17 @@ fn table(text: &mut String, shown: &Shown, figures: [&Figures; 2]) {
     ];
     for (name, says) in rows {
         if let Some(says) = says {
-            line(text, name, &format!("{effort}: {says}"));
+            answer.fact(name, format!("{effort}: {says}"));
         }
     }
     let [before, after] = figures.map(|f| {
         let [least, mean, most] = f.inertia.map(short);
         format!("{least} to {most}, mean {mean}")
     });
-    let inertia = shown.inertia();
-    line(
-        text,
+    let inertia = view.inertia();
+    answer.fact(
         "reduced",
-        &format!(
+        format!(
             "{inertia} of the mechanism {before} -> {after} {}",
             coordinate.inertia_unit()
         ),
@@ -221,46 +186,145 @@ fn input_unit(file: &MachineFile) -> &'static str {
 }
 
 /// As a machine file has it.
-fn mass(text: &mut String, on: &str, found: &Attached) {
+fn mass(on: &str, found: &Attached) -> String {
     let [u, v] = found.at.map(|x| figure(x * 1e3));
-    let _ = writeln!(
-        text,
-        "[[mass]]\nname = \"counterweight on {on}\"\non = \"{on}\"\nat = [\"{u} mm\", \"{v} mm\"]\nmass = \"{} kg\"",
-        figure(found.mass)
-    );
-    if found.inertia > 0.0 {
-        let _ = writeln!(text, "inertia = \"{} kg m^2\"", figure(found.inertia));
+    let inertia = if found.inertia > 0.0 {
+        format!("inertia = \"{} kg m^2\"", figure(found.inertia))
     } else {
-        let _ = writeln!(
-            text,
-            "# a point mass: a real one has an inertia of its own, which comes on top"
-        );
-    }
-}
-
-fn spring(text: &mut String, name: &str, found: &Element, efforts: Option<&[f64; 2]>) {
-    let [stiffness, free] = found.spring_rate().unwrap_or_default();
-    let _ = if found.is_torsional() {
-        writeln!(
-            text,
-            "# {name}\nstiffness = \"{} N m/rad\"\nfree_angle = \"{} deg\"",
-            figure(stiffness),
-            figure(free.to_degrees())
-        )
-    } else {
-        writeln!(
-            text,
-            "# {name}\nstiffness = \"{} N/m\"\nfree_length = \"{} mm\"",
-            figure(stiffness),
-            figure(free * 1e3)
-        )
+        "# a point mass: a real one has an inertia of its own, which comes on top".to_owned()
     };
-    if let Some(remark) = efforts.and_then(|efforts| both_ways(found, *efforts)) {
-        let _ = writeln!(text, "# {remark}");
+    format!(
+        "[[mass]]\nname = \"counterweight on {on}\"\non = \"{on}\"\nat = [\"{u} mm\", \"{v} mm\"]\nmass = \"{} kg\"\n{inertia}",
+        figure(found.mass)
+    )
+}
+
+fn spring(name: &str, found: &Element, efforts: Option<&[f64; 2]>) -> String {
+    let [stiffness, free] = found.spring_rate().unwrap_or_default();
+    let (rate, free_key, free, unit) = if found.is_torsional() {
+        ("N m/rad", "free_angle", free.to_degrees(), "deg")
+    } else {
+        ("N/m", "free_length", free * 1e3, "mm")
+    };
+    let [stiffness, free] = [stiffness, free].map(figure);
+    let remark = efforts.and_then(|efforts| both_ways(found, *efforts));
+    let remark = remark.map_or_else(String::new, |remark| format!("\n# {remark}"));
+    format!("# {name}\nstiffness = \"{stiffness} {rate}\"\n{free_key} = \"{free} {unit}\"{remark}")
+}
+
+/// The JSON of `jred balance` (SI units).
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct BalanceData<'a> {
+    /// The quantity that is least: rms, peak, holding or inertia.
+    least: String,
+    /// Figures of the machine as it is.
+    before: FiguresData,
+    /// Figures with counterweights and springs.
+    after: FiguresData,
+    /// Lower bound of the least value within the bounds (N·m, N, kg·m² or kg).
+    bound: f64,
+    /// Disadvantages of the result.
+    warnings: Vec<String>,
+    /// The counterweights.
+    counterweights: Vec<CounterweightData<'a>>,
+    /// The springs.
+    springs: Vec<SpringData<'a>>,
+}
+
+impl Data for BalanceData<'_> {
+    const FORM: &'static str = "jred-balance/1";
+}
+
+/// The form of the JSON.
+pub(crate) type Form = BalanceData<'static>;
+
+#[derive(Serialize, JsonSchema)]
+struct FiguresData {
+    /// The value of the quantity that is least.
+    least: f64,
+    /// Torque (N·m) or force (N) at the drive link over the motion.
+    drive_link: Option<RmsAndPeak>,
+    /// Torque (N·m) or force (N) at the input of the drive train over the motion.
+    input: Option<RmsAndPeak>,
+    /// Torque (N·m) or force (N) that holds the machine at rest, over its range.
+    holding: RmsAndPeak,
+    /// Reduced inertia (kg·m²) or mass (kg) of the mechanism.
+    inertia: InertiaData,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct RmsAndPeak {
+    /// Root of the mean square.
+    rms: f64,
+    /// Largest magnitude.
+    peak: f64,
+}
+
+impl From<[f64; 2]> for RmsAndPeak {
+    fn from([rms, peak]: [f64; 2]) -> Self {
+        Self { rms, peak }
     }
 }
 
-fn json(shown: &Shown) -> Value {
+#[derive(Serialize, JsonSchema)]
+struct InertiaData {
+    /// Least.
+    min: f64,
+    /// Mean over the range.
+    mean: f64,
+    /// Largest.
+    max: f64,
+    /// RMS deviation from the mean.
+    rms_deviation: f64,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct CounterweightData<'a> {
+    /// Link that carries it.
+    on: &'a str,
+    /// Largest permitted mass (kg).
+    most: f64,
+    /// Largest permitted distance from the origin of the link's frame (m).
+    reach: f64,
+    /// The counterweight; none: no counterweight is best.
+    found: Option<MassData>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct MassData {
+    /// Position of its centre in the link's frame (m).
+    at: [f64; 2],
+    /// Mass (kg).
+    mass: f64,
+    /// Inertia about its centre (kg·m²).
+    inertia: f64,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct SpringData<'a> {
+    /// Name of the spring in the machine file.
+    name: Option<&'a str>,
+    /// Its data; none: no spring is best.
+    found: Option<RateData>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct RateData {
+    /// Stiffness (N/m, or N·m/rad).
+    stiffness: f64,
+    /// Free length (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    free_length: Option<f64>,
+    /// Free angle (rad).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    free_angle: Option<f64>,
+    /// Largest pull (N, or N·m).
+    pull: f64,
+    /// Largest push (N, or N·m).
+    push: f64,
+}
+
+fn data<'a>(view: &'a View) -> BalanceData<'a> {
     let Balanced {
         masses,
         springs,
@@ -268,60 +332,60 @@ fn json(shown: &Shown) -> Value {
         before,
         after,
         bound,
-    } = shown.balanced;
+    } = view.balanced;
     let figures = |f: &Figures| {
-        let pair =
-            |pair: Option<[f64; 2]>| pair.map(|[rms, peak]| json!({ "rms": rms, "peak": peak }));
         let [min, mean, max] = f.inertia;
-        json!({
-            "least": f.of(shown.request.goal),
-            "drive_link": pair(f.torque),
-            "input": pair(f.input),
-            "holding": pair(Some(f.holding)),
-            "inertia": { "min": min, "mean": mean, "max": max, "rms_deviation": f.deviation },
-        })
+        FiguresData {
+            least: f.of(view.request.goal),
+            drive_link: f.torque.map(RmsAndPeak::from),
+            input: f.input.map(RmsAndPeak::from),
+            holding: f.holding.into(),
+            inertia: InertiaData {
+                min,
+                mean,
+                max,
+                rms_deviation: f.deviation,
+            },
+        }
     };
-    let masses: Vec<Value> = (shown.request.counterweights.iter().zip(masses))
-        .map(|(asked, found)| {
-            json!({
-                "on": shown.link(asked.link),
-                "most": asked.most,
-                "reach": asked.reach,
-                "found": found.map(|m| json!({ "at": m.at, "mass": m.mass, "inertia": m.inertia })),
+    let counterweights = view.request.counterweights.iter().zip(masses);
+    let counterweights = counterweights.map(|(asked, found)| CounterweightData {
+        on: view.link(asked.link),
+        most: asked.most,
+        reach: asked.reach,
+        found: found.as_ref().map(|m| MassData {
+            at: m.at,
+            mass: m.mass,
+            inertia: m.inertia,
+        }),
+    });
+    let springs = view.request.springs.iter().zip(springs.iter().zip(efforts));
+    let springs = springs.map(|(number, (found, efforts))| {
+        let rate = found.as_ref().and_then(|spring| {
+            let [stiffness, free] = spring.spring_rate()?;
+            let [pull, push] = efforts.unwrap_or_default();
+            let torsional = spring.is_torsional();
+            Some(RateData {
+                stiffness,
+                free_length: (!torsional).then_some(free),
+                free_angle: torsional.then_some(free),
+                pull,
+                push,
             })
-        })
-        .collect();
-    let springs: Vec<Value> = (shown
-        .request
-        .springs
-        .iter()
-        .zip(springs.iter().zip(efforts)))
-    .map(|(number, (found, efforts))| {
-        let rate = found.and_then(|spring| spring.spring_rate().zip(Some(spring.is_torsional())));
-        let found = rate.map(|([stiffness, free], torsional)| {
-            let name = if torsional {
-                "free_angle"
-            } else {
-                "free_length"
-            };
-            {
-                let [pull, push] = efforts.unwrap_or_default();
-                json!({ "stiffness": stiffness, name: free, "pull": pull, "push": push })
-            }
         });
-        let name = shown.file.elements.get(*number).map(|named| &named.name);
-        json!({ "name": name, "found": found })
-    })
-    .collect();
-    json!({
-        "schema": SCHEMA,
-        "title": shown.file.title,
-        "least": shown.request.goal.to_string(),
-        "before": figures(before),
-        "after": figures(after),
-        "bound": bound,
-        "warnings": warnings(shown),
-        "counterweights": masses,
-        "springs": springs,
-    })
+        let named = view.file.elements.get(*number);
+        SpringData {
+            name: named.map(|named| named.name.as_str()),
+            found: rate,
+        }
+    });
+    BalanceData {
+        least: view.request.goal.to_string(),
+        before: figures(before),
+        after: figures(after),
+        bound: *bound,
+        warnings: warnings(view),
+        counterweights: counterweights.collect(),
+        springs: springs.collect(),
+    }
 }

@@ -1,16 +1,17 @@
-//! The fastest motion, for reading, as CSV and as JSON.
+//! The fastest motion.
 
+mod data;
 mod drive;
 mod moves;
 mod rules;
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
-
 use super::contact::of_fastest;
+use crate::answer::Answer;
 use crate::list::kept;
-use crate::table::output::{Format, json_parts, parts};
+use crate::table::output::Format;
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::{Column, Columns, Quantity};
@@ -27,13 +28,8 @@ use jred_motion::trace::Node;
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
+pub(crate) use data::Form;
 pub use drive::Warmth;
-use drive::winding_json;
-use moves::move_json;
-use rules::rules_json;
-
-/// Name and version of the form in JSON.
-const SCHEMA: &str = "jred-fastest/1";
 
 /// Durations that differ by a smaller share are shown as the same.
 const SAME: f64 = 5e-4;
@@ -45,7 +41,7 @@ const MANY: f64 = 3.0;
 const LEAST_EXCESS: f64 = 1e-9;
 
 /// The fastest motion of a machine with a drive.
-pub struct Answer<'a> {
+pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Name of the drive.
@@ -74,23 +70,7 @@ pub struct Answer<'a> {
     pub instants: usize,
 }
 
-impl Answer<'_> {
-    /// In one of the formats, part by part; CSV is the course alone, a table has no course.
-    ///
-    /// # Errors
-    /// The mechanism cannot be placed somewhere.
-    pub fn write(&self, format: Format) -> Result<Box<dyn Iterator<Item = String>>, Error> {
-        if format == Format::Table {
-            return Ok(Box::new(std::iter::once(self.text())));
-        }
-        let course = self.course()?;
-        let text: Vec<String> = match format {
-            Format::Csv => parts(&course, Format::Csv, "").collect(),
-            Format::Table | Format::Json => json_parts(&course, self.json(), Map::new()).collect(),
-        };
-        Ok(Box::new(text.into_iter()))
-    }
-
+impl View<'_> {
     /// The motion over the time, with the torque and speed of the motor.
     fn course(&self) -> Result<Columns, Error> {
         let axis = self.file.axis();
@@ -126,13 +106,26 @@ impl Answer<'_> {
         input_kind(self.file).vocabulary()
     }
 
-    /// As the terminal shows it.
-    pub(crate) fn text(&self) -> String {
+    /// The duration first, then the load of the drive, and each move; `written` says which files were written. The course, which CSV
+    /// and JSON have, is not computed for a text.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere.
+    pub fn answer(&self, format: Format, written: &[String]) -> Result<Answer<'static>, Error> {
+        let title = format!("{}: fastest motion with {}", self.file.title, self.drive);
+        let mut answer = Answer::new(self.file.title.clone(), &self.data()).titled(title);
+        self.describe(&mut answer);
+        for line in written {
+            answer.sentence(line);
+        }
+        if format != Format::Table {
+            answer.course(Cow::Owned(self.course()?));
+        }
+        Ok(answer)
+    }
+
+    fn describe(&self, answer: &mut Answer) {
         let cycle = self.cycle;
-        let mut text = format!(
-            "{}: fastest motion with {}\n\n",
-            self.file.title, self.drive
-        );
         let whole = cycle.trace.duration();
         let moves = counted(cycle.moves.len(), "move", "moves");
         let moving: f64 = cycle.moves.iter().map(|made| made.fastest.time).sum();
@@ -153,35 +146,35 @@ impl Answer<'_> {
                 let _ = write!(says, "{}", more_or_less(whole / before));
             }
         }
-        line(&mut text, "duration", &says);
+        answer.fact("duration", says);
         if !self.asked.is_empty() {
-            line(&mut text, "asked for", &self.asked.join("; "));
+            answer.fact("asked for", self.asked.join("; "));
         }
         if let Some(chain) = self.chain {
             for (name, says) in kept::lines(self.file, chain) {
-                line(&mut text, name, &says);
+                answer.fact(name, says);
             }
             if let Some(says) = kept::limits(self.file, Some(&self.asked)) {
-                line(&mut text, "limits", &says);
+                answer.fact("limits", says);
             }
         }
         for part in &self.cycle.kept {
-            self.exceeded(part, &mut text);
+            self.exceeded(part, answer);
         }
-        self.motor(&mut text);
+        self.motor(answer);
         if let Some(warmth) = self.warmth {
-            self.winding(warmth, &mut text);
+            self.winding(warmth, answer);
         }
         for force in self.forces {
-            line(&mut text, "joint force", &self.force(force));
+            answer.fact("joint force", self.force(force));
         }
         if let Some(broken) = self.broken {
             let says = of_fastest(broken, &self.file.axis());
-            line(&mut text, "warning", &says);
+            answer.warning(says);
         }
-        line(&mut text, "reserve", &self.reserve());
+        answer.fact("reserve", self.reserve());
         if let Some(judged) = self.judged {
-            self.rules(judged, &mut text);
+            self.rules(judged, answer);
         }
         let worst = cycle.moves.iter().map(|made| made.fastest.excess);
         let error = cycle.moves.iter().map(|made| made.fastest.error);
@@ -191,7 +184,7 @@ impl Answer<'_> {
         let says = format!(
             "duration within {error:.0e} s; limits satisfied within {worst:.0e} between the nodes"
         );
-        line(&mut text, "accuracy", &says);
+        answer.fact("accuracy", says);
         let bounds = cycle.moves.iter().map(|made| made.fastest.bound);
         if let Some(bounds) = bounds.collect::<Option<Vec<f64>>>() {
             let least: f64 = bounds.iter().sum();
@@ -213,13 +206,11 @@ impl Answer<'_> {
                 "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, and none takes less",
                 short(least)
             );
-            line(&mut text, "optimum", &says);
+            answer.fact("optimum", says);
         }
         for (k, made) in cycle.moves.iter().enumerate() {
-            text.push('\n');
-            text += &self.one_move(k + 1, made);
+            self.one_move(k + 1, made, answer);
         }
-        text
     }
 
     /// Whether the motion turns for ever without rest.
@@ -234,73 +225,6 @@ impl Answer<'_> {
         let moves = |node: Option<&Node>| node.is_some_and(|node| node.omega != 0.0);
         let [begins, ends] = [moves(nodes.first()), moves(nodes.last())];
         [ends, begins || ends].map(|passes| passes && self.chain.is_none())
-    }
-
-    fn json(&self) -> Map<String, Value> {
-        let cycle = self.cycle;
-        let load = &cycle.load;
-        let mut map = Map::new();
-        map.insert("schema".into(), SCHEMA.into());
-        map.insert("title".into(), self.file.title.clone().into());
-        map.insert("drive".into(), self.drive.into());
-        map.insert("asked".into(), json!(self.asked));
-        map.insert("duration".into(), cycle.trace.duration().into());
-        map.insert("duration_before".into(), json!(cycle.before));
-        map.insert("at_rest".into(), cycle.dwells.into());
-        let reserve = &self.reserve;
-        map.insert(
-            "reserve".into(),
-            json!({
-                "torque": reserve.torque,
-                "speed": reserve.speed,
-                "gearbox_torque": reserve.gearbox_torque,
-                "gearbox_speed": reserve.gearbox_speed,
-                "s1_torque": reserve.rms,
-            }),
-        );
-        let known = Some(load.continuous).filter(|torque| torque.is_finite());
-        map.insert(
-            "motor".into(),
-            json!({
-                "rms_torque": load.rms,
-                "peak_torque": load.peaks[0],
-                "peak_speed": load.peaks[1],
-                "mean_speed": load.mean_speed,
-                "holding_torque": load.holding,
-                "s1_torque": known,
-                "rms_allowed": known.map(|_| load.allowed),
-                "pause_needed": load.pause,
-            }),
-        );
-        if let Some(warmth) = self.warmth {
-            map.insert("winding".into(), winding_json(warmth));
-        }
-        if let Some(judged) = self.judged {
-            map.insert("rules".into(), rules_json(judged));
-        }
-        let axis = self.file.axis();
-        let forces = self.forces.iter().map(|force| {
-            json!({
-                "joint": force.name(self.file),
-                "force": force.force,
-                "limit": force.limit,
-                "at": axis.position(force.phi),
-                "time": force.t,
-                "at_rest": force.stands,
-            })
-        });
-        map.insert("joint_forces".into(), forces.collect());
-        let broken = self.broken.map(|broken| of_fastest(broken, &axis));
-        map.insert("contact_lost".into(), json!(broken));
-        map.insert("unit".into(), axis.coordinate.per().into());
-        let moves: Vec<Value> = (cycle.moves.iter())
-            .map(|made| move_json(made, &axis, self.file))
-            .collect();
-        map.insert("moves".into(), moves.into());
-        if let Some(chain) = self.chain {
-            map.insert("kept".into(), kept::json(self.file, chain));
-        }
-        map
     }
 }
 
@@ -327,9 +251,4 @@ fn thousands(ratio: f64) -> String {
         text.push(digit);
     }
     text
-}
-
-/// A line: its name, and what it says.
-fn line(text: &mut String, name: &str, says: &str) {
-    let _ = writeln!(text, "  {name:<13} {says}");
 }

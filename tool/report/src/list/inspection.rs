@@ -1,17 +1,24 @@
-//! What the check of a mechanism found, for reading and as JSON.
-
-use std::fmt::Write as _;
+//! The check of a machine.
 
 use jred::Domain;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use crate::table::output::text_table;
-use jred_machine::analysis::inspect::{Findings, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED};
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::table::output::Format as Full;
+use crate::table::sheet::Reading;
+use jred_machine::analysis::inspect::{
+    Agreement, Findings, Inertia, JointFinding, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED,
+    Transmission, Travel,
+};
 use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::mechanism::Fact;
 use jred_machine::number::rounding::{short, shown};
+use jred_sizing::study::cell::Cell;
 
 jred_machine::words! {
-    /// How findings are written.
+    /// How an answer without columns is written.
     pub enum Format default Table {
         /// For reading.
         Table = "table",
@@ -20,49 +27,44 @@ jred_machine::words! {
     }
 }
 
-/// For reading.
-pub fn text(findings: &Findings) -> String {
-    format!(
-        "{}: {}\n\n{}",
-        findings.title,
-        findings.kind,
-        untitled(findings)
-    )
+impl From<Format> for Full {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Table => Self::Table,
+            Format::Json => Self::Json,
+        }
+    }
 }
 
-/// The same without its title.
-pub(crate) fn untitled(findings: &Findings) -> String {
+/// The verdict, the findings, and tables of segments and joints.
+pub fn answer(findings: &Findings) -> Answer<'static> {
     let c = findings.coordinate;
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "degrees of freedom: 3·{} links − {} constraints = {}",
-        findings.links,
-        findings.constraints(),
-        findings.freedoms()
-    );
-    let mut table = text_table(&[
-        "joint",
-        "kind",
-        "first body",
-        "second body",
-        "constraints",
-        "",
-    ]);
-    for joint in &findings.joints {
-        let [first, second] = joint.bodies.clone();
-        table.add_row([
-            joint.name.clone(),
-            joint.kind.to_owned(),
-            first,
-            second,
-            joint.constraints.to_string(),
-            if joint.driven { "drive" } else { "" }.to_owned(),
-        ]);
+    let title = format!("{}: {}", findings.title, findings.kind);
+    let mut answer = Answer::new(findings.title.clone(), &data(findings)).titled(title);
+    let violations = findings.violations();
+    for violation in &violations {
+        answer.fact("violated", violation);
     }
-    let _ = writeln!(text, "{table}\n");
+    if violations.is_empty() {
+        answer.fact(
+            "result",
+            format!(
+                "every check is satisfied: {}; `jred size` judges drives",
+                findings.checked().join(", ")
+            ),
+        );
+    }
+    answer.fact(
+        "degrees of freedom",
+        format!(
+            "3·{} links − {} constraints = {}",
+            findings.links,
+            findings.constraints(),
+            findings.freedoms()
+        ),
+    );
     let range = match findings.domain {
-        Domain::Turn => "it turns without end".to_owned(),
+        Domain::Turn => "the drive link turns without end".to_owned(),
         Domain::Stroke { from, to } => format!(
             "{} = {} to {} {}",
             c.symbol(),
@@ -71,101 +73,100 @@ pub(crate) fn untitled(findings: &Findings) -> String {
             c.unit()
         ),
     };
-    let _ = writeln!(text, "range of the drive link: {range}");
+    answer.fact("range", range);
     if let Some(gap) = findings.closure {
-        let gap = exponent(gap);
-        let _ = writeln!(
-            text,
-            "closure: the speeds of all links repeat after a turn to within {gap}"
+        answer.fact(
+            "closure",
+            format!(
+                "the speeds of all links repeat after a turn to within {}",
+                exponent(gap)
+            ),
         );
     }
-    write_motion(findings, &mut text);
-    write_inertia(findings, &mut text);
-    let _ = writeln!(
-        text,
-        "drive {} by d'Alembert's principle and by the reduced equation differ by {} of the largest term{}",
-        if c == Coordinate::Angle {
-            "torque"
-        } else {
-            "force"
-        },
-        exponent(findings.agreement.dalembert),
-        if findings.agreement.of_motion {
-            ""
-        } else {
-            ", at unit speed"
-        }
+    motions(findings, &mut answer);
+    inertia(findings, &mut answer);
+    answer.fact(
+        "two ways to the drive torque",
+        format!(
+            "d'Alembert's principle and the reduced equation differ by {} of the largest term{}",
+            exponent(findings.agreement.dalembert),
+            if findings.agreement.of_motion {
+                ""
+            } else {
+                ", at unit speed"
+            }
+        ),
     );
     if let Some(balance) = findings.agreement.energy {
-        let _ = writeln!(
-            text,
-            "energy balance over the motion: error {} of the energy that the drive moves",
-            exponent(balance)
+        answer.fact(
+            "energy balance",
+            format!(
+                "error {} of the energy that the drive moves over the motion",
+                exponent(balance)
+            ),
         );
     }
-    if let Some(motion) = &findings.motion {
-        write_segments(motion, c, &mut text);
-    }
     for note in &findings.notes {
-        let _ = writeln!(text, "{note}");
+        answer.sentence(note);
     }
-    text += &verdict(findings);
-    text
+    if let Some(motion) = &findings.motion {
+        segments(motion, c, &mut answer);
+    }
+    joints(findings, &mut answer);
+    answer
+}
+
+fn joints(findings: &Findings, answer: &mut Answer) {
+    answer.heading("joints");
+    let columns = ["joint", "kind", "first body", "second body", "constraints", ""];
+    let rows = findings.joints.iter().map(|joint| {
+        let [first, second] = joint.bodies.clone();
+        let driven = if joint.driven { "drive" } else { "" };
+        let cells = [
+            joint.name.clone(),
+            joint.kind.to_owned(),
+            first,
+            second,
+            joint.constraints.to_string(),
+            driven.to_owned(),
+        ];
+        cells.map(Cell::from).to_vec()
+    });
+    answer.table(Reading {
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+        whole: columns.len(),
+    });
 }
 
 /// The reduced inertia, over the range and over the time of the motion, and the mass.
-fn write_inertia(findings: &Findings, text: &mut String) {
+fn inertia(findings: &Findings, answer: &mut Answer) {
     let c = findings.coordinate;
-    let [min, mean, max] = findings.inertia.reduced;
-    let _ = writeln!(
-        text,
-        "{}: {} to {} {}, mean {}, of which flywheel and drive train {}",
+    let unit = c.inertia_unit();
+    let [min, mean, max] = findings.inertia.reduced.map(short);
+    let flywheel = short(findings.inertia.flywheel);
+    answer.fact(
         c.inertia(),
-        short(min),
-        short(max),
-        c.inertia_unit(),
-        short(mean),
-        short(findings.inertia.flywheel)
+        format!("{min} to {max} {unit}, mean {mean}, of which flywheel and drive train {flywheel}"),
     );
-    if let Some([min, mean, max]) = findings.inertia.laden {
-        let _ = writeln!(
-            text,
-            "{} over the time of the motion, with payloads and carriages: {} to {} {}, mean {}",
-            c.inertia(),
-            short(min),
-            short(max),
-            c.inertia_unit(),
-            short(mean)
+    if let Some(laden) = findings.inertia.laden {
+        let [min, mean, max] = laden.map(short);
+        answer.fact(
+            format!("{} with payloads", c.inertia()),
+            format!(
+                "{min} to {max} {unit}, mean {mean}, over the time of the motion, with carriages"
+            ),
         );
     }
-    let _ = writeln!(
-        text,
-        "mass of the links: {} kg",
-        short(findings.inertia.mass)
-    );
-}
-
-/// What is violated, or else what was checked.
-fn verdict(findings: &Findings) -> String {
-    let violations = findings.violations();
-    if violations.is_empty() {
-        return format!(
-            "\nevery check is satisfied: {}; `jred size` judges drives\n",
-            findings.checked().join(", ")
-        );
-    }
-    let mut text = String::new();
-    for violation in violations {
-        let _ = writeln!(text, "\nviolated: {violation}");
-    }
-    text
+    let mass = short(findings.inertia.mass);
+    answer.fact("mass of the links", format!("{mass} kg"));
 }
 
 /// Travels of the links, transmission, branch.
-fn write_motion(findings: &Findings, text: &mut String) {
+fn motions(findings: &Findings, answer: &mut Answer) {
     let c = findings.coordinate;
     for travel in &findings.travels {
-        let _ = writeln!(text, "{}", travel.sentence(c));
+        answer.fact("travel", travel.sentence(c));
     }
     if let Some(transmission) = &findings.transmission {
         let verdict = if transmission.index < NEAR_DEAD_POINT {
@@ -178,27 +179,29 @@ fn write_motion(findings: &Findings, text: &mut String) {
         let angle = transmission.angle.map_or_else(String::new, |angle| {
             format!("a transmission angle of {} deg; ", short(angle))
         });
-        let _ = writeln!(
-            text,
-            "smallest transmission index: {} {} ({angle}{}): {verdict}",
-            short(transmission.index),
-            transmission.place(c),
-            transmission.links.join(", ")
+        answer.fact(
+            "transmission index",
+            format!(
+                "at least {} {} ({angle}{}): {verdict}",
+                short(transmission.index),
+                transmission.place(c),
+                transmission.links.join(", ")
+            ),
         );
         let branch = if transmission.branch_kept {
             "the same over the whole range"
         } else {
             "CHANGES"
         };
-        let _ = writeln!(text, "branch: {branch}");
+        answer.fact("branch", branch);
     }
     for fact in &findings.facts {
-        let _ = writeln!(text, "{}: {}", fact.label, fact.text);
+        answer.fact(&*fact.label, &*fact.text);
     }
 }
 
 /// The motion, segment by segment, with the characteristic values of VDI 2143.
-fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String) {
+fn segments(motion: &MotionFindings, drive: Coordinate, answer: &mut Answer) {
     let rate = |coordinate: Coordinate, value: f64, order: &str| {
         let unit = match coordinate {
             Coordinate::Angle => "rad",
@@ -217,15 +220,14 @@ fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String)
     } else {
         format!("goes on by {advance} {}", drive.unit())
     };
-    let _ = writeln!(
-        text,
+    answer.heading(format!(
         "motion{of}: {} s{}; the drive link {way}, at up to {} and {}",
         short(motion.duration),
         if motion.cyclic { ", repeated" } else { "" },
         rate(drive, motion.speed, ""),
         rate(drive, motion.acceleration, "^2")
-    );
-    let mut table = text_table(&[
+    ));
+    let columns = [
         "segment",
         "duration",
         "distance",
@@ -236,8 +238,8 @@ fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String)
         "C_a",
         "C_j",
         "C_Mdyn",
-    ]);
-    for (k, segment) in motion.segments.iter().enumerate() {
+    ];
+    let rows = motion.segments.iter().enumerate().map(|(k, segment)| {
         let c = segment.coordinate();
         let mut cells = vec![
             (k + 1).to_string(),
@@ -255,37 +257,94 @@ fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String)
                 cells.extend(known);
             }
         }
-        table.add_row(cells);
-    }
-    let _ = writeln!(text, "{table}");
+        cells.into_iter().map(Cell::from).collect()
+    });
+    answer.table(Reading {
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+        whole: columns.len(),
+    });
 }
 
-/// Everything, with every digit.
-pub fn json(findings: &Findings) -> Value {
-    let range = match findings.domain {
-        Domain::Turn => json!("turn"),
-        Domain::Stroke { from, to } => json!([from, to]),
-    };
-    json!({
-        "schema": "jred-check/1",
-        "title": findings.title,
-        "mechanism": findings.kind,
-        "drive coordinate": match findings.coordinate { Coordinate::Angle => "angle [rad]", Coordinate::Length => "displacement [m]" },
-        "degrees of freedom": findings.freedoms(),
-        "links": findings.links,
-        "constraints": findings.constraints(),
-        "joints": findings.joints,
-        "range": range,
-        "closure": findings.closure,
-        "travels": findings.travels,
-        "transmission": findings.transmission,
-        "inertia": findings.inertia,
-        "agreement": findings.agreement,
-        "motion": findings.motion,
-        "facts": findings.facts,
-        "notes": findings.notes,
-        "violations": findings.violations(),
-    })
+/// The JSON of `jred check` (SI units).
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct CheckData<'a> {
+    /// Kind of the mechanism.
+    mechanism: &'static str,
+    /// Coordinate of the drive link.
+    #[serde(rename = "drive coordinate")]
+    coordinate: &'static str,
+    /// Degrees of freedom: 3·links − constraints.
+    #[serde(rename = "degrees of freedom")]
+    freedoms: i64,
+    /// Number of moving links.
+    links: usize,
+    /// Number of constraints.
+    constraints: usize,
+    /// The joints.
+    joints: &'a [JointFinding],
+    /// Range of the drive link.
+    range: Range,
+    /// Difference of the links' speeds after a turn, as a share; none for a stroke.
+    closure: Option<f64>,
+    /// Travels of the links.
+    travels: &'a [Travel],
+    /// The smallest transmission index; none without a group of links.
+    transmission: Option<&'a Transmission>,
+    /// Inertia.
+    inertia: &'a Inertia,
+    /// Agreement of independent methods.
+    agreement: &'a Agreement,
+    /// The motion; none without one.
+    motion: Option<&'a MotionFindings>,
+    /// Figures of its kind.
+    facts: &'a [Fact],
+    /// Remarks.
+    notes: &'a [String],
+    /// Violated checks; empty: every check is satisfied.
+    violations: Vec<String>,
+}
+
+impl Data for CheckData<'_> {
+    const FORM: &'static str = "jred-check/1";
+}
+
+/// The form of the JSON.
+pub(crate) type Form = CheckData<'static>;
+
+/// A whole turn, or a stroke between two positions (rad, or m).
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+enum Range {
+    Turn(#[schemars(extend("const" = "turn"))] &'static str),
+    Stroke([f64; 2]),
+}
+
+fn data(findings: &Findings) -> CheckData<'_> {
+    CheckData {
+        mechanism: findings.kind,
+        coordinate: match findings.coordinate {
+            Coordinate::Angle => "angle [rad]",
+            Coordinate::Length => "displacement [m]",
+        },
+        freedoms: findings.freedoms(),
+        links: findings.links,
+        constraints: findings.constraints(),
+        joints: &findings.joints,
+        range: match findings.domain {
+            Domain::Turn => Range::Turn("turn"),
+            Domain::Stroke { from, to } => Range::Stroke([from, to]),
+        },
+        closure: findings.closure,
+        travels: &findings.travels,
+        transmission: findings.transmission.as_ref(),
+        inertia: &findings.inertia,
+        agreement: &findings.agreement,
+        motion: findings.motion.as_ref(),
+        facts: &findings.facts,
+        notes: &findings.notes,
+        violations: findings.violations(),
+    }
 }
 
 /// A small share, such as `1.6e-16`.

@@ -1,6 +1,7 @@
 //! What a motion made anew keeps of the file's, and what it does not.
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, ToolCoordinate};
@@ -67,7 +68,7 @@ pub(crate) fn all_lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str,
 }
 
 /// What is not kept, in sentences, where no options are given for the limits of segments.
-pub(crate) fn lost(file: &MachineFile, chain: &Chain) -> Value {
+pub(crate) fn lost(file: &MachineFile, chain: &Chain) -> Vec<String> {
     let all = all_lines(file, chain).into_iter();
     let lost = all.filter(|(name, _)| ["not kept", "limits"].contains(name));
     lost.map(|(_, says)| says).collect()
@@ -135,17 +136,30 @@ pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<Str
     ))
 }
 
+/// A part of the file's motion that is kept.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct KeptPart {
+    /// Number of the segment, from 1.
+    segment: usize,
+    /// Prescribed speed (rad/s, or m/s).
+    speed: f64,
+    /// Position at its start (rad, or m).
+    from: f64,
+    /// Position at its end (rad, or m).
+    to: f64,
+    /// Duration (s).
+    time: f64,
+}
+
 /// The kept parts.
-pub(crate) fn json(file: &MachineFile, chain: &Chain) -> Value {
+pub(crate) fn parts(file: &MachineFile, chain: &Chain) -> Vec<KeptPart> {
     let axis = file.axis();
-    let one = |kept: &Kept| {
-        json!({
-            "segment": kept.segment + 1,
-            "speed": kept.speed,
-            "from": axis.position(kept.from),
-            "to": axis.position(kept.to),
-            "time": kept.duration,
-        })
+    let one = |kept: &Kept| KeptPart {
+        segment: kept.segment + 1,
+        speed: kept.speed,
+        from: axis.position(kept.from),
+        to: axis.position(kept.to),
+        time: kept.duration,
     };
     chain.kept().map(one).collect()
 }

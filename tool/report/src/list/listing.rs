@@ -9,7 +9,6 @@ mod json;
 mod text;
 
 pub use asked::Asked;
-pub use brief::Screen;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;

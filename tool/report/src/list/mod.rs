@@ -2,8 +2,7 @@
 
 pub mod alternatives;
 pub mod balance;
-pub mod bus_json;
-pub mod bus_text;
+pub mod bus;
 pub mod contact;
 mod driven;
 pub mod fastest;
@@ -14,10 +13,12 @@ pub mod listing;
 mod marks;
 pub mod plan;
 pub mod ratio;
+pub mod reduction;
 pub mod retime;
 pub mod rule_list;
 pub mod sensitivity;
 pub mod simulation;
+pub mod split;
 pub mod steady;
 pub mod suited;
 pub mod tolerance;

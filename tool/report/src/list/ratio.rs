@@ -8,7 +8,9 @@ use jred_sizing::select::ratio::{Gear, Range};
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::ratio::{MotorRatio, Ratios};
 
-const COLUMNS: [&str; 14] = [
+/// Name and version of the form in JSON, and its columns.
+pub(crate) const FORM: &str = "jred-ratio/1";
+pub(crate) const COLUMNS: [&str; 14] = [
     "motor",
     "rated power [W]",
     "alpha [W/s]",
@@ -84,7 +86,7 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
             ));
     }
     Sheet {
-        schema: "jred-ratio/1",
+        schema: FORM,
         title: format!(
             "{}: gear ratio for every motor in the catalogue, with {gear}",
             study.file.title
@@ -97,6 +99,7 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
         }),
         rows: rows.iter().map(cells).collect(),
         notes,
+        lead: 0,
     }
 }
 

@@ -1,12 +1,14 @@
-//! The gentlest motion beside the laws, for reading, as CSV and as JSON.
+//! The motion of least effort, compared with the motion laws.
 
 use std::fmt::Write as _;
 
-use serde_json::{Map, Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::contact::of_retime;
-use crate::list::kept;
-use crate::table::output::Format;
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::list::kept::{self, KeptPart};
 use crate::table::sheet::Reading;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
@@ -14,21 +16,18 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::number::rounding::{percent, short};
 use jred_machine::units::Vocabulary;
 use jred_motion::contact::Broken;
-use jred_motion::gentlest::{Gentle, Optimum, Reason, Travel};
+use jred_motion::gentlest::{Gentle, Optimum, Reason};
 use jred_motion::retime::{Figures, Goal, LAWS, Request, Retimed};
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
-
-/// Name and version of the form in JSON.
-const SCHEMA: &str = "jred-retime/1";
 
 /// Figures that differ by less are shown as the same.
 const SAME: f64 = 5e-4;
 
 /// What is shown.
 #[derive(Debug)]
-pub struct Shown<'a> {
+pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Name of the drive; `None`: the torque is that at the input of the drive train.
@@ -42,19 +41,10 @@ pub struct Shown<'a> {
     /// The rules of the drive in the gentlest motion; none without a drive.
     pub checks: &'a [Check],
     /// Which files were written.
-    pub written: String,
+    pub written: Vec<String>,
 }
 
-/// The result in one of the formats; CSV is the motion alone.
-pub fn write(shown: &Shown, format: Format) -> String {
-    match format {
-        Format::Csv => shown.retimed.trace.of_axis(&shown.file.axis()).profile(),
-        Format::Table => text(shown),
-        Format::Json => format!("{:#}\n", json(shown)),
-    }
-}
-
-fn words(shown: &Shown) -> &'static Vocabulary {
+fn words(shown: &View) -> &'static Vocabulary {
     input_kind(shown.file).vocabulary()
 }
 
@@ -83,12 +73,12 @@ fn rows(retimed: &Retimed) -> Vec<(&'static str, &Figures)> {
 }
 
 /// Column of the copper loss, and of the share of the drive's limits, where they are known.
-fn columns(shown: &Shown) -> [bool; 2] {
+fn columns(shown: &View) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
 /// What the motion is, with which drive, and how its moves begin and end.
-pub(crate) fn subject(shown: &Shown) -> String {
+pub(crate) fn subject(shown: &View) -> String {
     let words = words(shown);
     let drive = shown.drive.as_ref().map_or_else(
         || "at the input of the drive train".to_owned(),
@@ -107,11 +97,15 @@ pub(crate) fn subject(shown: &Shown) -> String {
     )
 }
 
-/// As the terminal shows it.
-pub(crate) fn text(shown: &Shown) -> String {
+/// The result: its figure first, then the motions compared, then each move.
+pub fn answer(shown: &View) -> Answer<'static> {
     let words = words(shown);
-    let Shown { retimed, .. } = shown;
-    let mut text = format!("{}: {}\n\n", shown.file.title, subject(shown));
+    let View { retimed, .. } = shown;
+    let title = format!("{}: {}", shown.file.title, subject(shown));
+    let mut answer = Answer::new(shown.file.title.clone(), &data(shown)).titled(title);
+    answer.csv(retimed.trace.of_axis(&shown.file.axis()).profile());
+    describe(&mut answer, shown, words);
+    answer.heading("the motions compared");
     let [copper, limits] = columns(shown);
     let mut heads = vec![
         "motion".to_owned(),
@@ -146,20 +140,19 @@ pub(crate) fn text(shown: &Shown) -> String {
             cells
         })
         .collect();
-    text += &Reading::table(&heads, &rows, 1);
-    text.push('\n');
-    describe(&mut text, shown, words);
-    text += &shown.written;
-    text
+    answer.table(Reading {
+        columns: heads,
+        rows,
+        whole: 1,
+    });
+    for line in &shown.written {
+        answer.sentence(line);
+    }
+    answer
 }
 
-/// A line: its name, and what it says.
-fn line(text: &mut String, name: &str, says: &str) {
-    let _ = writeln!(text, "  {name:<12} {says}");
-}
-
-fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
-    let Shown {
+fn describe(answer: &mut Answer, shown: &View, words: &Vocabulary) {
+    let View {
         request, retimed, ..
     } = shown;
     let best = retimed.best.of(request.goal);
@@ -182,17 +175,14 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
             law.name
         );
     }
-    line(text, "least", &says);
-    line(text, "optimum", &optimum(shown, words));
+    answer.fact("least", says);
+    answer.fact("optimum", optimum(shown, words));
     for (name, says) in kept::all_lines(shown.file, &retimed.chain) {
-        line(text, name, &says);
+        answer.fact(name, says);
     }
     for (k, gentle) in retimed.moves.iter().enumerate() {
-        line(
-            text,
-            &format!("move {}", k + 1),
-            &one_move(shown, gentle, request.goal),
-        );
+        let says = one_move(shown, gentle, request.goal);
+        answer.fact(format!("move {}", k + 1), says);
     }
     for (name, [own, best]) in &retimed.standing {
         let says = format!(
@@ -200,10 +190,10 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
             short(*best),
             short(*own)
         );
-        line(text, "warning", &says);
+        answer.warning(says);
     }
     if let Some(broken) = shown.broken {
-        line(text, "warning", &of_retime(broken));
+        answer.warning(of_retime(broken));
     }
     for check in violated(shown) {
         let whose = if check.id.follows_motion() {
@@ -212,12 +202,12 @@ fn describe(text: &mut String, shown: &Shown, words: &Vocabulary) {
             "drive, whatever the motion"
         };
         let says = format!("{}: `jred size` refuses the {whose}", check.sentence());
-        line(text, "not kept", &says);
+        answer.fact("not kept", says);
     }
 }
 
 /// The rules that the motion violates.
-fn violated<'a>(shown: &Shown<'a>) -> impl Iterator<Item = &'a Check> {
+fn violated<'a>(shown: &'a View) -> impl Iterator<Item = &'a Check> {
     let all = shown.checks.iter();
     all.filter(|check| check.verdict == Verdict::Fail)
 }
@@ -232,7 +222,7 @@ fn less(value: f64, than: f64) -> String {
     format!("{} {side} than", percent(share.abs()))
 }
 
-fn optimum(shown: &Shown, words: &Vocabulary) -> String {
+fn optimum(shown: &View, words: &Vocabulary) -> String {
     let retimed = shown.retimed;
     let goal = shown.request.goal;
     let best = retimed.best.of(goal);
@@ -288,7 +278,7 @@ const fn why(reason: Reason) -> &'static str {
     }
 }
 
-fn one_move(shown: &Shown, gentle: &Gentle, goal: Goal) -> String {
+fn one_move(shown: &View, gentle: &Gentle, goal: Goal) -> String {
     let axis = shown.file.axis();
     let travel = &gentle.travel;
     let mut says = format!(
@@ -352,79 +342,162 @@ fn percent_fine(share: f64) -> String {
     format!("{} %", short((share * 1e4).round() / 100.0))
 }
 
-fn figures(figures: &Figures) -> Value {
-    let known = |share: f64| Some(share).filter(|share| share.is_finite());
-    json!({
-        "rms_torque": figures.rms,
-        "peak_torque": figures.peak,
-        "peak_speed": figures.speed,
-        "work_drawn": figures.drawn,
-        "copper_loss": figures.copper,
-        "share_of_limits": known(figures.used),
-        "share_of_s1": known(figures.rms_used),
-        "share_of_largest_speed": known(figures.speed_used),
-    })
+/// The JSON of `jred retime` (SI units).
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct RetimeData<'a> {
+    /// Name of the drive; none: torque and speed are those at the input of the drive train.
+    drive: Option<&'a str>,
+    /// The quantity that is least: rms, energy or peak.
+    objective: &'static str,
+    /// The motion of the file, the motion laws, and the motion of least effort, which is the last.
+    motions: Vec<MotionFigures>,
+    /// The least value: RMS or peak torque (N·m, or N), or energy (J).
+    least: f64,
+    /// A proven lower bound of that value.
+    bound: Option<f64>,
+    /// Whether no other motion of these moves is better.
+    global: bool,
+    /// Why the optimum is not proven to be global.
+    local_because: Option<&'static str>,
+    /// A one-sided contact that the motion loses.
+    contact_lost: Option<String>,
+    /// Rules of sizing that the motion violates with this drive.
+    rules_not_kept: Vec<&'a Check>,
+    /// Unit of positions: rad or m.
+    unit: &'static str,
+    /// The moves.
+    moves: Vec<MoveData>,
+    /// Parts of the file's motion that are kept.
+    kept: Vec<KeptPart>,
+    /// Parts and limits of the file's motion that are not kept.
+    not_kept: Vec<String>,
+    /// Nodes of the motion: time (s), position, speed, acceleration before and after the node.
+    nodes: Vec<[f64; 5]>,
 }
 
-fn json(shown: &Shown) -> Value {
-    let Shown {
-        request, retimed, ..
-    } = shown;
-    let mut map = Map::new();
-    map.insert("schema".into(), SCHEMA.into());
-    map.insert("title".into(), shown.file.title.clone().into());
-    map.insert("drive".into(), json!(shown.drive));
-    map.insert("objective".into(), request.goal.word().into());
-    let motions: Vec<Value> = rows(retimed)
-        .into_iter()
-        .map(|(name, own)| {
-            let mut own = figures(own);
-            own["motion"] = name.into();
-            own
-        })
-        .collect();
-    map.insert("motions".into(), motions.into());
-    map.insert("least".into(), retimed.best.of(request.goal).into());
-    map.insert("bound".into(), json!(retimed.bound));
-    let (global, reason) = match retimed.optimum() {
+impl Data for RetimeData<'_> {
+    const FORM: &'static str = "jred-retime/1";
+}
+
+/// The form of the JSON.
+pub(crate) type Form = RetimeData<'static>;
+
+/// Figures of a motion (SI units).
+#[derive(Serialize, JsonSchema)]
+struct MotionFigures {
+    /// Of the motor (N·m, or N).
+    rms_torque: f64,
+    /// Of the motor (N·m, or N).
+    peak_torque: f64,
+    /// Of the motor (rad/s, or m/s).
+    peak_speed: f64,
+    /// Mechanical work that the motor delivers while driving (J).
+    work_drawn: f64,
+    /// Loss in the winding (J).
+    copper_loss: Option<f64>,
+    /// Largest share of the torque limit at the same speed.
+    share_of_limits: Option<f64>,
+    /// RMS torque as a share of the S1 torque.
+    share_of_s1: Option<f64>,
+    /// Largest speed as a share of the maximum speed.
+    share_of_largest_speed: Option<f64>,
+    /// Name of the motion.
+    motion: &'static str,
+}
+
+impl MotionFigures {
+    fn of((motion, figures): (&'static str, &Figures)) -> Self {
+        let known = |share: f64| Some(share).filter(|share| share.is_finite());
+        Self {
+            rms_torque: figures.rms,
+            peak_torque: figures.peak,
+            peak_speed: figures.speed,
+            work_drawn: figures.drawn,
+            copper_loss: figures.copper,
+            share_of_limits: known(figures.used),
+            share_of_s1: known(figures.rms_used),
+            share_of_largest_speed: known(figures.speed_used),
+            motion,
+        }
+    }
+}
+
+/// A move (s; rad or m).
+#[derive(Serialize, JsonSchema)]
+struct MoveData {
+    /// Position at its start.
+    start: f64,
+    /// Signed distance.
+    distance: f64,
+    /// The motion law that it keeps, if any.
+    law: Option<&'static str>,
+    /// Its time.
+    duration: f64,
+    /// Time in motion; the rest it waits.
+    moving: f64,
+    /// Where it waits.
+    waits_at: f64,
+    /// Its part of the objective: integral of the squared torque (N²·m²·s), or energy (J).
+    cost: Option<f64>,
+    /// A proven lower bound of the cost.
+    bound: Option<f64>,
+    /// Change of the cost per second of duration.
+    cost_per_second: Option<f64>,
+    /// Estimated relative error of the cost by discretisation.
+    discretisation: f64,
+    /// Elements of the discretisation.
+    elements: usize,
+}
+
+fn data<'a>(shown: &'a View) -> RetimeData<'a> {
+    let View {
+        request,
+        retimed,
+        file,
+        ..
+    } = *shown;
+    let (global, local_because) = match retimed.optimum() {
         Optimum::Global => (true, None),
         Optimum::Local(reason) => (false, Some(why(reason))),
     };
-    map.insert("global".into(), global.into());
-    map.insert("local_because".into(), json!(reason));
-    map.insert("contact_lost".into(), json!(shown.broken.map(of_retime)));
-    let violated: Vec<&Check> = violated(shown).collect();
-    map.insert("rules_not_kept".into(), json!(violated));
-    let axis = shown.file.axis();
-    map.insert("unit".into(), axis.coordinate.per().into());
-    // The mean of a high power has no unit that says anything.
+    let axis = file.axis();
+    // The mean of a high power has no unit of use.
     let known = |figure: f64| Some(figure).filter(|_| request.goal != Goal::Peak);
     let moves = retimed.moves.iter().map(|gentle| {
-        let Travel {
-            start, distance, ..
-        } = gentle.travel;
-        let [start, end] = [start, start + distance].map(|phi| axis.position(phi));
-        json!({
-            "start": start,
-            "distance": end - start,
-            "law": gentle.law,
-            "duration": gentle.travel.duration,
-            "moving": gentle.moving,
-            "waits_at": axis.position(gentle.waits_at),
-            "cost": known(gentle.cost),
-            "bound": gentle.bound,
-            "cost_per_second": known(gentle.per_second),
-            "discretisation": gentle.discretisation,
-            "elements": gentle.elements,
-        })
+        let travel = &gentle.travel;
+        let ends = [travel.start, travel.start + travel.distance];
+        let [start, end] = ends.map(|phi| axis.position(phi));
+        MoveData {
+            start,
+            distance: end - start,
+            law: gentle.law,
+            duration: travel.duration,
+            moving: gentle.moving,
+            waits_at: axis.position(gentle.waits_at),
+            cost: known(gentle.cost),
+            bound: gentle.bound,
+            cost_per_second: known(gentle.per_second),
+            discretisation: gentle.discretisation,
+            elements: gentle.elements,
+        }
     });
-    map.insert("moves".into(), moves.collect());
-    map.insert("kept".into(), kept::json(shown.file, &retimed.chain));
-    map.insert("not_kept".into(), kept::lost(shown.file, &retimed.chain));
     let trace = retimed.trace.of_axis(&axis);
     let nodes = trace.nodes().iter();
-    let nodes =
-        nodes.map(|node| json!([node.t, node.phi, node.omega, node.alpha[0], node.alpha[1]]));
-    map.insert("nodes".into(), nodes.collect());
-    Value::Object(map)
+    let nodes = nodes.map(|node| [node.t, node.phi, node.omega, node.alpha[0], node.alpha[1]]);
+    RetimeData {
+        drive: shown.drive.as_deref(),
+        objective: request.goal.word(),
+        motions: rows(retimed).into_iter().map(MotionFigures::of).collect(),
+        least: retimed.best.of(request.goal),
+        bound: retimed.bound,
+        global,
+        local_because,
+        contact_lost: shown.broken.map(of_retime),
+        rules_not_kept: violated(shown).collect(),
+        unit: axis.coordinate.per(),
+        moves: moves.collect(),
+        kept: kept::parts(file, &retimed.chain),
+        not_kept: kept::lost(file, &retimed.chain),
+        nodes: nodes.collect(),
+    }
 }

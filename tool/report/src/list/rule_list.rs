@@ -1,76 +1,55 @@
-//! Rule sets with their sources, as tables, CSV or JSON.
+//! Rule sets with their sources.
 
-use miette::Result;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use crate::table::output::{Format, text_table};
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::table::sheet::Reading;
 use jred_machine::model::rule::{Rule, Sense};
-use jred_machine::model::rules::{Moves, RuleSet, shown};
+use jred_machine::model::rules::{Choices, Moves, RuleSet, shown};
 use jred_machine::number::csv;
 use jred_machine::number::rounding::figure;
 use jred_machine::read;
-use jred_machine::text::file::Files;
+use jred_sizing::study::cell::Cell;
 
-/// The list of all sets, or one of them in full.
-///
-/// # Errors
-/// Unknown set, or an error in its file.
-pub fn show(word: Option<&str>, files: impl Files, format: Format) -> Result<String> {
-    let Some(word) = word else {
-        let sets = read::rule_set_names().filter_map(read::built_in_rules);
-        return Ok(list(&sets.collect::<Vec<_>>(), format));
+/// All built-in sets, each in a line.
+pub fn all() -> Answer<'static> {
+    let sets = read::rule_set_names().filter_map(read::built_in_rules);
+    let sets: Vec<RuleSet> = sets.collect();
+    let data = SetsData {
+        sets: sets.iter().map(set_data).collect(),
     };
-    let set = read::rule_set(word, files)?;
-    Ok(match format {
-        Format::Json => format!("{:#}\n", json(&set)),
-        Format::Csv => csv(&set),
-        Format::Table => {
-            let rows = lines(&set).into_iter().map(|line| line.cells().to_vec());
-            let choices = choice_words(&set)
-                .into_iter()
-                .map(|words| format!("{words}\n"));
-            format!(
-                "{}: {}\n{}\n{}",
-                set.name,
-                set.title,
-                table(&["rule", "key", "limit", "warning", "source"], rows),
-                choices.collect::<String>()
-            )
-        }
-    })
+    let mut answer = Answer::new("rule sets", &data);
+    let rows = sets.iter().map(|set| [set.name.clone(), set.title.clone()]);
+    answer.table(table(&["set", "description"], rows));
+    answer.sentence(
+        "`jred rules NAME` shows the limits of a set and their sources; choose a set with [rules] set = \"NAME\" or --rules NAME",
+    );
+    answer
 }
 
-fn table(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut table = text_table(header);
-    table.add_rows(rows);
-    table.to_string()
+/// One set in full: limits, sources, choices.
+pub fn answer(set: &RuleSet) -> Answer<'static> {
+    let mut answer = Answer::new(format!("{}: {}", set.name, set.title), &set_data(set));
+    answer.csv(csv(set));
+    let rows = lines(set).into_iter().map(|line| line.cells());
+    answer.table(table(&["rule", "key", "limit", "warning", "source"], rows));
+    for choice in choice_words(set) {
+        answer.sentence(choice);
+    }
+    answer
 }
 
-fn list(sets: &[RuleSet], format: Format) -> String {
-    match format {
-        Format::Json => {
-            let sets: Vec<Value> = sets.iter().map(json).collect();
-            format!("{:#}\n", json!({ "rule sets": sets }))
-        }
-        Format::Csv => {
-            let rows = sets
-                .iter()
-                .map(|set| [set.name.as_str(), set.title.as_str()]);
-            csv::row(["set", "title"]) + &csv::rows(rows)
-        }
-        Format::Table => {
-            let rows = sets
-                .iter()
-                .map(|set| vec![set.name.clone(), set.title.clone()]);
-            format!(
-                "{}\n`jred rules NAME` shows the limits of a set and their sources; choose a set with [rules] set = \"NAME\" or --rules NAME\n",
-                table(&["set", "description"], rows)
-            )
-        }
+fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> Reading {
+    Reading {
+        columns: header.map(str::to_owned).to_vec(),
+        rows: rows.map(|row| row.map(Cell::Text).to_vec()).collect(),
+        whole: N,
     }
 }
 
-/// Limits are numbers with a unit; what is switched off has none, and what depends on the moves neither.
+/// Limits are numbers with a unit; a rule that is switched off has no limit, nor one whose limit depends on the moves.
 fn csv(set: &RuleSet) -> String {
     let header = [
         "rule", "key", "limit", "warning", "unit", "sense", "state", "source",
@@ -194,29 +173,81 @@ pub fn choice_words(set: &RuleSet) -> Vec<String> {
     words
 }
 
-/// The set as JSON: name, title, choices, and every rule's limits with their source.
-pub fn json(set: &RuleSet) -> Value {
-    let rules: Vec<Value> = Rule::ALL
-        .into_iter()
-        .filter(|rule| set.shows(*rule))
-        .map(|rule| {
-            let limit = set.limit(rule);
-            json!({
-                "id": rule,
-                "rule": rule.name(),
-                "key": rule.key(),
-                "off": set.is_off(rule),
-                "limit": limit.fail,
-                "warning": limit.warn,
-                "source": set.source(rule),
-            })
-        })
-        .collect();
-    json!({
-        "name": set.name,
-        "title": set.title,
-        "changed in the machine file": set.is_changed(),
-        "choices": set.choices,
-        "rules": rules,
-    })
+/// The JSON of `jred rules`.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct SetsData<'a> {
+    /// The built-in sets.
+    #[serde(rename = "rule sets")]
+    sets: Vec<SetData<'a>>,
+}
+
+impl Data for SetsData<'_> {
+    const FORM: &'static str = "jred-rule-sets/1";
+}
+
+/// The form of the JSON of all sets.
+pub(crate) type Sets = SetsData<'static>;
+
+/// A rule set: the JSON of `jred rules NAME`.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct SetData<'a> {
+    /// Its name.
+    name: &'a str,
+    /// Its description.
+    description: &'a str,
+    /// Whether the machine file changes it.
+    #[serde(rename = "changed in the machine file")]
+    is_changed: bool,
+    /// Choices other than limits.
+    choices: &'a Choices,
+    /// The rules.
+    rules: Vec<RuleData<'a>>,
+}
+
+impl Data for SetData<'_> {
+    const FORM: &'static str = "jred-rules/1";
+}
+
+/// The form of the JSON of one set.
+pub(crate) type Set = SetData<'static>;
+
+#[derive(Serialize, JsonSchema)]
+struct RuleData<'a> {
+    /// The rule.
+    id: Rule,
+    /// Its name.
+    rule: &'static str,
+    /// Its key in [rules].
+    key: &'static str,
+    /// Whether it is switched off.
+    off: bool,
+    /// The limit beyond which it is violated: a share, or a ratio.
+    limit: Option<f64>,
+    /// The limit beyond which there is a warning.
+    warning: Option<f64>,
+    /// Source of the limit.
+    source: &'a str,
+}
+
+fn set_data(set: &RuleSet) -> SetData<'_> {
+    let rules = Rule::ALL.into_iter().filter(|rule| set.shows(*rule));
+    let rules = rules.map(|rule| {
+        let limit = set.limit(rule);
+        RuleData {
+            id: rule,
+            rule: rule.name(),
+            key: rule.key(),
+            off: set.is_off(rule),
+            limit: limit.fail,
+            warning: limit.warn,
+            source: set.source(rule),
+        }
+    });
+    SetData {
+        name: &set.name,
+        description: &set.title,
+        is_changed: set.is_changed(),
+        choices: &set.choices,
+        rules: rules.collect(),
+    }
 }

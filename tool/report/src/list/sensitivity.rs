@@ -9,26 +9,28 @@ use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
 use jred_sizing::study::sensitivity::{Dependence, Reach, Room, Sensitivity};
 
+/// Name and version of the form in JSON, and its columns; one more for each rule.
+pub(crate) const FORM: &str = "jred-sensitivity/1";
+pub(crate) const COLUMNS: [&str; 10] = [
+    "quantity",
+    "value",
+    "unit",
+    "affects most",
+    "slope [% of limit per +1 %]",
+    "uncertainty [% of limit per +1 %]",
+    "down to [%]",
+    "then down",
+    "up to [%]",
+    "then up",
+];
+
 /// An uncertainty below this share of a slope does not show in three digits.
 const LAST_DIGIT: f64 = 0.005;
 
 /// Every quantity with the slopes of the rules and the room until one is violated.
 pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach) -> Sheet {
     let words = one.drive().motor.kind.vocabulary();
-    let mut columns: Vec<String> = [
-        "quantity",
-        "value",
-        "unit",
-        "affects most",
-        "slope [% of limit per +1 %]",
-        "uncertainty [% of limit per +1 %]",
-        "down to [%]",
-        "then down",
-        "up to [%]",
-        "then up",
-    ]
-    .map(str::to_owned)
-    .to_vec();
+    let mut columns: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
     columns.extend(
         found
             .shares
@@ -61,7 +63,7 @@ pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach
         .map(|(rule, used)| format!("{} {:.1} %", rule.named(words), used * 100.0))
         .collect();
     Sheet {
-        schema: "jred-sensitivity/1",
+        schema: FORM,
         title: format!(
             "{}: {}; of the limits: {}",
             study.nominal.title,
@@ -72,6 +74,8 @@ pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach
         rows: found.dependences.iter().map(row).collect(),
         reading: Some(reading(study, found, words)),
         notes: notes(study, found, reach, words),
+        // The first violation.
+        lead: 1,
     }
 }
 

@@ -1,46 +1,39 @@
-//! A simulated motion, for reading and as JSON.
+//! A simulated motion.
 
-mod json;
+mod data;
 mod sentences;
 
-use serde_json::Map;
+use std::borrow::Cow;
 
-use crate::table::output::{Format, json_parts, parts};
+use crate::answer::Answer;
 use jred_machine::analysis::simulate::{Simulated, Stop, Together};
 use jred_machine::model::simulation::Simulation;
 use jred_motion::driven::Loads;
 
+pub(crate) use data::Form;
+
 /// A simulated motion.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown<'s> {
+pub struct View<'s> {
     /// The machines on the motor's shaft.
     pub machines: &'s Together<'s>,
-    /// What was asked for.
+    /// The request.
     pub simulation: &'s Simulation,
     /// The motion.
     pub found: &'s Simulated,
     /// Stops at instants over a cycle.
     pub stops: Option<&'s [Stop]>,
-    /// The drive of the catalogue: its name, and what it bears.
+    /// The drive of the catalogue: its name, and its loads.
     pub drive: Option<(&'s str, &'s Loads)>,
 }
 
-impl<'s> Shown<'s> {
-    /// The motion in one of the formats, part by part; CSV is the rows alone.
-    pub fn write(&self, format: Format) -> Box<dyn Iterator<Item = String> + 's> {
-        let columns = &self.found.columns;
-        match format {
-            Format::Csv => parts(columns, format, ""),
-            Format::Table => {
-                let title = std::iter::once(self.title()).chain(self.sentences());
-                parts(columns, format, &title.collect::<Vec<_>>().join("\n"))
-            }
-            Format::Json => {
-                let mut before = Map::new();
-                before.insert("title".into(), self.title().into());
-                Box::new(json_parts(columns, before, self.figures()))
-            }
-        }
+impl<'s> View<'s> {
+    /// Its events, one a line, and the course.
+    pub fn answer(&self) -> Answer<'s> {
+        let mut answer = Answer::new(self.title(), &self.data());
+        self.sentences(&mut answer);
+        answer.course(Cow::Borrowed(&self.found.columns));
+        answer
     }
 
     fn kind(&self) -> &'static str {
@@ -59,11 +52,6 @@ impl<'s> Shown<'s> {
         );
         let beside = self.machines.beside_in_words();
         format!("{} with {motor}{beside}", self.kind())
-    }
-
-    /// A title, and below it what happened.
-    pub(crate) fn summary(&self) -> String {
-        [self.title(), self.sentences().join("\n")].join("\n\n")
     }
 
     fn title(&self) -> String {

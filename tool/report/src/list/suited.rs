@@ -84,8 +84,8 @@ pub fn json(file: &MachineFile, suited: &Suited) -> Value {
     // With the motion of the file all is kept.
     let (kept, lost) = better.map_or((json!([]), json!([])), |_| {
         (
-            kept::json(file, &suited.chain),
-            kept::lost(file, &suited.chain),
+            json!(kept::parts(file, &suited.chain)),
+            json!(kept::lost(file, &suited.chain)),
         )
     });
     json!({

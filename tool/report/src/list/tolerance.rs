@@ -8,7 +8,9 @@ use jred_sizing::study::cell::Cell;
 use jred_sizing::study::tolerance::Samples;
 use jred_sizing::study::tolerance::summary::{Probability, Summary, quantile};
 
-const COLUMNS: [&str; 9] = [
+/// Name and version of the form in JSON, and its columns.
+pub(crate) const FORM: &str = "jred-tolerance/1";
+pub(crate) const COLUMNS: [&str; 9] = [
     "rule",
     "machines that hold it [%]",
     "surely above [%]",
@@ -112,7 +114,7 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         notes.push(format!("not checked, data missing: {}", unknown.join(", ")));
     }
     Sheet {
-        schema: "jred-tolerance/1",
+        schema: FORM,
         title: format!(
             "{}: {}, {}, seed {}",
             samples.study.nominal.title,
@@ -128,5 +130,6 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         columns: COLUMNS.map(str::to_owned).to_vec(),
         rows,
         notes,
+        lead: 0,
     }
 }

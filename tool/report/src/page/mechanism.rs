@@ -6,6 +6,7 @@ use jred::Error;
 use super::extract::{Table, largest_forces, tables};
 use super::figures;
 use super::section::{Figure, Section};
+use crate::answer::Block;
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::Axis;
@@ -31,7 +32,7 @@ struct Page<'a> {
     last: usize,
     symbol: &'static str,
     unit: &'static str,
-    check: String,
+    blocks: &'a [Block],
     sections: Vec<Section>,
     largest: Vec<[String; 3]>,
     tables: Vec<Table>,
@@ -94,8 +95,7 @@ pub fn mechanism_page(
     };
     let moving = drawing::moving(mechanism)?;
     let findings = Findings::of(file)?;
-    // The title stands above already.
-    let check = inspection::untitled(&findings);
+    let check = inspection::answer(&findings);
     let page = Page {
         title: &file.title,
         version: env!("CARGO_PKG_VERSION"),
@@ -106,7 +106,7 @@ pub fn mechanism_page(
         last: drawing::PICTURES - 1,
         symbol: source.coordinate.symbol(),
         unit: source.coordinate.unit(),
-        check: check.trim_end().to_owned(),
+        blocks: &check.blocks,
         sections: sections(&source)?,
         largest: largest_forces(&source)?,
         tables: tables(&source)?,

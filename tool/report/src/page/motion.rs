@@ -20,6 +20,7 @@ use jred_sizing::select::fit::input_kind;
 use super::figures::{dashed, line};
 use super::section::{Figure, MotionPage, Section, plot};
 use crate::list;
+use crate::table::output::Format;
 use crate::plot::{Axes, Axis, Series, lines};
 
 /// Instants of a motion that is drawn.
@@ -250,13 +251,13 @@ fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
-    let list::fastest::Answer {
+pub fn fastest_page(view: &list::fastest::View) -> Result<String, Error> {
+    let list::fastest::View {
         file,
         actuator,
         cycle,
         ..
-    } = *answer;
+    } = *view;
     let axis = file.axis();
     let mut planes = Vec::new();
     for made in &cycle.moves {
@@ -284,15 +285,15 @@ pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
         Section::new("Phase plane", planes),
         over_time(file, &[course], &limits),
     ];
-    sections.extend(answer.warmth.and_then(winding));
+    sections.extend(view.warmth.and_then(winding));
     Ok(MotionPage::page(
         file,
         "fastest motion",
         format!(
             "The motion in minimum time within the limits of the drive, {}",
-            answer.drive
+            view.drive
         ),
-        &answer.text(),
+        &view.answer(Format::Table, &[])?,
         sections,
     ))
 }
@@ -301,8 +302,8 @@ pub fn fastest_page(answer: &list::fastest::Answer) -> Result<String, Error> {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn retime_page(shown: &list::retime::Shown, own: &Motion) -> Result<String, Error> {
-    let list::retime::Shown {
+pub fn retime_page(shown: &list::retime::View, own: &Motion) -> Result<String, Error> {
+    let list::retime::View {
         file,
         request,
         retimed,
@@ -326,7 +327,7 @@ pub fn retime_page(shown: &list::retime::Shown, own: &Motion) -> Result<String, 
             "{}, beside the motion of the file and the best laws",
             list::retime::subject(shown)
         ),
-        &list::retime::text(shown),
+        &list::retime::answer(shown),
         vec![over_time(file, &courses, &[])],
     ))
 }
@@ -334,7 +335,7 @@ pub fn retime_page(shown: &list::retime::Shown, own: &Motion) -> Result<String, 
 /// The page about the steady cycle; `steady` has the positions that are drawn.
 pub fn steady_page(machines: &Together, steady: &Steady) -> String {
     let file = machines.first;
-    let own = steady.cycle.as_ref().ok();
+    let own = steady.cycle.as_ref();
     let wheel = steady.flywheel.as_ref().filter(|wheel| wheel.inertia > 0.0);
     let mut runs = Vec::new();
     if let Some(cycle) = own {
@@ -371,7 +372,7 @@ pub fn steady_page(machines: &Together, steady: &Steady) -> String {
             "The cycle that repeats under the motor{}",
             machines.beside_in_words()
         ),
-        &list::steady::text(machines, steady),
+        &list::steady::answer(machines, steady),
         sections,
     )
 }

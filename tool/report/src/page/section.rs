@@ -2,6 +2,7 @@
 
 use askama::Template;
 
+use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::{Column, Columns, Quantity};
@@ -50,28 +51,25 @@ pub(super) struct MotionPage<'a> {
     about: String,
     version: &'static str,
     file: &'a str,
-    /// What the terminal shows.
-    listing: String,
+    blocks: &'a [Block],
     sections: Vec<Section>,
 }
 
 impl<'a> MotionPage<'a> {
-    /// `listing` is what the terminal shows; its first line, the title, stands above already.
     pub(super) fn page(
         file: &'a MachineFile,
         subject: &'static str,
         about: impl Into<String>,
-        listing: &str,
+        answer: &'a Answer,
         sections: Vec<Section>,
     ) -> String {
-        let listing = listing.split_once("\n\n").map_or("", |(_, rest)| rest);
         let page = Self {
             title: &file.title,
             subject,
             about: capital(about.into()),
             version: env!("CARGO_PKG_VERSION"),
             file: &file.name,
-            listing: listing.trim_end().to_owned(),
+            blocks: &answer.blocks,
             sections,
         };
         // Rendering into a string fails only if a template is wrong, which the tests would show.

@@ -1,10 +1,12 @@
-//! A result of mixed cells, numbers and words, as a table, CSV or JSON.
+//! A result of mixed cells, numbers and words.
 
 use comfy_table::{ColumnConstraint, ContentArrangement};
 use serde_json::{Map, Value, json};
 
 use super::rows::csv_line;
-use crate::table::output::{Format, text_table};
+use crate::answer::screen::Screen;
+use crate::answer::Answer;
+use crate::table::output::text_table;
 use jred_machine::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
@@ -26,6 +28,8 @@ pub struct Sheet {
     pub reading: Option<Reading>,
     /// Notes and warnings: below a table, and in JSON.
     pub notes: Vec<String>,
+    /// The number of notes, from the first one, that are above the table.
+    pub lead: usize,
 }
 
 /// A table for reading.
@@ -45,18 +49,43 @@ const DIGITS: i32 = 3;
 impl Reading {
     /// As a table no wider than [`WIDEST`].
     pub fn table(columns: &[String], rows: &[Vec<Cell>], whole: usize) -> String {
-        let mut table = text_table(columns);
-        for row in rows {
-            table.add_row(row.iter().map(|cell| match cell {
+        let (columns, rows) = (columns.to_vec(), rows.to_vec());
+        let table = Self {
+            columns,
+            rows,
+            whole,
+        };
+        table.text(Screen::default())
+    }
+
+    /// The rows as a person reads them.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = Vec<String>> {
+        self.rows.iter().map(|row| {
+            let cells = row.iter().map(|cell| match cell {
                 Cell::Empty => String::new(),
                 Cell::Number(x) => significant(*x, DIGITS),
                 Cell::Text(text) => text.clone(),
-            }));
-        }
+            });
+            cells.collect()
+        })
+    }
+
+    /// Header and rows, every digit.
+    pub(crate) fn csv(&self) -> String {
+        let header = self.columns.iter().map(|name| Cell::from(name.as_str()));
+        let rows = self.rows.iter().map(|row| csv_line(row.iter().cloned()));
+        csv_line(header) + &rows.collect::<String>()
+    }
+
+    /// As a table for a screen, no wider than [`WIDEST`] elsewhere.
+    pub(crate) fn text(&self, screen: Screen) -> String {
+        let mut table = text_table(&self.columns);
+        table.add_rows(self.cells());
+        let width = screen.width.and_then(|width| u16::try_from(width).ok());
         table
             .set_content_arrangement(ContentArrangement::Dynamic)
-            .set_width(WIDEST);
-        for column in table.column_iter_mut().take(whole) {
+            .set_width(width.unwrap_or(WIDEST));
+        for column in table.column_iter_mut().take(self.whole) {
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
         let lines: Vec<String> = table
@@ -68,35 +97,26 @@ impl Reading {
 }
 
 impl Sheet {
-    /// The sheet in one of the formats.
-    pub fn write(&self, format: Format) -> String {
-        match format {
-            Format::Table => {
-                let table = match &self.reading {
-                    Some(reading) => Reading::table(&reading.columns, &reading.rows, reading.whole),
-                    None => Reading::table(&self.columns, &self.rows, 1),
-                };
-                let notes: Vec<String> =
-                    self.notes.iter().map(|note| format!("{note}\n")).collect();
-                let notes = notes.concat();
-                format!("{}\n{table}{notes}", self.title)
-            }
-            Format::Csv => {
-                let header = self.columns.iter().map(|name| Cell::from(name.as_str()));
-                let rows = self.rows.iter().map(|row| csv_line(row.iter().cloned()));
-                csv_line(header) + &rows.collect::<String>()
-            }
-            Format::Json => {
-                let rows: Vec<Value> = self.rows.iter().map(|row| self.object(row)).collect();
-                let value = json!({
-                    "schema": self.schema,
-                    "title": self.title,
-                    "notes": self.notes,
-                    "rows": rows,
-                });
-                format!("{value:#}\n")
-            }
+    /// As an answer: the table for reading with the notes, all columns as CSV and JSON.
+    pub fn answer(self) -> Answer<'static> {
+        let rows: Vec<Value> = self.rows.iter().map(|row| self.object(row)).collect();
+        let data = json!({ "notes": self.notes, "rows": rows });
+        let all = Reading {
+            columns: self.columns,
+            rows: self.rows,
+            whole: 1,
+        };
+        let mut answer = Answer::of_map(self.schema, self.title, data);
+        answer.csv(all.csv());
+        let (lead, notes) = self.notes.split_at(self.lead);
+        for note in lead {
+            answer.sentence(note);
         }
+        answer.table(self.reading.unwrap_or(all));
+        for note in notes {
+            answer.sentence(note);
+        }
+        answer
     }
 
     fn object(&self, row: &[Cell]) -> Value {

@@ -58,7 +58,7 @@ impl Goal {
 }
 
 /// Phases that were found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Worst {
     /// How much later each axis starts than the first (s).
     #[serde(rename = "phases [s]")]
@@ -68,7 +68,7 @@ pub struct Worst {
 }
 
 /// Bounds that are valid for any phases and periods.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Bounds {
     /// Largest power drawn (W): the sum of the axes' own. It is reached.
     #[serde(rename = "peak drawn [W]")]
@@ -78,6 +78,7 @@ pub struct Bounds {
     pub back: f64,
     /// Highest voltage (V).
     #[serde(rename = "highest voltage [V]")]
+    #[schemars(with = "Option<f64>")]
     pub highest: f64,
     /// Mean power of a brake resistor (W): all regenerated energy.
     #[serde(rename = "resistor mean [W]")]

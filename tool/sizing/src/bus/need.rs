@@ -14,7 +14,7 @@ use jred_machine::number::words::counted;
 type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
 
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Need {
     /// Mean power (W).
     #[serde(rename = "mean [W]")]

@@ -25,10 +25,11 @@ pub struct Bus {
 }
 
 /// Result for one period in the steady state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct BusFigures {
     /// Energy from the supply (J); NaN where nothing bounds the voltage.
     #[serde(rename = "supplied [J]")]
+    #[schemars(with = "Option<f64>")]
     pub supplied: f64,
     /// Energy that the supply takes back (J).
     #[serde(rename = "returned [J]")]
@@ -44,6 +45,7 @@ pub struct BusFigures {
     pub pulse: f64,
     /// Highest voltage (V); infinite where nothing bounds it.
     #[serde(rename = "highest voltage [V]")]
+    #[schemars(with = "Option<f64>")]
     pub highest: f64,
     /// Energy stored at the start of a period above that at U₀ (J).
     #[serde(rename = "stored at the start [J]")]

@@ -5,7 +5,7 @@ use jred_machine::units::Vocabulary;
 use serde::Serialize;
 
 /// Commutation of a winding, which determines the meaning of its data.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Commutation {
     /// Three phases, sine currents: RMS currents, line-to-line resistance, inductance and voltage constant.

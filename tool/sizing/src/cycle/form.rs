@@ -26,7 +26,7 @@ pub struct MotorPoint {
 }
 
 /// The duty seen by the motor.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
 pub struct MotorDuty {
     /// Motor torque (N·m).
     #[serde(rename = "torque [N m]")]

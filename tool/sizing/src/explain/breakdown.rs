@@ -28,7 +28,7 @@ use jred_machine::number::rounding::cleared;
 use jred_machine::units::Vocabulary;
 
 /// Contribution of one part or effect to the motor torque.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Share {
     /// Name.
     pub name: String,
@@ -60,7 +60,7 @@ impl Share {
 }
 
 /// Contribution of one part to the inertia at the motor.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct InertiaShare {
     /// Name of the part.
     pub name: String,
@@ -73,7 +73,7 @@ pub struct InertiaShare {
 }
 
 /// The contributions to the motor torque and to the inertia at the motor.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Breakdown {
     /// Name of the drive.
     pub drive: String,

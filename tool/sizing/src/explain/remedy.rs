@@ -28,7 +28,7 @@ use jred_machine::model::site::Site;
 use jred_machine::units::Vocabulary;
 
 /// The quantity that is changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lever {
     /// Ratio of the gearbox.
@@ -91,7 +91,7 @@ impl Lever {
 }
 
 /// An end of the range in which every rule is satisfied.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Edge {
     /// The value.
     pub value: f64,
@@ -100,7 +100,7 @@ pub struct Edge {
 }
 
 /// The result of changing one quantity by itself.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Remedy {
     /// The quantity that is changed.
     pub lever: Lever,
@@ -116,7 +116,7 @@ pub struct Remedy {
 }
 
 /// A rule that a drive violates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Miss {
     /// The rule.
     pub rule: Rule,
@@ -129,7 +129,7 @@ pub struct Miss {
 }
 
 /// Changes that would make one drive suitable.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Remedies {
     /// The drive.
     pub drive: String,

@@ -8,7 +8,7 @@ use jred_machine::model::rules::{Finding, RuleSet, Verdict};
 use jred_machine::number::rounding::{cleared, short, told_apart};
 
 /// A rule with its value, limit and verdict.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Check {
     /// Name of the rule.
     pub rule: &'static str,

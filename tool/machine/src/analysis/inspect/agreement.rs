@@ -51,7 +51,7 @@ const TIMES: f64 = 2.0;
 const HAIR: f64 = 1e-13;
 
 /// The moving masses.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
 pub struct Inertia {
     /// J_red (or m_red): smallest, mean over the range, largest, flywheel and drive train included.
     pub reduced: [f64; 3],
@@ -64,7 +64,7 @@ pub struct Inertia {
 }
 
 /// Agreement of the two methods, for the machine with its drive train.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
 pub struct Agreement {
     /// Largest difference of the two drive torques as a share of their largest term.
     pub dalembert: f64,

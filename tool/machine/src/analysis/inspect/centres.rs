@@ -19,7 +19,7 @@ const STILL: f64 = 1e-9;
 const ROUNDING: f64 = 1e-8;
 
 /// How one link moves on the ground.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Travel {
     /// Name of the link.
     pub link: String,

@@ -7,7 +7,7 @@ use crate::model::machine::MachineFile;
 use crate::model::motion::{Motion, ToolCoordinate};
 
 /// The motion in figures (SI).
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct MotionFindings {
     /// What is prescribed: "drive link", or a coordinate of the tool.
     pub of: String,
@@ -27,7 +27,7 @@ pub struct MotionFindings {
 }
 
 /// One segment (SI).
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct SegmentFinding {
     /// Whether it prescribes an angle.
     pub angle: bool,

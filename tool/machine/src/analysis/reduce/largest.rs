@@ -25,15 +25,17 @@ const OF_TURN: f64 = 180.0;
 const FEWEST: usize = 16;
 
 /// The largest magnitude of one quantity.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Largest {
     /// The quantity.
     #[serde(serialize_with = "title")]
+    #[schemars(with = "String")]
     pub quantity: Column,
     /// The value there, with its sign.
     pub value: f64,
     /// What the rows run over.
     #[serde(serialize_with = "title")]
+    #[schemars(with = "String")]
     pub over: Column,
     /// Where it occurs.
     pub at: f64,

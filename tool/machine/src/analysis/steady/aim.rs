@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 
 use jred::machine::{Action, Load};
+use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
 
 use super::SteadyError;
 use super::cycle::{self, Found};
@@ -33,14 +35,17 @@ pub enum Level {
     Load(String),
 }
 
-/// What was found for a mean speed.
-#[derive(Clone, Debug, PartialEq)]
+/// The scaling that gives a mean speed.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Held {
-    /// What is scaled.
+    /// The load that is scaled; none: the motor torque.
+    #[serde(rename = "scaled", serialize_with = "Level::serialize_load")]
+    #[schemars(with = "Option<String>")]
     pub by: Level,
-    /// By how much.
+    /// Factor on the torque of the motor, or on the load.
     pub factor: f64,
     /// The torque of a motor whose torque is constant (N·m).
+    #[serde(rename = "constant_torque")]
     pub torque: Option<f64>,
 }
 
@@ -283,6 +288,13 @@ fn no_level(aim: &MeanSpeed) -> SteadyError {
 }
 
 impl Level {
+    fn serialize_load<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Motor => serializer.serialize_none(),
+            Self::Load(name) => serializer.serialize_some(name),
+        }
+    }
+
     fn in_words(&self) -> Cow<'static, str> {
         match self {
             Self::Motor => "torque of the motor".into(),

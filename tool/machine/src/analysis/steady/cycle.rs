@@ -1,5 +1,8 @@
 //! The steady cycle: the fixed point of a turn.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::aim::{Ended, Held};
 use super::figures::Figures;
 use super::start::Start;
@@ -26,20 +29,23 @@ const MOST_TURNS: u32 = 2000;
 const BIT: f64 = 1e-3;
 
 /// The motion that repeats with every turn.
-#[derive(Debug)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Cycle {
     /// Its figures and its course.
+    #[serde(flatten)]
     pub figures: Figures,
-    /// What is left of a small deviation of the energy after a turn, as a share: below 1 the cycle is stable.
-    pub left_over: f64,
+    /// What scales the motor or a load for a prescribed mean speed.
+    #[serde(rename = "for_mean_speed")]
+    pub held: Option<Held>,
     /// |E(end) − E(0)|/E(0).
     pub residual: f64,
-    /// The lowest speed at the start of a turn from which the machine comes to this cycle (rad/s); `None`: from every one.
+    /// Remaining share of a small deviation of the energy after a cycle: below 1 the cycle is stable.
+    pub left_over: f64,
+    /// The lowest speed at the start of a cycle from which the machine comes to this cycle (rad/s); none: from every speed.
+    #[serde(rename = "reached_from_speed")]
     pub caught_from: Option<f64>,
-    /// How it starts from rest.
+    /// The start from rest.
     pub start: Start,
-    /// What was found for a mean speed that is prescribed.
-    pub held: Option<Held>,
 }
 
 impl Cycle {
@@ -282,15 +288,19 @@ fn lacks(missing: Missing) -> SteadyError {
 }
 
 /// A place where the motor is too weak to start or keep the machine moving.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Missing {
     /// The place in words.
+    #[serde(skip)]
     pub place: String,
     /// Position there (rad), within the cycle.
+    #[serde(rename = "stuck_at")]
     pub phi: f64,
     /// Motor torque at rest (N·m).
+    #[serde(rename = "torque_at_rest")]
     pub given: f64,
     /// Motor torque that the loads need there (N·m).
+    #[serde(rename = "torque_needed")]
     pub needed: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Why a machine has no steady cycle.
 
 use jred::Error;
+use serde::{Serialize, Serializer};
 
 use crate::analysis::simulate::SimulationError;
 
@@ -191,5 +192,11 @@ impl SteadyError {
     /// Whether more inertia may help.
     pub(super) const fn is_standstill(&self) -> bool {
         matches!(self, Self::Stuck { .. } | Self::Dying { .. })
+    }
+}
+
+impl Serialize for SteadyError {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }

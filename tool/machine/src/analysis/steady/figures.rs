@@ -1,5 +1,8 @@
 //! The course of a steady cycle and its figures.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::SteadyError;
 use super::cycle;
 use super::turn::{Reached, State, Turning, starting};
@@ -16,40 +19,77 @@ const FEWEST: usize = 360;
 const SPEEDS: u32 = 256;
 
 /// A turn of the steady motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Figures {
-    /// Speed at the start of the turn (rad/s), by magnitude.
-    pub begin: f64,
-    /// Turns of the drive link in a cycle.
-    pub turns: u32,
-    /// Duration of a cycle (s).
-    pub period: f64,
     /// Mean over the time, 2π·turns/period (rad/s); negative: the drive link turns clockwise.
     pub mean_speed: f64,
-    /// Largest and smallest speed (rad/s), by magnitude, each with its position (rad).
-    pub fastest: [f64; 2],
-    /// See `fastest`.
-    pub slowest: [f64; 2],
+    /// Speed at the start of the cycle (rad/s), by magnitude.
+    pub speed_at_start_of_turn: f64,
+    /// Largest speed (rad/s), by magnitude.
+    pub max_speed: f64,
+    /// Its position (rad).
+    pub max_speed_at: f64,
+    /// Smallest speed (rad/s), by magnitude.
+    pub min_speed: f64,
+    /// Its position (rad).
+    pub min_speed_at: f64,
     /// δ = (ω_max − ω_min)/ω_mean with the mean over the time.
     pub delta: f64,
     /// The same with the mean (ω_max + ω_min)/2.
     pub delta_of_extremes: f64,
-    /// Mean, RMS and largest magnitude of the motor torque over the time (N·m).
-    pub torque: [f64; 3],
-    /// Mean and largest power of the motor (W).
-    pub power: [f64; 2],
+    /// Turns of the drive link in a cycle.
+    pub turns: u32,
+    /// Duration of a cycle (s).
+    pub period: f64,
+    /// Largest minus least kinetic energy of all moving parts over a cycle (J).
+    pub kinetic_energy_fluctuation: f64,
+    /// Motor torque over the time (N·m).
+    pub motor_torque: MotorTorque,
+    /// Motor power (W).
+    pub motor_power: MotorPower,
     /// Mean speed of the motor (rad/s).
     pub motor_speed: f64,
-    /// Work of the motor, of the process loads, and losses in a cycle (J).
-    pub works: [f64; 3],
-    /// By how much the kinetic energy of all that moves changes over a cycle, from its least to its largest value (J).
-    pub fluctuation: f64,
+    /// Energies of a cycle (J).
+    pub energy: Energies,
     /// The largest energy balance as a share of the energy turned over.
     pub imbalance: f64,
     /// The course over the time.
+    #[serde(skip)]
     pub course: Columns,
     /// z = ½ω² at equal positions over the turn.
+    #[serde(skip)]
     pub(super) nodes: Vec<(f64, State)>,
+}
+
+/// Torque of the motor over a cycle (N·m).
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct MotorTorque {
+    /// Mean over the time.
+    pub mean: f64,
+    /// Root of the mean square over the time.
+    pub rms: f64,
+    /// Largest magnitude.
+    pub peak: f64,
+}
+
+/// Power of the motor over a cycle (W).
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct MotorPower {
+    /// Mean over the time.
+    pub mean: f64,
+    /// Largest.
+    pub peak: f64,
+}
+
+/// Energies of a cycle (J).
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Energies {
+    /// Work of the motor.
+    pub motor: f64,
+    /// Work of the process loads; positive: they drive.
+    pub process: f64,
+    /// Losses of friction and drive train.
+    pub losses: f64,
 }
 
 impl Figures {
@@ -129,25 +169,33 @@ impl Figures {
         turned_over = [motor, process, losses]
             .iter()
             .fold(turned_over, |most, work| most.max(work.abs()));
-        let torque_time = |f: &dyn Fn(f64) -> f64| largest(f, span);
         Ok(Self {
-            begin,
-            turns: turning.turns,
-            period,
             mean_speed: turning.direction * mean,
-            fastest: [fastest[0], turning.at(fastest[1])],
-            slowest: [slowest[0], turning.at(slowest[1])],
+            speed_at_start_of_turn: begin,
+            max_speed: fastest[0],
+            max_speed_at: turning.at(fastest[1]),
+            min_speed: slowest[0],
+            min_speed_at: turning.at(slowest[1]),
             delta: (fastest[0] - slowest[0]) / mean,
             delta_of_extremes: 2.0 * (fastest[0] - slowest[0]) / (fastest[0] + slowest[0]),
-            torque: [
-                torques / period,
-                (squares / period).sqrt(),
-                torque_time(&|omega| torque(omega).abs()),
-            ],
-            power: [motor / period, torque_time(&power)],
+            turns: turning.turns,
+            period,
+            kinetic_energy_fluctuation: fluctuation,
+            motor_torque: MotorTorque {
+                mean: torques / period,
+                rms: (squares / period).sqrt(),
+                peak: largest(&|omega| torque(omega).abs(), span),
+            },
+            motor_power: MotorPower {
+                mean: motor / period,
+                peak: largest(&power, span),
+            },
             motor_speed,
-            works: [motor, process, losses],
-            fluctuation,
+            energy: Energies {
+                motor,
+                process,
+                losses,
+            },
             imbalance: imbalance / turned_over,
             course,
             nodes,

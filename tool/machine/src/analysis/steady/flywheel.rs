@@ -3,11 +3,13 @@
 use std::cell::Cell;
 
 use jred::mechanism::Stage;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::SteadyError;
 use super::aim::{Ended, Guess, Held, Search};
 use super::cycle::{self, Cycle, Found};
-use super::figures::{self, Figures};
+use super::figures::{self, Figures, MotorTorque};
 use super::turn::Turning;
 use crate::analysis::simulate::run::HAIR;
 use crate::model::machine::{MachineFile, OverRange};
@@ -19,51 +21,61 @@ use crate::number::rounding::short;
 const LARGEST: f64 = 1e8;
 
 /// The flywheel for a coefficient of speed fluctuation.
-#[derive(Debug)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Flywheel {
-    /// δ asked for.
+    /// Requested δ.
     pub delta: f64,
     /// Inertia to add on the drive link (kg·m²); 0: the machine runs as evenly without.
     pub inertia: f64,
-    /// The cycle with it.
-    pub cycle: Cycle,
+    /// Inertia at the motor's shaft for the same δ (kg·m²), where the motor drives the machine through stages.
+    pub inertia_at_motor: Option<f64>,
+    /// The shafts on which it can sit, from the motor to the drive link: the latter alone if the motor acts there, or none is needed.
+    pub places: Vec<Place>,
     /// The classical estimate.
     pub classical: Classical,
-    /// The shafts on which it can sit, from the motor to the drive link: this one alone if the motor acts there, or none is needed.
-    pub places: Vec<Place>,
+    /// The cycle with it.
+    pub cycle: Cycle,
 }
 
 /// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
-#[derive(Debug)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Place {
     /// The stage that the shaft drives, counted from 0; as many as there are stages: the drive link.
     pub shaft: usize,
     /// The flywheel.
-    pub wheel: Result<Wheel, SteadyError>,
+    #[serde(flatten)]
+    pub wheel: Option<Wheel>,
+    /// Why no flywheel here makes the fluctuation this small.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<String>")]
+    pub no_flywheel: Option<SteadyError>,
 }
 
 /// A flywheel on one of the shafts.
 ///
 /// What it stores on its way to the machine passes the stages behind it with their losses, so that the inertia is not that on the
 /// drive link divided by the squared ratio, unless the train has no losses.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Wheel {
     /// Inertia for δ (kg·m²).
     pub inertia: f64,
     /// Mean speed of the shaft (rad/s), by magnitude.
+    #[serde(rename = "mean_speed")]
     pub speed: f64,
-    /// Largest torque that each stage delivers to the shaft behind it over the turn (N·m), by magnitude.
-    pub delivered: Vec<f64>,
-    /// RMS and largest torque of the motor (N·m).
-    pub torque: [f64; 2],
-    /// Losses in a turn (J).
-    pub losses: f64,
     /// Kinetic energy of the flywheel at its mean speed (J).
+    #[serde(rename = "kinetic_energy")]
     pub stored: f64,
+    /// Largest torque that each stage delivers to the shaft behind it over the turn (N·m), by magnitude.
+    #[serde(rename = "largest_torque_delivered_by_stage")]
+    pub delivered: Vec<f64>,
+    /// Motor torque over the cycle (N·m).
+    pub motor_torque: MotorTorque,
+    /// Losses in a cycle (J).
+    pub losses: f64,
 }
 
 /// The flywheel by Wittenbauer's method: constant motor torque, energies at the constant mean speed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Classical {
     /// ΔW: from the least to the largest excess of the work that reaches the drive link over that of the machine (J).
     pub work: f64,
@@ -119,26 +131,34 @@ impl Flywheel {
                         Wheel::of(with, shaft, there, &Figures::of(with, begin, 1)?)
                     })
                 });
-                places.push(Place { shaft, wheel });
+                places.push(Place::new(shaft, wheel));
             }
         }
-        places.push(Place {
-            shaft: stages.len(),
-            wheel: Ok(last),
-        });
+        places.push(Place::new(stages.len(), Ok(last)));
+        let at_motor = places.first().filter(|_| places.len() > 1);
+        let at_motor = at_motor.and_then(|place| place.wheel.as_ref());
         Ok(Self {
             delta,
             inertia,
+            inertia_at_motor: at_motor.map(|wheel| wheel.inertia),
             classical: Classical::of(turning, delta, cycle.figures.mean_speed.abs())?,
             cycle,
             places,
         })
     }
+}
 
-    /// That at the motor's shaft (kg·m²), where the motor drives the machine through stages.
-    pub fn at_motor(&self) -> Option<f64> {
-        let first = self.places.first()?.wheel.as_ref().ok()?;
-        (self.places.len() > 1).then_some(first.inertia)
+impl Place {
+    fn new(shaft: usize, wheel: Result<Wheel, SteadyError>) -> Self {
+        let (wheel, no_flywheel) = match wheel {
+            Ok(wheel) => (Some(wheel), None),
+            Err(why) => (None, Some(why)),
+        };
+        Self {
+            shaft,
+            wheel,
+            no_flywheel,
+        }
     }
 }
 
@@ -163,13 +183,12 @@ impl Wheel {
                 *most = most.max(now.abs());
             }
         }
-        let [_, rms, peak] = figures.torque;
         Ok(Self {
             inertia,
             speed,
             delivered,
-            torque: [rms, peak],
-            losses: figures.works[2],
+            motor_torque: figures.motor_torque,
+            losses: figures.energy.losses,
             stored: 0.5 * inertia * speed * speed,
         })
     }

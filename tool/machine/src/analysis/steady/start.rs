@@ -1,5 +1,8 @@
 //! From rest to the steady cycle.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::SteadyError;
 use super::cycle::Missing;
 use super::figures::Figures;
@@ -16,7 +19,8 @@ const NEAR: f64 = 0.01;
 const MOST_TURNS: u32 = 300;
 
 /// How the machine starts from rest.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Start {
     /// From then on the speed stays within 1 % of the cycle's at the same position for a turn.
     Reached {
@@ -29,7 +33,8 @@ pub enum Start {
     Stuck {
         /// Turns from rest.
         turns: f64,
-        /// Where, and what is missing.
+        /// Where, and how much torque is missing.
+        #[serde(flatten)]
         missing: Missing,
     },
     /// It takes more turns than are followed.
@@ -39,7 +44,7 @@ pub enum Start {
         /// Their time (s).
         time: f64,
         /// Speed then as a share of the cycle's.
-        share: f64,
+        share_of_speed: f64,
     },
 }
 
@@ -51,7 +56,7 @@ impl Start {
         let nodes = cycle.nodes.iter().enumerate().skip(1);
         let places = nodes.filter(|(k, _)| *k == last || k % every == 0);
         let places: Vec<(f64, f64)> = places.map(|(_, (x, y))| (*x, y[0])).collect();
-        let full = 0.5 * cycle.fastest[0] * cycle.fastest[0];
+        let full = 0.5 * cycle.max_speed * cycle.max_speed;
         let alpha = turning.instant(0.0, HAIR)?.alpha * turning.direction;
         if alpha <= 0.0 {
             return Ok(Self::Stuck {
@@ -72,7 +77,7 @@ impl Start {
         let cycles = MOST_TURNS / cycle.turns;
         for turn in 0..cycles {
             for (to, z) in &places {
-                let speed = cycle.fastest[0];
+                let speed = cycle.max_speed;
                 match turning.advance_by(turn::ROUGH, y, [x, *to], speed, &mut |_, _| ())? {
                     Reached::End(end) => y = end,
                     Reached::Stopped(at) => {
@@ -103,7 +108,7 @@ impl Start {
         Ok(Self::Slow {
             turns: f64::from(cycles) * turns,
             time: y[1],
-            share,
+            share_of_speed: share,
         })
     }
 }

@@ -34,7 +34,7 @@ pub struct ChangePoint {
 }
 
 /// A property of one kind of mechanism, such as the largest pressure angle of a cam.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 pub struct Fact {
     /// Its name.
     pub label: String,

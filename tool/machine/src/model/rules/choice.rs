@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::number::figures::Figures;
 
 /// Which λ of the cycle is checked. With J(φ) the inertia ratio is a curve.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InertiaOf {
     /// The smallest.
@@ -56,7 +56,7 @@ impl InertiaOf {
 }
 
 /// Exponent of the mean torque of a gearbox.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub enum MeanTorque {
     /// 3: gears.
     #[default]
@@ -90,7 +90,7 @@ impl MeanTorque {
 }
 
 /// Largest inertia ratio of machines with more than a given number of moves per minute.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Moves {
     /// Moves per minute.
     #[serde(rename = "above [1/min]")]
@@ -100,7 +100,7 @@ pub struct Moves {
 }
 
 /// Choices of a rule set other than limits.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Choices {
     /// Which λ is checked.
     pub inertia_ratio_of: InertiaOf,

@@ -2,15 +2,14 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Value, json};
-
 use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::units::Vocabulary;
 use jred_motion::fastest::joint_force::Reached;
 use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{KeptPart, Reserve};
 
-use super::{Answer, line};
+use super::View;
+use crate::answer::Answer;
 
 /// Share below which an S1 torque is another one.
 const ROUNDED: f64 = 1e-5;
@@ -27,9 +26,9 @@ pub struct Warmth {
     pub bound: Option<[f64; 2]>,
 }
 
-impl Answer<'_> {
+impl View<'_> {
     /// What the motor does, and the pause that it needs.
-    pub(super) fn motor(&self, text: &mut String) {
+    pub(super) fn motor(&self, answer: &mut Answer) {
         let Vocabulary { torque, speed, .. } = self.words();
         let effort = torque.unit;
         let load = &self.cycle.load;
@@ -63,19 +62,15 @@ impl Answer<'_> {
             };
             format!("; {holding} {effort} to hold {place}")
         };
-        line(
-            text,
-            &format!("motor {torque}"),
-            &format!(
+        answer.fact(format!("motor {torque}"),
+            format!(
                 "RMS {} {effort}{continuous}; peak {} {effort}{holding}",
                 short(load.rms),
                 short(load.peaks[0])
             ),
         );
-        line(
-            text,
-            "motor speed",
-            &format!(
+        answer.fact("motor speed",
+            format!(
                 "peak {} {unit}, mean {} {unit}",
                 short(load.peaks[1] / speed.scale),
                 short(load.mean_speed / speed.scale),
@@ -93,25 +88,16 @@ impl Answer<'_> {
         match load.pause {
             Some(0.0) => {}
             _ if passes => {}
-            _ if self.is_endless() => line(
-                text,
-                "warning",
-                &format!(
+            _ if self.is_endless() => answer.warning(format!(
                     "the RMS {torque} exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
                 ),
             ),
-            Some(pause) => line(
-                text,
-                "warning",
-                &format!(
+            Some(pause) => answer.warning(format!(
                     "the RMS {torque} exceeds {what}: repeated, the motion needs {} s more at rest each time",
                     short(pause)
                 ),
             ),
-            None => line(
-                text,
-                "warning",
-                &format!(
+            None => answer.warning(format!(
                     "the RMS {torque} exceeds {what}, and no pause helps: holding the machine alone takes more than that"
                 ),
             ),
@@ -119,7 +105,7 @@ impl Answer<'_> {
     }
 
     /// What a kept part exceeds.
-    pub(super) fn exceeded(&self, part: &KeptPart, text: &mut String) {
+    pub(super) fn exceeded(&self, part: &KeptPart, answer: &mut Answer) {
         let (share, limit) = part.excess;
         if part.exceeds() {
             let says = format!(
@@ -128,7 +114,7 @@ impl Answer<'_> {
                 limit.name_in(self.file),
                 percent(share)
             );
-            line(text, "warning", &says);
+            answer.warning(says);
         }
     }
 
@@ -146,7 +132,7 @@ impl Answer<'_> {
     }
 
     /// How warm the winding gets, and what its limit costs.
-    pub(super) fn winding(&self, warmth: &Warmth, text: &mut String) {
+    pub(super) fn winding(&self, warmth: &Warmth, answer: &mut Answer) {
         let Warmth {
             ambient,
             temperatures,
@@ -178,7 +164,7 @@ impl Answer<'_> {
             says += "; ";
             says += &note;
         }
-        line(text, "winding", &says);
+        answer.fact("winding", says);
         let says = match bound {
             None => "does not bind".to_owned(),
             Some([free, rms]) => {
@@ -191,7 +177,7 @@ impl Answer<'_> {
                 )
             }
         };
-        line(text, "its limit", &says);
+        answer.fact("its limit", says);
     }
 
     pub(super) fn reserve(&self) -> String {
@@ -222,26 +208,4 @@ impl Answer<'_> {
         }
         "none".to_owned()
     }
-}
-
-/// Temperatures in °C; what is without bound has no number.
-pub(super) fn winding_json(warmth: &Warmth) -> Value {
-    let Temperatures {
-        greatest,
-        mean,
-        ref heating,
-        ..
-    } = warmth.temperatures;
-    json!({
-        "greatest": Some(greatest).filter(|t| t.is_finite()),
-        "mean": mean.map(|[mean, _]| mean),
-        "ripple": mean.map(|[_, ripple]| ripple),
-        "limit": warmth.limit,
-        "ambient": warmth.ambient,
-        "estimated": heating.relative,
-        "ripple_followed": heating.ripple,
-        "binds": warmth.bound.is_some(),
-        "rms_torque": warmth.bound.map(|[_, rms]| rms),
-        "duration_without": warmth.bound.map(|[free, _]| free),
-    })
 }

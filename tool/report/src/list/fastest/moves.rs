@@ -2,10 +2,7 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Value, json};
-
 use crate::table::sheet::Reading;
-use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short, shown, told_apart};
 use jred_motion::fastest::cycle::{Cost, MORE, Made};
@@ -13,7 +10,8 @@ use jred_motion::fastest::{Binding, Phase};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
-use super::Answer;
+use super::View;
+use crate::answer::Answer;
 
 /// Share of the largest speed that is a rounding error: speeds are roots of energies.
 const STANDS: f64 = 1e-8;
@@ -24,8 +22,8 @@ const DIP: f64 = 5e-4;
 /// Share of a move's time below which a phase is none.
 const LEAST_PHASE: f64 = 1e-9;
 
-impl Answer<'_> {
-    pub(super) fn one_move(&self, number: usize, made: &Made) -> String {
+impl View<'_> {
+    pub(super) fn one_move(&self, number: usize, made: &Made, answer: &mut Answer) {
         let axis = self.file.axis();
         let unit = axis.coordinate.unit();
         let ends = [made.task.from, made.task.to].map(|phi| axis.shown(phi).abs());
@@ -43,7 +41,7 @@ impl Answer<'_> {
         if let Some(before) = made.before {
             let _ = write!(text, " ({} s in the file)", short(before));
         }
-        text.push('\n');
+        answer.heading(text);
         // Where a turn closes a phase may have no length.
         let least = LEAST_PHASE * made.fastest.time;
         let phases = made.fastest.phases.iter();
@@ -88,8 +86,12 @@ impl Answer<'_> {
             cells
         };
         let rows: Vec<Vec<Cell>> = phases.iter().map(|phase| row(phase)).collect();
-        text += &Reading::table(&columns, &rows, columns.len());
-        text += &unlimited(made, &phases);
+        answer.table(Reading {
+            whole: columns.len(),
+            columns,
+            rows,
+        });
+        unlimited(made, &phases, answer);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;
             // These are limits of the whole motion, whose own time stands above.
@@ -97,20 +99,18 @@ impl Answer<'_> {
                 Binding::RmsTorque | Binding::WindingTemperature => "this move alone takes ",
                 _ => "",
             };
-            let _ = writeln!(
-                text,
+            answer.sentence(format!(
                 "{}: {alone}{} s, {} s less",
                 eased(cost, file),
                 short(cost.time),
                 short(saved.max(0.0))
-            );
+            ));
         }
-        text
     }
 }
 
 /// Without a limit, or with more of the motor's own.
-fn eased(cost: &Cost, file: &MachineFile) -> String {
+pub(super) fn eased(cost: &Cost, file: &MachineFile) -> String {
     let more = percent(MORE);
     match cost.limit {
         Binding::Driving | Binding::Braking => {
@@ -129,7 +129,7 @@ fn eased(cost: &Cost, file: &MachineFile) -> String {
 }
 
 /// The greatest speed (rad/s, or m/s) in a phase.
-fn greatest(made: &Made, phase: &Phase) -> f64 {
+pub(super) fn greatest(made: &Made, phase: &Phase) -> f64 {
     let [from, to] = phase.t;
     let nodes = made.fastest.trace.nodes().iter();
     let inside = nodes.filter(|node| node.t > from && node.t < to);
@@ -150,9 +150,8 @@ fn dip(made: &Made, phase: &Phase) -> Option<f64> {
 }
 
 /// What the times before the first phase and behind the last one are.
-fn unlimited(made: &Made, phases: &[&Phase]) -> String {
+fn unlimited(made: &Made, phases: &[&Phase], answer: &mut Answer) {
     let whole = made.fastest.time;
-    let mut text = String::new();
     for (time, place) in [
         (phases.first().map_or(0.0, |phase| phase.t[0]), "first"),
         (
@@ -161,40 +160,7 @@ fn unlimited(made: &Made, phases: &[&Phase]) -> String {
         ),
     ] {
         if time > LEAST_PHASE * whole {
-            let _ = writeln!(text, "in the {place} {} s no limit is met", short(time));
+            answer.sentence(format!("in the {place} {} s no limit is met", short(time)));
         }
     }
-    text
-}
-
-pub(super) fn move_json(made: &Made, axis: &Axis, file: &MachineFile) -> Value {
-    let phases = made.fastest.phases.iter().map(|phase| {
-        json!({
-            "limit": phase.limit.name_in(file),
-            "from": axis.position(phase.phi[0]),
-            "to": axis.position(phase.phi[1]),
-            "from_time": phase.t[0],
-            "to_time": phase.t[1],
-            "from_speed": axis.rate(phase.speed[0]),
-            "to_speed": axis.rate(phase.speed[1]),
-            "greatest_speed": axis.rate(greatest(made, phase)),
-        })
-    });
-    let costs = made
-        .costs
-        .iter()
-        .map(|cost| json!({ "limit": cost.limit.name_in(file), "eased": eased(cost, file), "time": cost.time }));
-    json!({
-        "from": axis.position(made.task.from),
-        "to": axis.position(made.task.to),
-        "from_speed": axis.rate(made.task.speeds[0]),
-        "to_speed": axis.rate(made.task.speeds[1]),
-        "time": made.fastest.time,
-        "time_before": made.before,
-        "error": made.fastest.error,
-        "bound": made.fastest.bound,
-        "excess": made.fastest.excess,
-        "phases": phases.collect::<Vec<_>>(),
-        "costs": costs.collect::<Vec<_>>(),
-    })
 }

@@ -1,17 +1,16 @@
 //! How the rules of sizing judge the motion, and what was lowered for them.
 
-use serde_json::{Map, Value, json};
-
 use jred_machine::model::rule::Rule;
 use jred_machine::number::rounding::{percent, short};
 use jred_motion::fastest::ruled::{Cap, Judged};
 use jred_sizing::judge::check::Check;
 
-use super::{Answer, line};
+use super::View;
+use crate::answer::Answer;
 
-impl Answer<'_> {
+impl View<'_> {
     /// The rules that the motion keeps, and those that it does not.
-    pub(super) fn rules(&self, judged: &Judged, text: &mut String) {
+    pub(super) fn rules(&self, judged: &Judged, answer: &mut Answer) {
         let kept: Vec<String> = judged
             .kept()
             .map(|check| {
@@ -20,12 +19,12 @@ impl Answer<'_> {
                     .to_owned()
             })
             .collect();
-        line(text, "rules kept", &kept.join(", "));
+        answer.fact("rules kept", kept.join(", "));
         let caps: Vec<String> = (judged.caps.iter())
             .map(|(cap, value)| self.cap(*cap, *value))
             .collect();
         if !caps.is_empty() {
-            line(text, "for them", &caps.join(", "));
+            answer.fact("for them", caps.join(", "));
         }
         for check in judged.violated() {
             let says = format!(
@@ -33,7 +32,7 @@ impl Answer<'_> {
                 check.sentence(),
                 cure(judged, check)
             );
-            line(text, "not kept", &says);
+            answer.fact("not kept", says);
         }
     }
 
@@ -68,24 +67,4 @@ fn cure(judged: &Judged, check: &Check) -> &'static str {
         }
         _ => "; the motion is not made for it",
     }
-}
-
-/// The rules that were sought, those that are violated, and what was lowered (SI units).
-pub(super) fn rules_json(judged: &Judged) -> Value {
-    let kept: Vec<&Check> = judged.kept().collect();
-    let violated: Vec<&Check> = judged.violated().collect();
-    let caps = judged.caps.iter().map(|(cap, value)| {
-        let name = match cap {
-            Cap::MotorTorque => "share_of_motor_torque",
-            Cap::GearboxTorque => "gearbox_torque",
-            Cap::Speed => "motor_speed",
-            Cap::RmsTorque => "rms_torque",
-        };
-        (name.to_owned(), json!(value))
-    });
-    json!({
-        "kept": kept,
-        "not_kept": violated,
-        "lowered": caps.collect::<Map<String, Value>>(),
-    })
 }

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use comfy_table::{CellAlignment, ContentArrangement};
-use textwrap::Options;
 
 use super::List;
+use crate::answer::screen::Screen;
 use super::text::{doubt, kilowatts};
 use crate::list::marks;
 use crate::table::output::text_table;
@@ -30,44 +30,25 @@ const STEP: f64 = 1.03;
 /// Width of the name at the beginning of a line.
 const NAME: usize = 11;
 
-/// The screen that a text is for.
-#[derive(Clone, Copy, Debug)]
-pub struct Screen {
-    /// Columns that a line may have.
-    pub width: usize,
-}
-
-impl Default for Screen {
-    fn default() -> Self {
-        Self { width: 80 }
-    }
-}
+/// Width of the first screen in a pipe or a file.
+const WIDTH: usize = 80;
 
 impl Screen {
-    /// A name and its text, in as many lines as the width asks for.
+    fn narrow(self) -> Self {
+        let width = self.width.or(Some(WIDTH));
+        Self { width }
+    }
+
+    /// A name and its text.
     fn entry(self, text: &mut String, name: &str, says: &str) {
-        self.fill(
-            text,
-            &format!(" {name:<NAME$}"),
-            &" ".repeat(NAME + 1),
-            says,
-        );
+        let rest = " ".repeat(NAME + 1);
+        self.narrow()
+            .fill(text, &format!(" {name:<NAME$}"), &rest, says);
     }
 
     /// Sentences of their own.
     pub(super) fn says(self, text: &mut String, says: &str) {
-        self.fill(text, "", "    ", says);
-    }
-
-    fn fill(self, text: &mut String, first: &str, rest: &str, says: &str) {
-        let options = Options::new(self.width)
-            .initial_indent(first)
-            .subsequent_indent(rest)
-            .break_words(false);
-        // A number stays with its per cent.
-        let says = says.replace(" %", "\u{a0}%");
-        *text += &textwrap::fill(&says, options).replace('\u{a0}', " ");
-        text.push('\n');
+        self.narrow().fill(text, "", "    ", says);
     }
 }
 
@@ -237,7 +218,7 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    if let Ok(width) = u16::try_from(screen.width) {
+    if let Ok(width) = u16::try_from(screen.width.unwrap_or(WIDTH)) {
         table
             .set_content_arrangement(ContentArrangement::Dynamic)
             .set_width(width);

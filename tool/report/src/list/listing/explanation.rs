@@ -14,7 +14,7 @@ use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// The explanation of one drive, and the refused drives that miss by least.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Explanation {
     /// Torque and inertia of the drive, part by part; `None` if only refused drives were asked for.
     pub contributions: Option<Breakdown>,

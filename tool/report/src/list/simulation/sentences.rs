@@ -8,12 +8,13 @@ use jred_machine::number::rounding::{short, shown};
 use jred_machine::units::RPM;
 use jred_motion::driven::{Loads, Peak};
 
-use super::Shown;
+use super::View;
+use crate::answer::Answer;
 use crate::list::driven::{Turns, driven};
 
-impl Shown<'_> {
+impl View<'_> {
     /// What happened on the way, sentence by sentence.
-    pub(super) fn sentences(&self) -> Vec<String> {
+    pub(super) fn sentences(&self, answer: &mut Answer) {
         let axis = self.machines.first.axis();
         let effort = self.effort_unit();
         let mut lines = self.by_motion();
@@ -47,7 +48,12 @@ impl Shown<'_> {
         lines.extend(self.impacts(&axis));
         lines.extend(self.rest(&axis));
         lines.extend(self.worst_stop(&axis));
-        lines
+        for line in lines {
+            match line.strip_prefix("warning: ") {
+                Some(warning) => answer.warning(warning),
+                None => answer.sentence(line),
+            }
+        }
     }
 
     /// An instant (s); 0 if it is that but for the rounding of the whole time.

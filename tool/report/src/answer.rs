@@ -1,0 +1,136 @@
+//! The answer of a command: built once, rendered as text, CSV, JSON and HTML.
+//!
+//! An [`Answer`] has two sides. Its data is the library's result, serialised as it is: JSON, with a schema from the same types. Its
+//! blocks are what a person reads: facts, tables, warnings. The terminal and the pages render the same blocks.
+
+pub mod schema;
+pub mod screen;
+mod text;
+
+use std::borrow::Cow;
+
+use serde_json::{Map, Value};
+
+use crate::table::output::{self, Format};
+use crate::table::sheet::Reading;
+use jred_machine::number::columns::Columns;
+use schema::Data;
+use screen::Screen;
+
+/// A part of an answer for reading.
+#[derive(Clone, Debug)]
+pub(crate) enum Block {
+    /// A heading of the facts and tables behind it.
+    Heading(String),
+    /// A name and its text.
+    Fact(String, String),
+    /// A table.
+    Table(Reading),
+    /// A sentence of its own.
+    Sentence(String),
+    /// A warning.
+    Warning(String),
+    /// Lines to copy, as they are.
+    Code(String),
+}
+
+/// The answer of a command.
+#[derive(Clone, Debug)]
+pub struct Answer<'a> {
+    title: String,
+    pub(crate) blocks: Vec<Block>,
+    data: Map<String, Value>,
+    course: Option<Cow<'a, Columns>>,
+    csv: Option<String>,
+}
+
+impl<'a> Answer<'a> {
+    /// An answer with its data; what is read is added behind.
+    pub(crate) fn new<D: Data>(title: impl Into<String>, data: &D) -> Self {
+        // Only a map whose keys are no text cannot be written.
+        let data = serde_json::to_value(data).unwrap_or_default();
+        Self::of_map(D::FORM, title.into(), data)
+    }
+
+    /// An answer whose data is an object made from columns.
+    pub(crate) fn of_map(form: &str, title: String, data: Value) -> Self {
+        Self {
+            data: schema::headed(form, &title, data),
+            title,
+            blocks: Vec::new(),
+            course: None,
+            csv: None,
+        }
+    }
+
+    /// Another title for reading: with the request, say.
+    pub(crate) fn titled(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Adds the rows over time or position: all of the CSV, the end of text and JSON.
+    pub(crate) fn course(&mut self, course: Cow<'a, Columns>) {
+        self.course = Some(course);
+    }
+
+    /// Sets the CSV, where it is neither the course nor the first table.
+    pub(crate) fn csv(&mut self, csv: String) {
+        self.csv = Some(csv);
+    }
+
+    pub(crate) fn heading(&mut self, heading: impl Into<String>) {
+        self.blocks.push(Block::Heading(heading.into()));
+    }
+
+    pub(crate) fn fact(&mut self, name: impl Into<String>, text: impl Into<String>) {
+        self.blocks.push(Block::Fact(name.into(), text.into()));
+    }
+
+    pub(crate) fn table(&mut self, table: Reading) {
+        self.blocks.push(Block::Table(table));
+    }
+
+    /// Adds a sentence.
+    pub fn sentence(&mut self, sentence: impl Into<String>) {
+        self.blocks.push(Block::Sentence(sentence.into()));
+    }
+
+    pub(crate) fn warning(&mut self, warning: impl Into<String>) {
+        self.blocks.push(Block::Warning(warning.into()));
+    }
+
+    pub(crate) fn code(&mut self, code: impl Into<String>) {
+        self.blocks.push(Block::Code(code.into()));
+    }
+
+    /// The answer in one of the formats, part by part.
+    pub fn write(&self, format: Format, screen: Screen) -> Box<dyn Iterator<Item = String> + '_> {
+        match (&self.course, format) {
+            (Some(course), Format::Json) => {
+                Box::new(output::json_parts(course, self.data.clone(), Map::new()))
+            }
+            (None, Format::Json) => once(format!("{:#}\n", Value::Object(self.data.clone()))),
+            (Some(course), Format::Table) => output::parts(course, format, &self.text(screen)),
+            (None, Format::Table) => once(self.text(screen)),
+            (course, Format::Csv) => match (&self.csv, course) {
+                (Some(csv), _) => once(csv.clone()),
+                (None, Some(course)) => output::parts(course, format, ""),
+                (None, None) => once(self.tables_as_csv()),
+            },
+        }
+    }
+
+    /// Its first table, every digit.
+    fn tables_as_csv(&self) -> String {
+        let mut tables = self.blocks.iter().filter_map(|block| match block {
+            Block::Table(table) => Some(table.csv()),
+            _ => None,
+        });
+        tables.next().unwrap_or_default()
+    }
+}
+
+fn once<'p>(text: String) -> Box<dyn Iterator<Item = String> + 'p> {
+    Box::new(std::iter::once(text))
+}

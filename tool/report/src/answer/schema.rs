@@ -1,0 +1,108 @@
+//! The data of an answer as JSON, and the schema of it.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::list;
+use jred_machine::analysis::steady::Steady;
+
+/// The data of a command.
+pub(crate) trait Data: Serialize + JsonSchema {
+    /// Name and version of its form, such as `jred-steady/1`.
+    const FORM: &'static str;
+    /// Whether columns and rows belong to it.
+    const HAS_COURSE: bool = false;
+}
+
+/// The data with its form and title.
+pub(super) fn headed(form: &str, title: &str, data: Value) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("schema".into(), form.into());
+    map.insert("title".into(), title.into());
+    if let Value::Object(data) = data {
+        map.extend(data);
+    }
+    map
+}
+
+/// The data of a sheet.
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "a schema of columns that a sheet names")]
+struct SheetData {
+    /// Remarks and warnings.
+    notes: Vec<String>,
+    /// The rows: a number, a text, or null for each column; an infinite number is the text "inf".
+    rows: Vec<Map<String, Value>>,
+}
+
+/// The schema of a sheet with these columns, and further ones.
+fn of_sheet(form: &'static str, columns: &[&str]) -> (&'static str, Schema) {
+    let mut schema = root::<SheetData>(form, false);
+    let cell = json!({ "type": ["number", "string", "null"] });
+    let all: Map<String, Value> = columns.iter().map(|name| ((*name).to_owned(), cell.clone())).collect();
+    let required: Vec<&str> = columns.to_vec();
+    let row = json!({ "type": "object", "properties": all, "required": required, "additionalProperties": cell });
+    if let Some(rows) = schema.pointer_mut("/properties/rows/items") {
+        *rows = row;
+    }
+    (form, schema)
+}
+
+/// The schema of a command's JSON.
+fn of<D: Data>() -> Schema {
+    root::<D>(D::FORM, D::HAS_COURSE)
+}
+
+fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
+    let generator = SchemaGenerator::new(SchemaSettings::draft2020_12().for_serialize());
+    let mut schema = generator.into_root_schema_for::<D>();
+    let mut head = Map::new();
+    head.insert("schema".into(), json!({ "description": "Name and version of this form.", "const": form }));
+    head.insert("title".into(), json!({ "description": "The machine, and what was computed.", "type": "string" }));
+    let mut tail = Map::new();
+    if has_course {
+        tail.insert("columns".into(), json!({ "description": "Names of the columns, with units.", "type": "array", "items": { "type": "string" } }));
+        tail.insert("rows".into(), json!({
+            "description": "A number for each column; null where there is no value.",
+            "type": "array", "items": { "type": "array", "items": { "type": ["number", "null"] } },
+        }));
+    }
+    let own = schema.remove("properties");
+    let required = schema.remove("required");
+    let names = |map: &Map<String, Value>| map.keys().cloned().map(Value::from).collect::<Vec<_>>();
+    let mut all = names(&head);
+    all.extend(required.and_then(|r| r.as_array().cloned()).unwrap_or_default());
+    all.extend(names(&tail));
+    head.extend(own.and_then(|own| own.as_object().cloned()).unwrap_or_default());
+    head.extend(tail);
+    schema.insert("title".into(), form.into());
+    schema.insert("properties".into(), head.into());
+    schema.insert("required".into(), all.into());
+    schema.insert("unevaluatedProperties".into(), false.into());
+    schema
+}
+
+/// The schemas of all commands, each under the name of its form.
+pub fn all() -> Vec<(&'static str, Schema)> {
+    fn one<D: Data>() -> (&'static str, Schema) {
+        (D::FORM, of::<D>())
+    }
+    vec![
+        one::<list::balance::Form>(),
+        one::<list::bus::Form>(),
+        one::<list::fastest::Form>(),
+        one::<list::inspection::Form>(),
+        one::<list::front::Form>(),
+        of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
+        one::<list::reduction::Form>(),
+        one::<list::retime::Form>(),
+        of_sheet(list::sensitivity::FORM, &list::sensitivity::COLUMNS),
+        one::<list::rule_list::Set>(),
+        one::<list::rule_list::Sets>(),
+        one::<list::simulation::Form>(),
+        one::<list::split::SplitData>(),
+        one::<Steady>(),
+        of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
+    ]
+}
