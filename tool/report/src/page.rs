@@ -397,11 +397,5 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 pub fn simulation_page(shown: &list::simulation::View) -> String {
     let file = shown.machines.first;
     let sections = figures::simulation(&shown.found.columns);
-    MotionPage::page(
-        file,
-        "simulation",
-        shown.about(),
-        &shown.answer(),
-        sections,
-    )
+    MotionPage::page(file, "simulation", shown.about(), &shown.answer(), sections)
 }

@@ -10,6 +10,8 @@ use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::{MachineFile, OverRange};
 use jred_machine::model::mechanism::AnyMechanism;
+use jred_report::answer::screen::Screen;
+use jred_report::table::output::Format;
 use serde_json::Value;
 
 /// A block on a guide along x, driven along it, with a pin that swings a slotted lever about (0, −h).
@@ -159,7 +161,9 @@ fn a_sliding_drive_link() {
 fn the_check_of_a_stroke() {
     let findings = Findings::of(&lever()).unwrap();
     assert!(findings.holds(), "{:?}", findings.violations());
-    let json = jred_report::list::inspection::json(&findings);
+    let answer = jred_report::list::inspection::answer(&findings);
+    let written = |format| answer.write(format, Screen::default()).collect::<String>();
+    let json: serde_json::Value = serde_json::from_str(&written(Format::Json)).unwrap();
     assert_eq!(json["degrees of freedom"], 1);
     assert_eq!(json["range"], serde_json::json!([FROM, TO]));
     assert_eq!(json["closure"], Value::Null);
@@ -173,12 +177,12 @@ fn the_check_of_a_stroke() {
         1.0,
         1e-12,
     );
-    let text = jred_report::list::inspection::text(&findings);
+    let text = written(Format::Table);
     for words in [
         "s = -100 to 150 mm",
         "no dead centre",
-        "m_red: ",
-        "drive force",
+        "m_red ",
+        "drive torque",
     ] {
         assert!(text.contains(words), "{words} is not in\n{text}");
     }

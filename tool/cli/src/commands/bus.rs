@@ -72,10 +72,7 @@ pub fn run(options: &Options) -> Result<Done> {
     let bar = ProgressBar::new(0);
     let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();
-    print_answer(
-        &list::bus::answer(&answer, options.format)?,
-        options.format,
-    )?;
+    print_answer(&list::bus::answer(&answer, options.format)?, options.format)?;
     Ok(if answer.holds() {
         Done::Holds
     } else {

@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::busy;
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print, read_warned, warn};
+use crate::commands::{Done, print_answer, read_warned, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
@@ -17,7 +17,8 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
 use jred_machine::read;
-use jred_report::list::alternatives;
+use jred_report::list;
+use jred_report::table::output::Format;
 
 /// Where the pieces of the table meet; nowhere without `--pieces`.
 fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
@@ -176,20 +177,16 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
 
 /// Prints the table, and where it was written.
 fn show(options: &options::Export, export: &Export) -> Result<Done> {
-    match (&options.out, options.format) {
-        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
-        (None, _) => print(&format!(
-            "{}\n{}nothing written: use --out to write a file\n",
-            export.summary(),
-            alternatives::alternatives(export)
-        )),
-        (Some(out), _) => print(&format!(
-            "{}\n{}written to {}\n",
-            export.summary(),
-            alternatives::alternatives(export),
-            plain::path(out)
-        )),
-    }
+    let mut answer = list::export::answer(export);
+    let format = match (&options.out, options.format) {
+        (None, Form::Json) => Format::Json,
+        _ => Format::Table,
+    };
+    answer.sentence(match &options.out {
+        None => "nothing written: use --out to write a file".to_owned(),
+        Some(out) => format!("written to {}", plain::path(out)),
+    });
+    print_answer(&answer, format)
 }
 
 /// Whether the error of the table is proven, and is not above the one allowed; says what is not so.

@@ -179,7 +179,10 @@ fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
 
 /// The files that were written.
 fn written(options: &Options, file: &MachineFile) -> Vec<String> {
-    let profile = options.profile.iter().map(|path| profile_written(file, path));
+    let profile = options
+        .profile
+        .iter()
+        .map(|path| profile_written(file, path));
     let others = [("cam table", &options.cam), ("report", &options.report)];
     let others = others.into_iter().filter_map(|(what, path)| {
         let path = path.as_ref()?;

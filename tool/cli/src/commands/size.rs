@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use miette::{Report, Result, miette};
-use serde_json::Value;
 
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::retime::report;
@@ -198,7 +197,7 @@ impl Answer<'_, '_> {
 }
 
 /// The motion that suits the best drive, said before the list, and what is said of it to programs; `None`: the file's stays.
-fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, Value)> {
+fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, list::suited::MotionData)> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
@@ -209,8 +208,8 @@ fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, Value)> 
     } else {
         output::say(&says);
     }
-    let json = list::suited::json(judging.file, &suited);
-    Ok((suited.motion().cloned(), json))
+    let data = list::suited::data(judging.file, &suited);
+    Ok((suited.motion().cloned(), data))
 }
 
 /// The Pareto front of the drives that violate no rule.

@@ -63,7 +63,11 @@ pub fn tolerance(options: &Options) -> Result<Done> {
                 .to_owned(),
         );
     }
-    let format = if plan.out.is_some() { Format::Table } else { format };
+    let format = if plan.out.is_some() {
+        Format::Table
+    } else {
+        format
+    };
     print_answer(&sheet.answer(), format)?;
     if !ended.is_complete() {
         return stopped(ended, &plan);

@@ -1,14 +1,13 @@
-//! Properties, accuracy and alternatives of a table: for the terminal, for source comments, as JSON.
+//! Properties and accuracy of a table in sentences: for the terminal, and as comments of source files.
 
 use std::fmt::Write as _;
 
 use jred::harmonic::terms;
 use jred::slider_crank::terms as crank;
 use jred::{Set, curves};
-use serde_json::{Value, json};
 
-use super::candidate::{Answer, Candidate, Made};
-use super::{Export, LayoutChoice, LayoutName, Number, Proven};
+use super::candidate::Candidate;
+use super::{Export, LayoutChoice, LayoutName, Number};
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::{rounded, short};
 
@@ -95,18 +94,18 @@ pub(super) fn full_rust_arguments(table: &Candidate) -> String {
 }
 
 /// Rust expression that loads the image.
-fn rust_call(table: &Candidate) -> String {
+pub(super) fn rust_call(table: &Candidate) -> String {
     format!("image.model::<{}>()", rust_arguments(table))
 }
 
 /// The type of the pieces in Rust.
-fn rust_type(pieces: &Candidate) -> String {
+pub(super) fn rust_type(pieces: &Candidate) -> String {
     let (arguments, count) = (rust_arguments(pieces), pieces.tables.len());
     format!("jred::Pieces<'static, {arguments}, {count}>")
 }
 
 /// The part of a number range that is left, in bits.
-fn headroom(usage: f32) -> Option<f64> {
+pub(super) fn headroom(usage: f32) -> Option<f64> {
     (usage > 0.0).then(|| -f64::from(usage).log2())
 }
 
@@ -242,7 +241,7 @@ impl Export {
     }
 
     /// What of the drive train is not in the table.
-    fn left_out(&self) -> Option<String> {
+    pub(super) fn left_out(&self) -> Option<String> {
         let named: Vec<String> = self
             .branches
             .iter()
@@ -300,128 +299,6 @@ impl Export {
             );
         }
         text
-    }
-
-    /// Everything, with every digit, in SI units.
-    pub fn json(&self) -> Value {
-        let chosen = self.chosen();
-        let task = &self.task;
-        let alternatives = self.answers.iter().map(|(number, layout, answer)| {
-            let mut object = json!({
-                "type": number.name(),
-                "layout": layout.name(),
-                "meets": matches!(answer, Answer::Meets(_)),
-                "instructions": task.core.instructions(*number, *layout),
-            });
-            if let (Answer::Meets(c) | Answer::Misses(c), Some(map)) =
-                (answer, object.as_object_mut())
-            {
-                map.extend(figures(c));
-            } else if let Some(map) = object.as_object_mut() {
-                map.insert("why".into(), answer.remark().into());
-            }
-            object
-        });
-        let alternatives: Vec<Value> = alternatives.collect();
-        let mut object = json!({
-            "title": self.title,
-            "machine": self.machine,
-            "position_unit": match self.coordinate { Coordinate::Angle => "rad", Coordinate::Length => "m" },
-            "effort_unit": self.coordinate.effort_unit(),
-            "omega": task.omega,
-            "alpha": task.alpha,
-            "torque_error_allowed": task.torque_error,
-            "max_bytes": task.max_bytes,
-            "max_cells": task.max_cells,
-            "core": task.core.word(),
-            "instructions": task.core.instructions(chosen.number, chosen.layout),
-            "by_direction": self.by_direction,
-            "type": chosen.number.name(),
-            "layout": chosen.layout.name(),
-            "rust": match self.whole() {
-                Some(_) => rust_call(chosen),
-                None => rust_type(chosen),
-            },
-        });
-        if let Some(map) = object.as_object_mut() {
-            if let Some(left_out) = self.left_out() {
-                map.insert("left_out".into(), left_out.into());
-            }
-            map.extend(figures(chosen));
-            let scale = chosen.scale();
-            map.insert(
-                "scale".into(),
-                json!({
-                    "torque": scale.torque(),
-                    "speed": scale.speed(),
-                    "inertia": scale.inertia(),
-                    "acceleration": scale.acceleration(),
-                }),
-            );
-            if chosen.number.is_fixed() {
-                map.insert(
-                    "bits_unused".into(),
-                    json!({
-                        "inertia": headroom(chosen.usage(|u| u.inertia)),
-                        "velocity": headroom(chosen.usage(|u| u.velocity)),
-                        "load": headroom(chosen.usage(|u| u.load)),
-                        "viscous": headroom(chosen.usage(|u| u.viscous)),
-                        "coulomb": headroom(chosen.usage(|u| u.coulomb)),
-                        "torque": headroom(chosen.usage(|u| u.torque)),
-                    }),
-                );
-            }
-            let kind = match self.proof() {
-                Some(Proven::Bounded(_)) => "proven",
-                _ => "estimated",
-            };
-            map.insert("error_between_places".into(), kind.into());
-            map.insert("proof".into(), self.proof_json());
-            map.insert("alternatives".into(), alternatives.into());
-            if let Some(table) = self.whole() {
-                map.insert("words".into(), json!(table.words));
-            } else {
-                let pieces = chosen.tables.iter().map(|table| self.piece(table));
-                map.insert("pieces".into(), pieces.collect());
-            }
-        }
-        object
-    }
-}
-
-/// The figures of a table for JSON.
-fn figures(c: &Candidate) -> serde_json::Map<String, Value> {
-    let ((bound, worst), ticks) = (c.curve_error(), c.ticks());
-    let value = json!({
-        "curves": c.curves(),
-        "cells": c.cells(),
-        "row_bytes": c.row_bytes(),
-        "image_bytes": c.bytes(),
-        "torque_error": c.error(),
-        "curve_error": bound,
-        "worst": worst,
-        "tick_torque_error": ticks.torque,
-        "tick_worst": ticks.worst,
-        "tick_acceleration_error": ticks.acceleration,
-        "peak_torque": ticks.peak_torque,
-    });
-    match value {
-        Value::Object(map) => map,
-        _ => serde_json::Map::new(),
-    }
-}
-
-impl Export {
-    /// One of several tables for JSON: its range, the phase at which it starts in units of 2⁻³² of the whole range, its image.
-    fn piece(&self, table: &Made) -> Value {
-        json!({
-            "from": table.range[0],
-            "to": table.range[1],
-            "start": self.start(table).to_bits(),
-            "cells": table.found.cells,
-            "torque_error": table.error,
-            "words": table.words,
-        })
     }
 
     /// The number type and layout that were chosen.

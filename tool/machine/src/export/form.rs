@@ -40,7 +40,7 @@ impl Export {
             (Form::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
             (Form::C, Some(table)) => self.source(&self.c_table(table, &named)),
             (Form::C, None) => self.source(&self.c_pieces(tables, &named)),
-            (Form::Json, _) => format!("{:#}\n", self.json()).into_bytes(),
+            (Form::Json, _) => format!("{:#}\n", serde_json::json!(self.data())).into_bytes(),
         })
     }
 

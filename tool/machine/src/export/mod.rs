@@ -5,6 +5,7 @@ mod c_source;
 mod candidate;
 mod choice;
 mod cost;
+pub mod data;
 mod fault;
 mod figures;
 mod form;

@@ -7,8 +7,6 @@ use jred::{
 };
 use jred_enclosure::{Goal, Proof, Unproven, prove};
 
-use serde_json::{Value, json};
-
 use super::candidate::{Answer, Made};
 use super::choice::{LayoutName, Number};
 use super::size::rounded_up;
@@ -202,21 +200,6 @@ impl Export {
                 rounded(allowed)
             ),
             _ => String::new(),
-        }
-    }
-
-    /// The same for JSON: the bounds, or why there is none; null if it was not asked for.
-    pub(super) fn proof_json(&self) -> Value {
-        match self.proof() {
-            None => Value::Null,
-            Some(Proven::Open(why)) => json!({ "not_proven": why.to_string() }),
-            Some(Proven::Bounded(proof)) => json!({
-                "table_torque_error": proof.bound,
-                "tick_torque_error": proof.ticked,
-                "worst": proof.worst,
-                "at_least": proof.least,
-                "stretches": proof.stretches,
-            }),
         }
     }
 }

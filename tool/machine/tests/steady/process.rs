@@ -66,7 +66,12 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
         swing,
         1e-9,
     );
-    near("fluctuation", figures.kinetic_energy_fluctuation, swing, 1e-9);
+    near(
+        "fluctuation",
+        figures.kinetic_energy_fluctuation,
+        swing,
+        1e-9,
+    );
     // The flywheel: δ·J·ω² = swing with (ω_max + ω_min)/2; with the mean over the time it differs in the second order of δ.
     let request = Request {
         delta: Some(0.01),
@@ -141,5 +146,5 @@ fn turns_are_those_of_the_loads() {
     let [two, four] =
         [2, 4].map(|turns| asked(&text, &with(turns)).unwrap().cycle.unwrap().figures);
     near("delta", two.delta, four.delta, 1e-9);
-    near("works", 2.0 * two.works[0], four.works[0], 1e-9);
+    near("works", 2.0 * two.energy.motor, four.energy.motor, 1e-9);
 }

@@ -33,7 +33,12 @@ fn simulations_come_to_the_same_cycle() {
     ));
     let omega = turn.get("omega [rad/s]");
     let tight = budget::STEADY_SIMULATED;
-    near("back", *omega.last().unwrap(), figures.speed_at_start_of_turn, tight);
+    near(
+        "back",
+        *omega.last().unwrap(),
+        figures.speed_at_start_of_turn,
+        tight,
+    );
     near(
         "a turn",
         turn.get("phi [deg]")[50] - turn.get("phi [deg]")[0],

@@ -57,7 +57,11 @@ fn two_presses_in_step_are_one() {
         alone.mean_speed,
         budget::STEADY_BALANCE,
     );
-    for (both, alone) in both.works.into_iter().zip(alone.works) {
+    let works = |figures: &Figures| {
+        let energy = figures.energy;
+        [energy.motor, energy.process, energy.losses]
+    };
+    for (both, alone) in works(&both).into_iter().zip(works(&alone)) {
         near("works", both, 2.0 * alone, budget::STEADY_BALANCE);
     }
     let apart = cycle(std::f64::consts::PI, None).cycle.unwrap().figures;

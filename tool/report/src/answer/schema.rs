@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::list;
 use jred_machine::analysis::steady::Steady;
+use jred_machine::export::data::ExportData;
 
 /// The data of a command.
 pub(crate) trait Data: Serialize + JsonSchema {
@@ -16,7 +17,7 @@ pub(crate) trait Data: Serialize + JsonSchema {
 }
 
 /// The data with its form and title.
-pub(super) fn headed(form: &str, title: &str, data: Value) -> Map<String, Value> {
+pub(crate) fn headed(form: &str, title: &str, data: Value) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("schema".into(), form.into());
     map.insert("title".into(), title.into());
@@ -40,7 +41,10 @@ struct SheetData {
 fn of_sheet(form: &'static str, columns: &[&str]) -> (&'static str, Schema) {
     let mut schema = root::<SheetData>(form, false);
     let cell = json!({ "type": ["number", "string", "null"] });
-    let all: Map<String, Value> = columns.iter().map(|name| ((*name).to_owned(), cell.clone())).collect();
+    let all: Map<String, Value> = columns
+        .iter()
+        .map(|name| ((*name).to_owned(), cell.clone()))
+        .collect();
     let required: Vec<&str> = columns.to_vec();
     let row = json!({ "type": "object", "properties": all, "required": required, "additionalProperties": cell });
     if let Some(rows) = schema.pointer_mut("/properties/rows/items") {
@@ -58,8 +62,14 @@ fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
     let generator = SchemaGenerator::new(SchemaSettings::draft2020_12().for_serialize());
     let mut schema = generator.into_root_schema_for::<D>();
     let mut head = Map::new();
-    head.insert("schema".into(), json!({ "description": "Name and version of this form.", "const": form }));
-    head.insert("title".into(), json!({ "description": "The machine, and what was computed.", "type": "string" }));
+    head.insert(
+        "schema".into(),
+        json!({ "description": "Name and version of this form.", "const": form }),
+    );
+    head.insert(
+        "title".into(),
+        json!({ "description": "The machine, and what was computed.", "type": "string" }),
+    );
     let mut tail = Map::new();
     if has_course {
         tail.insert("columns".into(), json!({ "description": "Names of the columns, with units.", "type": "array", "items": { "type": "string" } }));
@@ -72,9 +82,16 @@ fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
     let required = schema.remove("required");
     let names = |map: &Map<String, Value>| map.keys().cloned().map(Value::from).collect::<Vec<_>>();
     let mut all = names(&head);
-    all.extend(required.and_then(|r| r.as_array().cloned()).unwrap_or_default());
+    all.extend(
+        required
+            .and_then(|r| r.as_array().cloned())
+            .unwrap_or_default(),
+    );
     all.extend(names(&tail));
-    head.extend(own.and_then(|own| own.as_object().cloned()).unwrap_or_default());
+    head.extend(
+        own.and_then(|own| own.as_object().cloned())
+            .unwrap_or_default(),
+    );
     head.extend(tail);
     schema.insert("title".into(), form.into());
     schema.insert("properties".into(), head.into());
@@ -91,6 +108,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
     vec![
         one::<list::balance::Form>(),
         one::<list::bus::Form>(),
+        one::<ExportData>(),
         one::<list::fastest::Form>(),
         one::<list::inspection::Form>(),
         one::<list::front::Form>(),
@@ -103,6 +121,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
         one::<list::simulation::Form>(),
         one::<list::split::SplitData>(),
         one::<Steady>(),
+        one::<list::listing::Form>(),
         of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
     ]
 }

@@ -30,7 +30,11 @@ impl Answer<'_> {
                 }
                 Block::Fact(name, says) => {
                     let rest = " ".repeat(INDENT.len() + width + 1);
-                    let colon = if name.chars().count() > width { ":" } else { "" };
+                    let colon = if name.chars().count() > width {
+                        ":"
+                    } else {
+                        ""
+                    };
                     let name = format!("{INDENT}{name:<width$}{colon} ");
                     screen.fill(&mut text, &name, &rest, says);
                 }

@@ -80,7 +80,10 @@ pub fn answer(view: &View) -> Answer<'static> {
         "not less: nothing within the bounds is better".to_owned()
     };
     let [is, was, bound] = [is, was, *bound].map(short);
-    answer.fact("result", format!("{is} {unit} instead of {was} {unit}, {saved}"));
+    answer.fact(
+        "result",
+        format!("{is} {unit} instead of {was} {unit}, {saved}"),
+    );
     answer.fact(
         "optimum",
         format!("global: nothing within the bounds makes it less than {bound} {unit}"),

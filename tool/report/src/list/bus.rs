@@ -192,7 +192,10 @@ fn resistor(bus: &Bus, answer: &mut Answer) {
     }
     if let Some(conflict) = bus.conflict() {
         let words = conflict.words();
-        answer.fact("resistor", format!("no brake resistor can work here: {words}"));
+        answer.fact(
+            "resistor",
+            format!("no brake resistor can work here: {words}"),
+        );
     }
     let Some(need) = &bus.need else {
         return;

@@ -118,7 +118,14 @@ pub fn answer(findings: &Findings) -> Answer<'static> {
 
 fn joints(findings: &Findings, answer: &mut Answer) {
     answer.heading("joints");
-    let columns = ["joint", "kind", "first body", "second body", "constraints", ""];
+    let columns = [
+        "joint",
+        "kind",
+        "first body",
+        "second body",
+        "constraints",
+        "",
+    ];
     let rows = findings.joints.iter().map(|joint| {
         let [first, second] = joint.bodies.clone();
         let driven = if joint.driven { "drive" } else { "" };

@@ -137,7 +137,7 @@ pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<Str
 }
 
 /// A part of the file's motion that is kept.
-#[derive(Serialize, JsonSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct KeptPart {
     /// Number of the segment, from 1.
     segment: usize,

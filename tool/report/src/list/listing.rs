@@ -12,6 +12,7 @@ pub use asked::Asked;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;
-pub use json::{Notes, SCHEMA, json};
+pub(crate) use json::Form;
+pub use json::{Notes, json};
 pub use text::text;
 pub(crate) use text::{class_text, figure, gap_text, margin, smaller, violations};

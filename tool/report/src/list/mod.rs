@@ -1,10 +1,10 @@
 //! The answers of the commands, for reading, as CSV and as JSON.
 
-pub mod alternatives;
 pub mod balance;
 pub mod bus;
 pub mod contact;
 mod driven;
+pub mod export;
 pub mod fastest;
 pub mod front;
 pub mod inspection;

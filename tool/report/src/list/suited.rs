@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short};
@@ -11,7 +12,7 @@ use jred_motion::suited::{Suited, Tried};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 
-use crate::list::kept;
+use crate::list::kept::{self, KeptPart};
 use crate::table::sheet::Reading;
 
 /// Which motion the list below is made with, and what the best drive was before.
@@ -70,33 +71,66 @@ fn stays(before: &Drive, best: &Drive) -> String {
     )
 }
 
-/// The same for programs.
-pub fn json(file: &MachineFile, suited: &Suited) -> Value {
-    let drive = |drive: &Drive| {
-        json!({
-            "motor": drive.motor.key,
-            "gearbox": drive.gearbox.map(|gearbox| &gearbox.key),
-            "rated power [W]": drive.motor.rated_power(),
-        })
-    };
-    let before = suited.before.as_ref().map(|(before, _)| drive(before));
+/// The motion that drives are judged with.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct MotionData {
+    /// gentlest: the motion of least effort for a drive; file: that of the machine file, which is kept where no drive that is as small
+    /// is suitable with a motion of its own.
+    from: &'static str,
+    /// The drive that the motion is made for; null: the motion is that of the file.
+    #[serde(rename = "made for")]
+    made_for: Option<NamedDrive>,
+    /// Reduction of the RMS torque as a share of that with the motion of the file.
+    #[serde(rename = "saving of RMS torque")]
+    saving: Option<f64>,
+    /// The best drive with the motion of the file; null: no drive is suitable.
+    #[serde(rename = "best with the file's motion")]
+    before: Option<NamedDrive>,
+    /// The best drive with a motion of its own; null: none of those tried is suitable.
+    #[serde(rename = "best with a motion of its own")]
+    own: Option<NamedDrive>,
+    /// Parts of the file's motion that are kept.
+    kept: Vec<KeptPart>,
+    /// Parts and limits of the file's motion that are not kept.
+    #[serde(rename = "not kept")]
+    not_kept: Vec<String>,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+struct NamedDrive {
+    /// Key of the motor.
+    motor: String,
+    /// Key of the gearbox.
+    gearbox: Option<String>,
+    /// Rated power.
+    #[serde(rename = "rated power [W]")]
+    power: Option<f64>,
+}
+
+impl From<&Drive<'_>> for NamedDrive {
+    fn from(drive: &Drive) -> Self {
+        Self {
+            motor: drive.motor.key.clone(),
+            gearbox: drive.gearbox.map(|gearbox| gearbox.key.clone()),
+            power: drive.motor.rated_power(),
+        }
+    }
+}
+
+/// The same as data.
+pub fn data(file: &MachineFile, suited: &Suited) -> MotionData {
     let better = suited.better();
+    let before = suited.before.as_ref();
     // With the motion of the file all is kept.
-    let (kept, lost) = better.map_or((json!([]), json!([])), |_| {
-        (
-            json!(kept::parts(file, &suited.chain)),
-            json!(kept::lost(file, &suited.chain)),
-        )
-    });
-    json!({
-        "from": if better.is_some() { "gentlest" } else { "file" },
-        "made for": better.map(|tried| drive(&tried.drive)),
-        "saving of RMS torque": better.map(saving),
-        "best with the file's motion": before,
-        "best with a motion of its own": suited.best().map(|tried| drive(&tried.drive)),
-        "kept": kept,
-        "not kept": lost,
-    })
+    MotionData {
+        from: if better.is_some() { "gentlest" } else { "file" },
+        made_for: better.map(|tried| (&tried.drive).into()),
+        saving: better.map(saving),
+        before: before.map(|(before, _)| before.into()),
+        own: suited.best().map(|tried| (&tried.drive).into()),
+        kept: better.map_or_else(Vec::new, |_| kept::parts(file, &suited.chain)),
+        not_kept: better.map_or_else(Vec::new, |_| kept::lost(file, &suited.chain)),
+    }
 }
 
 /// The drives that were tried, each with its own motion, and what that saves.

@@ -20,8 +20,8 @@ use jred_sizing::select::fit::input_kind;
 use super::figures::{dashed, line};
 use super::section::{Figure, MotionPage, Section, plot};
 use crate::list;
-use crate::table::output::Format;
 use crate::plot::{Axes, Axis, Series, lines};
+use crate::table::output::Format;
 
 /// Instants of a motion that is drawn.
 const INSTANTS: usize = 1501;

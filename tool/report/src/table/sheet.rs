@@ -4,8 +4,8 @@ use comfy_table::{ColumnConstraint, ContentArrangement};
 use serde_json::{Map, Value, json};
 
 use super::rows::csv_line;
-use crate::answer::screen::Screen;
 use crate::answer::Answer;
+use crate::answer::screen::Screen;
 use crate::table::output::text_table;
 use jred_machine::number::rounding::significant;
 use jred_sizing::study::cell::Cell;

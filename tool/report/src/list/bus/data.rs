@@ -281,7 +281,9 @@ fn axes(bus: &Bus) -> Vec<AxisData<'_>> {
 
 fn common(bus: &Bus) -> CommonData {
     let (kind, period, cycles, most) = match bus.shared.common() {
-        Common::Searched { period, cycles } => ("searched", Some(period), Some(cycles), MOST_CYCLES),
+        Common::Searched { period, cycles } => {
+            ("searched", Some(period), Some(cycles), MOST_CYCLES)
+        }
         Common::TooLong { period, cycles } => ("too long", Some(period), Some(cycles), MOST_CYCLES),
         Common::None => ("none", None, None, LOOKED_AT),
     };

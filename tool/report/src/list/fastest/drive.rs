@@ -62,14 +62,16 @@ impl View<'_> {
             };
             format!("; {holding} {effort} to hold {place}")
         };
-        answer.fact(format!("motor {torque}"),
+        answer.fact(
+            format!("motor {torque}"),
             format!(
                 "RMS {} {effort}{continuous}; peak {} {effort}{holding}",
                 short(load.rms),
                 short(load.peaks[0])
             ),
         );
-        answer.fact("motor speed",
+        answer.fact(
+            "motor speed",
             format!(
                 "peak {} {unit}, mean {} {unit}",
                 short(load.peaks[1] / speed.scale),

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use comfy_table::{CellAlignment, ContentArrangement};
 
 use super::List;
-use crate::answer::screen::Screen;
 use super::text::{doubt, kilowatts};
+use crate::answer::screen::Screen;
 use crate::list::marks;
 use crate::table::output::text_table;
 use jred_machine::model::machine::MachineFile;

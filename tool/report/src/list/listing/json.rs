@@ -1,30 +1,257 @@
-//! A selection as JSON; the form is described in `docs/size-json.md` and `docs/size.schema.json`.
+//! A selection as JSON; [docs](../../../../../docs/json.md) describe how to read it.
 
-use serde_json::{Map, Value, json as object};
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::{Asked, Explanation, List};
+use crate::answer::schema::{Data, headed};
+use crate::list::suited::MotionData;
 use crate::table::json::{array_parts, split_at_entry};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::figures::Figures;
 use jred_sizing::catalogue::MotorKind;
-use jred_sizing::judge::cure;
+use jred_sizing::cycle::form::MotorDuty;
+use jred_sizing::judge::check::Check;
+use jred_sizing::judge::{Judged, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
-/// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
-pub const SCHEMA: &str = "jred-size/4";
-
-/// What is said beside the drives.
+/// Remarks beside the drives.
 #[derive(Debug)]
 pub struct Notes<'a> {
-    /// What may be a mistake in the machine file.
+    /// Possible mistakes in the machine file.
     pub warnings: &'a [String],
-    /// Which motion the drives are judged with, if one was made for them.
-    pub motion: Option<&'a Value>,
+    /// The motion that the drives are judged with, if one was made for them.
+    pub motion: Option<&'a MotionData>,
 }
 
-/// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
+/// The JSON of `jred size`: SI units unless a key names another; of a linear motor read N for N m, m/s for rad/s and kg for kg m^2.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct SizeData<'a> {
+    /// Version of jred.
+    version: &'static str,
+    /// Duration of a cycle.
+    #[serde(rename = "cycle [s]")]
+    cycle: f64,
+    /// Torque at a drive link that turns, without drive train.
+    #[serde(
+        rename = "drive link torque [N m]",
+        skip_serializing_if = "Option::is_none"
+    )]
+    link_torque: Option<Figures>,
+    /// Speed of a drive link that turns.
+    #[serde(
+        rename = "drive link speed [rad/s]",
+        skip_serializing_if = "Option::is_none"
+    )]
+    link_speed: Option<Figures>,
+    /// Force at a drive link that slides, without drive train.
+    #[serde(
+        rename = "drive link force [N]",
+        skip_serializing_if = "Option::is_none"
+    )]
+    link_force: Option<Figures>,
+    /// Speed of a drive link that slides.
+    #[serde(
+        rename = "drive link speed [m/s]",
+        skip_serializing_if = "Option::is_none"
+    )]
+    slide_speed: Option<Figures>,
+    /// Torque at the input of the drive train, which is the gearbox output.
+    #[serde(rename = "input torque [N m]")]
+    input_torque: Figures,
+    /// Speed at the input of the drive train.
+    #[serde(rename = "input speed [rad/s]")]
+    input_speed: Figures,
+    /// Inertia at the input of the drive train.
+    #[serde(rename = "input inertia [kg m^2]")]
+    input_inertia: Figures,
+    /// Holding torque at the input of the drive train.
+    #[serde(rename = "holding torque [N m]")]
+    holding: f64,
+    /// The supply of the machine file.
+    supply: SupplyData,
+    /// The rules.
+    rules: RulesData<'a>,
+    /// Possible mistakes in the machine file.
+    warnings: &'a [String],
+    /// Order of the suitable drives, in words.
+    ranking: String,
+    /// Numbers of drives.
+    counts: Counts,
+    /// The suitable drives by the certainty of their data, the most certain first, which is the order of the ranking.
+    certainties: Vec<ClassData<'a>>,
+    /// Rules that are not checked for some of the suitable drives.
+    #[serde(rename = "not checked")]
+    not_checked: Vec<GapData>,
+    /// Reasons for which drives are refused, the most frequent first; empty where a drive fits.
+    violated: Vec<ViolationData>,
+    /// The first drive of each motor, of those that violate no rule, best first: `--top` motors; with `--all-gearboxes` or `--all` every drive.
+    #[schemars(with = "Vec<RankedData<'static>>")]
+    fit: (),
+    /// Drives that violate a rule, those that miss by least first: `--nearest` of them.
+    #[schemars(with = "Vec<DriveData<'static>>")]
+    refused: (),
+    /// The drive of `--why`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    asked: Option<RankedData<'a>>,
+    /// Contributions and changes, with `--explain` or `--why`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explanation: Option<&'a Explanation>,
+    /// The motion that the drives are judged with, with `--motion best`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion: Option<&'a MotionData>,
+}
+
+impl Data for SizeData<'_> {
+    // The number is raised whenever a key is removed or changes its meaning.
+    const FORM: &'static str = "jred-size/4";
+}
+
+/// The form of the JSON.
+pub(crate) type Form = SizeData<'static>;
+
+#[derive(Serialize, JsonSchema)]
+struct SupplyData {
+    /// Null: not given, or the bus voltage was given itself.
+    #[serde(rename = "mains voltage [V]")]
+    mains: Option<f64>,
+    /// Null: not given; each motor at the voltage of its data.
+    #[serde(rename = "bus voltage [V]")]
+    bus: Option<f64>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct RulesData<'a> {
+    /// Name of the set.
+    set: &'a str,
+    /// Its description.
+    title: &'a str,
+    /// Limits by the rule's key in [rules]: shares of the rating.
+    limits: BTreeMap<&'static str, LimitData<'a>>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct LimitData<'a> {
+    /// Beyond this the rule is violated.
+    fail: Option<f64>,
+    /// Beyond this there is a warning.
+    warn: Option<f64>,
+    /// Source of the limit.
+    source: &'a str,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct Counts {
+    /// All drives.
+    drives: usize,
+    /// Drives that violate no rule.
+    fit: usize,
+    /// Those of them with rules that are not checked.
+    #[serde(rename = "fit, not all rules checked")]
+    partly: usize,
+    /// Drives that violate a rule.
+    refused: usize,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct ClassData<'a> {
+    /// makers-figures, other-figures, pairing-unknown or voltage-unknown.
+    certainty: &'static str,
+    /// Number of suitable drives.
+    drives: usize,
+    /// Rank of the first one.
+    rank: usize,
+    /// The first one.
+    first: DriveData<'a>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct GapData {
+    /// Name of the rule.
+    rule: &'static str,
+    /// The rule.
+    id: Rule,
+    /// Suitable drives that the rule could not judge.
+    drives: usize,
+    /// Missing data of one of them.
+    missing: String,
+    /// Keys of the catalogue or the machine file.
+    cure: &'static str,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct ViolationData {
+    /// Name of the rule.
+    rule: &'static str,
+    /// The rule.
+    id: Rule,
+    /// Refused drives that violate it; rules over time are judged only where all others are satisfied.
+    drives: usize,
+    /// Those of them that violate no other rule.
+    #[serde(rename = "drives, nothing else")]
+    alone: usize,
+}
+
+/// A drive with its rank.
+#[derive(Serialize, JsonSchema)]
+struct RankedData<'a> {
+    #[serde(flatten)]
+    drive: DriveData<'a>,
+    /// Rank among the drives that violate no rule, from 1; null: refused.
+    rank: Option<usize>,
+}
+
+/// A drive.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct DriveData<'a> {
+    /// Key of the motor in the catalogue.
+    motor: &'a str,
+    /// Key of the gearbox; null: coupled directly.
+    gearbox: Option<&'a str>,
+    /// Key of the amplifier.
+    amplifier: Option<&'a str>,
+    /// Key of the brake resistor that was chosen; null: not needed, none fits, or the machine file gives one.
+    #[serde(rename = "brake resistor")]
+    resistor: Option<&'a str>,
+    /// Gear ratio.
+    ratio: f64,
+    /// Mass of motor, gearbox and amplifier; null: one of them has no data.
+    #[serde(rename = "mass [kg]")]
+    mass: Option<f64>,
+    /// Price of motor, gearbox, amplifier and chosen resistor, in the currency of the catalogue; null: one of them has no data.
+    price: Option<f64>,
+    /// Rated power.
+    #[serde(rename = "rated power [W]")]
+    power: Option<f64>,
+    /// Mains voltage that the motor is made for; null: not stated.
+    #[serde(rename = "motor mains voltage [V]")]
+    mains: Option<f64>,
+    /// Bus voltage that the rule motor-voltage judges by; null: no voltage is stated.
+    #[serde(rename = "motor largest bus voltage [V]")]
+    largest: Option<f64>,
+    /// makers-figures, other-figures, pairing-unknown or voltage-unknown; null: refused.
+    certainty: Option<&'static str>,
+    /// maker, or other: not all figures are from the maker's own document.
+    #[serde(rename = "figures from")]
+    figures: &'static str,
+    /// The worst verdict of its rules.
+    verdict: Verdict,
+    /// Duty of the motor.
+    duty: MotorDuty,
+    /// The rules.
+    checks: Vec<Check>,
+    /// Assumptions where data are missing.
+    assumptions: Vec<String>,
+}
+
+/// The listed drives and the requested one with every digit, and the numbers of all; part by part, a drive each: the text of
 /// all drives of a catalogue is many times larger than they are.
 pub fn json(
     list: List,
@@ -38,130 +265,156 @@ pub fn json(
     let first = selection.fit.first().or(selection.refused.first());
     let shown = asked.map(|asked| &asked.candidate).or(first);
     let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
-    let limits: Map<String, Value> = Rule::ALL
-        .into_iter()
-        .filter(|rule| selection.rules.shows(*rule))
-        .map(|rule| {
-            let limit = selection.rules.limit(rule);
-            let source = selection.rules.source(rule);
-            let limit = object!({ "fail": limit.fail, "warn": limit.warn, "source": source });
-            (rule.key().to_owned(), limit)
-        })
-        .collect();
     // The drive link's own units: a rotary motor may drive a slide through a screw.
-    let [effort, speed] = match file.machine.mechanism().coordinate() {
-        Coordinate::Angle => ["drive link torque [N m]", "drive link speed [rad/s]"],
-        Coordinate::Length => ["drive link force [N]", "drive link speed [m/s]"],
-    };
-    let classes = selection.classes().into_iter().map(|class| {
-        object!({
-            "certainty": class.certainty.word(),
-            "drives": class.count,
-            "rank": class.rank,
-            "first": drive(selection, &class.first),
-        })
-    });
-    let gaps = selection.gaps().into_iter().map(|gap| {
-        object!({
-            "rule": gap.rule.named(kind.vocabulary()),
-            "id": gap.rule,
-            "drives": gap.count,
-            "missing": gap.missing,
-            "cure": cure(gap.rule),
-        })
-    });
-    let mut value = object!({
-        "schema": SCHEMA,
-        "version": env!("CARGO_PKG_VERSION"),
-        "title": file.title,
-        "cycle [s]": duty.duration,
-        effort: duty.figures(|i| i.terms.total()),
-        speed: duty.figures(|i| i.omega),
-        "input torque [N m]": duty.figures(|i| i.input_torque),
-        "input speed [rad/s]": duty.figures(|i| i.input_speed),
-        "input inertia [kg m^2]": duty.figures(|i| i.input_inertia),
-        "holding torque [N m]": duty.hold_torque,
-        "supply": { "mains voltage [V]": file.site.mains_voltage, "bus voltage [V]": file.site.bus_voltage },
-        "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
-        "warnings": notes.warnings,
-        "ranking": selection.ranking(kind.vocabulary()),
-        "counts": {
-            "drives": selection.fit.len() + selection.refused.len(),
-            "fit": selection.fit.len(),
-            "fit, not all rules checked": selection.partly_checked(),
-            "refused": selection.refused.len(),
+    let turns = file.machine.mechanism().coordinate() == Coordinate::Angle;
+    let effort = duty.figures(|i| i.terms.total());
+    let speed = duty.figures(|i| i.omega);
+    let data = SizeData {
+        version: env!("CARGO_PKG_VERSION"),
+        cycle: duty.duration,
+        link_torque: turns.then_some(effort),
+        link_speed: turns.then_some(speed),
+        link_force: (!turns).then_some(effort),
+        slide_speed: (!turns).then_some(speed),
+        input_torque: duty.figures(|i| i.input_torque),
+        input_speed: duty.figures(|i| i.input_speed),
+        input_inertia: duty.figures(|i| i.input_inertia),
+        holding: duty.hold_torque,
+        supply: SupplyData {
+            mains: file.site.mains_voltage,
+            bus: file.site.bus_voltage,
         },
-        "certainties": classes.collect::<Vec<_>>(),
-        "not checked": gaps.collect::<Vec<_>>(),
-        "violated": violated(selection, kind),
-        "fit": Value::Null,
-        "refused": Value::Null,
-    });
-    if let (Some(asked), Some(map)) = (asked, value.as_object_mut()) {
-        let mut found = drive(selection, &asked.candidate);
-        found["rank"] = asked.rank.into();
-        map.insert("asked".to_owned(), found);
-    }
-    if let (Some(explanation), Some(map)) = (explanation, value.as_object_mut()) {
-        map.insert("explanation".to_owned(), object!(explanation));
-    }
-    if let (Some(motion), Some(map)) = (notes.motion, value.as_object_mut()) {
-        map.insert("motion".to_owned(), motion.clone());
-    }
+        rules: rules(selection),
+        warnings: notes.warnings,
+        ranking: selection.ranking(kind.vocabulary()),
+        counts: Counts {
+            drives: selection.fit.len() + selection.refused.len(),
+            fit: selection.fit.len(),
+            partly: selection.partly_checked(),
+            refused: selection.refused.len(),
+        },
+        certainties: classes(selection),
+        not_checked: gaps(selection, kind),
+        violated: violated(selection, kind),
+        fit: (),
+        refused: (),
+        asked: asked.map(|asked| RankedData {
+            drive: drive(selection, &asked.candidate),
+            rank: asked.rank,
+        }),
+        explanation,
+        motion: notes.motion,
+    };
+    // Only a map whose keys are no text cannot be written.
+    let data = serde_json::to_value(data).unwrap_or_default();
+    let value = Value::Object(headed(SizeData::FORM, &file.title, data));
     let text = format!("{value:#}\n");
     let (before, rest) = split_at_entry(&text, "fit");
     let (between, after) = split_at_entry(&rest, "refused");
-    let fit = list.fit(selection).into_iter();
-    let fit = fit.map(|(rank, candidate)| {
-        let mut found = drive(selection, &candidate);
-        found["rank"] = rank.into();
-        found
+    let fit = list.fit(selection).into_iter().map(|(rank, candidate)| {
+        json!(RankedData {
+            drive: drive(selection, &candidate),
+            rank: Some(rank),
+        })
     });
     let refused = list.refused(selection).into_iter();
     std::iter::once(before)
         .chain(array_parts(fit))
         .chain(std::iter::once(between))
         .chain(array_parts(
-            refused.map(|candidate| drive(selection, &candidate)),
+            refused.map(|candidate| json!(drive(selection, &candidate))),
         ))
         .chain(std::iter::once(after))
 }
 
-/// What the drives are refused for. Where one fits, nobody asks, and it would mean judging all drives in full.
-fn violated(selection: &Selection, kind: MotorKind) -> Vec<Value> {
+fn rules<'a>(selection: &'a Selection) -> RulesData<'a> {
+    let shown = Rule::ALL
+        .into_iter()
+        .filter(|rule| selection.rules.shows(*rule));
+    let limits = shown.map(|rule| {
+        let limit = selection.rules.limit(rule);
+        let limit = LimitData {
+            fail: limit.fail,
+            warn: limit.warn,
+            source: selection.rules.source(rule),
+        };
+        (rule.key(), limit)
+    });
+    RulesData {
+        set: &selection.rules.name,
+        title: &selection.rules.title,
+        limits: limits.collect(),
+    }
+}
+
+fn classes<'a>(selection: &'a Selection) -> Vec<ClassData<'a>> {
+    let classes = selection.classes().into_iter();
+    let class = classes.map(|class| ClassData {
+        certainty: class.certainty.word(),
+        drives: class.count,
+        rank: class.rank,
+        first: drive(selection, &class.first),
+    });
+    class.collect()
+}
+
+fn gaps(selection: &Selection, kind: MotorKind) -> Vec<GapData> {
+    let gaps = selection.gaps().into_iter().map(|gap| GapData {
+        rule: gap.rule.named(kind.vocabulary()),
+        id: gap.rule,
+        drives: gap.count,
+        missing: gap.missing,
+        cure: cure(gap.rule),
+    });
+    gaps.collect()
+}
+
+/// Reasons for which drives are refused. Where one fits, they are not needed, and would mean judging all drives in full.
+fn violated(selection: &Selection, kind: MotorKind) -> Vec<ViolationData> {
     if !selection.fit.is_empty() {
         return Vec::new();
     }
-    let violations = selection.violations().into_iter().map(|violation| {
-        object!({
-            "rule": violation.rule.named(kind.vocabulary()),
-            "id": violation.rule,
-            "drives": violation.count,
-            "drives, nothing else": violation.alone,
-        })
+    let violations = selection.violations().into_iter();
+    let violations = violations.map(|violation| ViolationData {
+        rule: violation.rule.named(kind.vocabulary()),
+        id: violation.rule,
+        drives: violation.count,
+        alone: violation.alone,
     });
     violations.collect()
 }
 
-fn drive(selection: &Selection, candidate: &Candidate) -> Value {
+fn drive<'c>(selection: &Selection<'c>, candidate: &Candidate<'c>) -> DriveData<'c> {
     let judged = selection.judged(candidate);
-    let drive = &judged.drive;
-    object!({
-        "motor": drive.motor.key,
-        "gearbox": drive.gearbox.map(|g| &g.key),
-        "amplifier": drive.amplifier.map(|a| &a.key),
-        "brake resistor": judged.resistor.map(|r| &r.key),
-        "ratio": drive.ratio(),
-        "mass [kg]": drive.mass(),
-        "price": judged.price(),
-        "rated power [W]": judged.rated_power(),
-        "motor mains voltage [V]": drive.motor.mains_voltage,
-        "motor largest bus voltage [V]": drive.motor.made_for().map(|made| made.largest),
-        "certainty": candidate.certainty().map(Certainty::word),
-        "figures from": if drive.from_makers() { "maker" } else { "other" },
-        "verdict": judged.verdict(),
-        "duty": judged.duty,
-        "checks": judged.checks,
-        "assumptions": judged.assumptions,
-    })
+    let (power, price, verdict) = (judged.rated_power(), judged.price(), judged.verdict());
+    let Judged {
+        drive,
+        duty,
+        checks,
+        assumptions,
+        resistor,
+        ..
+    } = judged;
+    DriveData {
+        motor: &drive.motor.key,
+        gearbox: drive.gearbox.map(|g| g.key.as_str()),
+        amplifier: drive.amplifier.map(|a| a.key.as_str()),
+        resistor: resistor.map(|r| r.key.as_str()),
+        ratio: drive.ratio(),
+        mass: drive.mass(),
+        price,
+        power,
+        mains: drive.motor.mains_voltage,
+        largest: drive.motor.made_for().map(|made| made.largest),
+        certainty: candidate.certainty().map(Certainty::word),
+        figures: if drive.from_makers() {
+            "maker"
+        } else {
+            "other"
+        },
+        verdict,
+        duty,
+        checks,
+        assumptions,
+    }
 }

@@ -38,7 +38,8 @@ pub(super) fn describe(answer: &mut Answer, cycle: &Cycle) {
             )
         },
     );
-    answer.fact("stability",
+    answer.fact(
+        "stability",
         format!("{left} of a small deviation is left after a {after}{caught}"),
     );
     answer.fact("start from rest", started(&cycle.start));
@@ -51,7 +52,8 @@ fn speeds(answer: &mut Answer, figures: &Figures) {
     } else {
         ""
     };
-    answer.fact("speed",
+    answer.fact(
+        "speed",
         format!(
             "mean {} over the time; from {} at {} to {} at {}{backwards}",
             rpm(figures.mean_speed.abs()),
@@ -75,7 +77,8 @@ fn works(answer: &mut Answer, figures: &Figures) {
     let torque = figures.motor_torque;
     let mean = torque.mean * figures.motor_speed.signum();
     let [mean, rms, peak] = [mean, torque.rms, torque.peak].map(short);
-    answer.fact("motor torque",
+    answer.fact(
+        "motor torque",
         format!(
             "mean {mean} N m, RMS {rms} N m, peak {peak} N m, at {} of the motor on average",
             rpm(figures.motor_speed.abs())
@@ -83,9 +86,7 @@ fn works(answer: &mut Answer, figures: &Figures) {
     );
     let power = figures.motor_power;
     let [mean, peak] = [power.mean, power.peak].map(short);
-    answer.fact("motor power",
-        format!("mean {mean} W, peak {peak} W"),
-    );
+    answer.fact("motor power", format!("mean {mean} W, peak {peak} W"));
     let energy = figures.energy;
     let [motor, process, losses] = [energy.motor, energy.process, energy.losses].map(short);
     answer.fact(if figures.turns == 1 {
@@ -98,7 +99,8 @@ fn works(answer: &mut Answer, figures: &Figures) {
             figures.imbalance.max(1e-16)
         ),
     );
-    answer.fact("kinetic energy",
+    answer.fact(
+        "kinetic energy",
         format!(
             "changes by {} J between its least and its largest value",
             short(figures.kinetic_energy_fluctuation)
@@ -115,7 +117,8 @@ fn process(answer: &mut Answer, figures: &Figures) {
         is_backwards: figures.mean_speed < 0.0,
     };
     if energy.motor < 0.0 {
-        answer.fact("process loads",
+        answer.fact(
+            "process loads",
             format!(
                 "they drive the machine, and the motor brakes: {} W on average",
                 short(-figures.motor_power.mean)

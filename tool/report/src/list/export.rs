@@ -1,0 +1,78 @@
+//! The table for the firmware, and every number type and layout beside it.
+
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::table::sheet::Reading;
+use jred_machine::export::data::{ExportData, FORM};
+use jred_machine::export::{Answer as Found, Export};
+use jred_machine::number::rounding::short;
+use jred_sizing::study::cell::Cell;
+
+impl Data for ExportData {
+    const FORM: &'static str = FORM;
+}
+
+/// The table that was chosen, and what the others take; the chosen one is starred.
+pub fn answer(export: &Export) -> Answer<'static> {
+    let summary = export.summary();
+    let mut lines = summary.lines();
+    let title = lines.next().unwrap_or_default();
+    let mut answer = Answer::new(title, &export.data());
+    for line in lines {
+        answer.sentence(line);
+    }
+    answer.heading("every number type and layout");
+    answer.table(alternatives(export));
+    answer
+}
+
+fn alternatives(export: &Export) -> Reading {
+    let effort = export.coordinate.effort_unit();
+    let columns = [
+        String::new(),
+        "type".into(),
+        "layout".into(),
+        "cells".into(),
+        "bytes\nof rows".into(),
+        "bytes\nof image".into(),
+        format!("instructions\non {}", export.core()),
+        format!("error\n[{effort}]"),
+        format!("in ticks\n[{effort}]"),
+        String::new(),
+    ];
+    let rows = export
+        .answers
+        .iter()
+        .enumerate()
+        .map(|(k, (number, layout, answer))| {
+            let star = if k == export.chosen { "*" } else { "" };
+            let mut row = vec![
+                star.to_owned(),
+                number.name().to_owned(),
+                layout.name().to_owned(),
+            ];
+            match answer {
+                Found::Meets(c) | Found::Misses(c) => {
+                    let cost = export.core().instructions(*number, *layout);
+                    row.extend([
+                        c.cells().to_string(),
+                        c.row_bytes().to_string(),
+                        c.bytes().to_string(),
+                        cost.map_or_else(String::new, |cost| cost.to_string()),
+                        short(c.error()),
+                        short(c.ticks().torque),
+                    ]);
+                }
+                Found::Refused(_) | Found::TooCoarse(..) | Found::TooLarge(_) => {
+                    row.extend(std::iter::repeat_n(String::new(), 6));
+                }
+            }
+            row.push(answer.remark().to_owned());
+            row.into_iter().map(Cell::Text).collect()
+        });
+    Reading {
+        columns: columns.to_vec(),
+        rows: rows.collect(),
+        whole: columns.len(),
+    }
+}
