@@ -1,4 +1,4 @@
-//! A selection as JSON; the form is described in `docs/size-json.md` and `docs/size.schema.json`.
+//! A selection as JSON; the form is described in `docs/json.md` and `docs/size.schema.json`.
 
 use serde_json::{Map, Value, json as object};
 
