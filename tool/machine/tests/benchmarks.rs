@@ -1,4 +1,4 @@
-//! Sizing problems with answers from elsewhere: makers' handbooks, and closed forms worked out here. `docs/benchmarks.md` lists
+//! Sizing problems with answers from elsewhere: makers' handbooks, and closed forms worked out here. `docs/evidence.md` lists
 //! them.
 
 use jred_machine::analysis::duty::{Duty, Instant};

@@ -1,6 +1,6 @@
 //! Examples of makers' handbooks that end with a motor: the motor that the handbook chooses, judged by the rules.
 //!
-//! The handbooks add the load torque and that of all inertia, so the machine is given by both: see docs/benchmarks.md.
+//! The handbooks add the load torque and that of all inertia, so the machine is given by both: see docs/evidence.md.
 
 use std::path::Path;
 

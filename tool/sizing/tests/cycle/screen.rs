@@ -21,7 +21,7 @@ use super::random::duty;
 use super::runner;
 use crate::support::press_text;
 
-/// Every drive in full, in the order that docs/search.md states: those that fit, those that are refused.
+/// Every drive in full, in the order that docs/sizing-rules.md states: those that fit, those that are refused.
 fn plainly(
     catalogue: &Catalogue,
     cycle: &Cycle,
