@@ -1,4 +1,4 @@
-//! A selection as JSON; [docs](../../../../../docs/json.md) describe how to read it.
+//! A selection as JSON; docs/json.md says how to read it.
 
 use std::collections::BTreeMap;
 
