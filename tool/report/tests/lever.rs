@@ -133,7 +133,7 @@ fn a_sliding_drive_link() {
     };
     let columns = reduce(&file, &request(points)).unwrap();
     let csv =
-        jred_report::table::output::write(&columns, jred_report::table::output::Format::Csv, "");
+        jred_report::table::output::write(&columns, Format::Csv, "");
     let header = csv.lines().next().unwrap();
     assert!(header.contains("\"tip, \"\"end\"\" x' [m/m]\""), "{header}");
     assert!(header.contains("lever psi' [rad/m]") && header.contains("\"pin, in the slot F [N]\""));
@@ -163,7 +163,7 @@ fn the_check_of_a_stroke() {
     assert!(findings.holds(), "{:?}", findings.violations());
     let answer = jred_report::list::inspection::answer(&findings);
     let written = |format| answer.write(format, Screen::default()).collect::<String>();
-    let json: serde_json::Value = serde_json::from_str(&written(Format::Json)).unwrap();
+    let json: Value = serde_json::from_str(&written(Format::Json)).unwrap();
     assert_eq!(json["degrees of freedom"], 1);
     assert_eq!(json["range"], serde_json::json!([FROM, TO]));
     assert_eq!(json["closure"], Value::Null);

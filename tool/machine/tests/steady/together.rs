@@ -1,7 +1,7 @@
 //! Several machines on one shaft.
 
 use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{Request, Steady, SteadyError, steady_together};
+use jred_machine::analysis::steady::{Figures, Request, Steady, SteadyError, steady_together};
 use jred_machine::model::machine::MachineFile;
 
 use super::{checked, checked_to, of};
