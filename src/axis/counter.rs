@@ -4,7 +4,7 @@
 ///
 /// The machine must move less than half the counter's range between two readings: 32 767 counts for 16 bits.
 ///
-/// The next right reading corrects a wrong one, unless the wrong one is off by half of the range, give or take the machine's movement between the
+/// The next right reading corrects a wrong one, unless the wrong one is off by half of the range, plus or minus the machine's movement between the
 /// readings before and after it. Then the count stays off by a whole range (test `a_wrong_reading_is_corrected_unless_it_is_half_the_range_off`); an
 /// index pulse reveals that.
 ///

@@ -18,7 +18,7 @@ pub enum AxisError {
     NotPositive(&'static str, f32),
     /// The named quantity must lie within a range.
     OutOfRange {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f32,
@@ -27,7 +27,7 @@ pub enum AxisError {
     },
     /// In fixed point the named quantity must be less than its base.
     BeyondBase {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f32,
@@ -38,7 +38,7 @@ pub enum AxisError {
     Directions,
     /// The load drives the machine with more than the braking torque, so that it cannot be stopped.
     Overpowered {
-        /// Where.
+        /// Place.
         phase: Phase,
         /// The torque of the load, less helping friction (N·m, or N).
         load: f32,

@@ -69,7 +69,7 @@ pub struct Governed<N: Number> {
     /// that is NaN.
     pub unkept: Option<Limit>,
     /// The motion that friction opposes: the speed, or at rest the beginning motion with the least speed in its direction. [`Model::torque_with`]
-    /// then gives a torque that the drive has. Where friction holds the machine at rest, which a torque does not consider,
+    /// then gives a torque that the drive has. Where friction keeps the machine at rest, which a torque does not consider,
     /// [`TorqueLimits`](super::TorqueLimits) ensures that.
     pub sliding: Sliding<N>,
 }

@@ -7,7 +7,7 @@ use crate::curve::{Format, Set};
 use crate::number::{Number, Quantity, Sliding};
 use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
 
-/// What limits an acceleration.
+/// The limit of an acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Limit {
@@ -54,7 +54,7 @@ pub struct Feasible<N: Number> {
 /// |α| ≤ α_max,   |ω + α·τ| ≤ ω_max
 /// ```
 ///
-/// At rest friction holds the machine until a torque exceeds it: α is 0 there while |T + load| ≤ c.
+/// At rest friction keeps the machine in place until a torque exceeds it: α is 0 there while |T + load| ≤ c.
 ///
 /// Limits that cannot all be satisfied are satisfied in this order: torque, acceleration, speed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,8 @@ use crate::number::error::{RangeError, finite, positive};
 /// ```
 ///
 /// with the mean torque Q of motor, process, viscous and Coulomb friction at both ends. The method is symmetric and of order 2: half the step gives a
-/// quarter of the error in position and time (`tests/free_motion.rs`). Friction stops the machine within a step and holds it as long as it can.
+/// quarter of the error in position and time (`tests/free_motion.rs`). Friction stops the machine within a step and keeps it at rest as long as it
+/// can.
 ///
 /// A step costs five to seven evaluations of [`Reducible::reduction`]: it is for a simulated machine behind a controller, on a host or on a core with
 /// doubles, not for a tick.

@@ -31,7 +31,7 @@ pub trait Mechanism {
     fn frames(&self, phi: f64) -> Result<Frames, PoseError>;
 
     /// The `k`-th of the drive link's positions (rad, or m), in order, where its transfer functions are not smooth, such as the ends of a cam's
-    /// segments: a table is compared with the machine at and between them, however close they are. By default there is none.
+    /// segments: a table is compared with the machine at and between them, however close they are. The default has no such positions.
     fn edge(&self, _k: usize) -> Option<f64> {
         None
     }

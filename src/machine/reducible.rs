@@ -21,7 +21,7 @@ pub trait Reducible {
 
     /// The `k`-th of the positions (rad, or m), in order, between which the curves are smooth: the edges of loads and [those of the
     /// mechanism](Mechanism::edge). A search for the largest error of a table checks at and between them
-    /// ([`edge_places`](crate::tabulate::edge_places)), so that it finds every load, however narrow. By default there is none.
+    /// ([`edge_places`](crate::tabulate::edge_places)), so that it finds every load, however narrow. The default has no such positions.
     fn edge(&self, _k: usize) -> Option<f64> {
         None
     }

@@ -20,7 +20,7 @@ pub enum Blocked {
     },
     /// A four-bar with a link as long as the others together.
     Apart {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// Its length (m).
         length: f64,
@@ -34,7 +34,7 @@ pub enum Blocked {
     },
     /// The link to a slider no longer reaches the guide.
     TooShort {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// The first crank angle (rad, from 0) at which it fails.
         phi: f64,

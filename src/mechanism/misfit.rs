@@ -33,7 +33,7 @@ pub enum Misfit {
     RockerStands,
     /// The centre of mass of the named link is off its axis, and the link does not turn once per turn of the drive link.
     OffAxis {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// Distance of the centre of mass from the axis (m).
         distance: f64,

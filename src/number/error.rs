@@ -67,7 +67,7 @@ pub enum RangeError {
     Negative(&'static str, f64),
     /// The named quantity lies outside `[min, max]`.
     OutOfRange {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,

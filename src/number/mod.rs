@@ -3,7 +3,7 @@
 //! The lowest layer: angles, per-unit scales and derivatives, and the numbers of a tick.
 //!
 //! Fixed-point numbers are per-unit, in [−1, 1); the [`Scale`] of the model defines 1. The formats make every product of a tick the upper half of a
-//! 32 × 32-bit product (one instruction on a Cortex-M4 and up), and no number can wrap:
+//! 32 × 32-bit product (one instruction on a Cortex-M4 and up), and prevent wrapping:
 //!
 //! | | [`Q31`](crate::Q31) | 1 is |
 //! |---|---|---|

@@ -26,7 +26,7 @@ const FASTEST: f64 = 1e6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LiftOff {
-    /// Where the contact force vanishes first (rad).
+    /// Angle at which the contact force vanishes first (rad).
     pub phi: f64,
     /// The speed (rad/s), not negative; zero if nothing presses the follower on the cam there even at rest.
     pub omega: f64,

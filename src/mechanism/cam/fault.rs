@@ -55,7 +55,7 @@ pub enum CamError {
     VelocityJump {
         /// Index of the segment.
         segment: usize,
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
         /// s′ at its end (m/rad, or rad/rad).
         from: f64,
@@ -85,17 +85,17 @@ pub enum CamError {
     },
     /// The swinging follower moves beyond the position where its arm and the line of the pivots are stretched or folded.
     Swing {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
     },
     /// The follower would reach down to the cam's axis.
     BelowAxis {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
     },
     /// Undercut: the roller or the face does not touch the cam where it should.
     Undercut {
-        /// Where it is worst (rad).
+        /// Angle of the worst place (rad).
         phi: f64,
         /// Radius of curvature there (m): of the pitch curve for a roller, of the profile for a flat face.
         radius: f64,
@@ -106,7 +106,7 @@ pub enum CamError {
     },
     /// The cam is so large that it would cover the axis of its swinging follower.
     CoversPivot {
-        /// Where the profile is farthest from the cam's axis (rad).
+        /// Angle of the profile's farthest point from the cam's axis (rad).
         phi: f64,
         /// That distance (m).
         reach: f64,
@@ -115,7 +115,7 @@ pub enum CamError {
     },
     /// A swinging face turns as fast as the cam, so that there is no single point of contact.
     FaceTooFast {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
         /// dψ/dφ of the face, which must be below 1.
         ratio: f64,

@@ -56,7 +56,7 @@ impl Piece {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct AccelerationJump {
-    /// Where (rad).
+    /// Angle (rad).
     pub phi: f64,
     /// s″ before it (m/rad², or rad/rad²).
     pub from: f64,

@@ -198,7 +198,7 @@ impl FourBar {
         self.side
     }
 
-    /// Which links turn fully.
+    /// The kind of the linkage: which links turn fully.
     #[must_use]
     pub fn grashof(&self) -> Grashof {
         Grashof::of(self.lengths())

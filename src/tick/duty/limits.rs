@@ -3,7 +3,7 @@
 use super::{Curve, Figures, LimitError};
 use crate::math::Real;
 
-/// Limits of a drive. A limit that is `None` is not checked, and the verdict says so.
+/// Limits of a drive. A limit that is `None` is not checked; its verdict is [`Verdict::NotChecked`].
 ///
 /// Sizing rules that allow a share of a rating (80 % of the S1 torque, say) become limits that include the share.
 #[derive(Clone, Copy, Debug, PartialEq)]

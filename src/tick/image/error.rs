@@ -14,7 +14,7 @@ pub enum ImageError {
     Misaligned,
     /// This processor is big-endian; images are little-endian and used in place.
     BigEndian,
-    /// Shorter than a header, or not as long as the header says.
+    /// Shorter than a header, or another length than in the header.
     Length {
         /// Words that the image must have.
         needed: u32,

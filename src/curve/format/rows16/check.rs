@@ -1,4 +1,4 @@
-//! Proofs about a table when it is created: no number leaves its range in a tick.
+//! Proofs about a table when it is created: every number stays in its range in a tick.
 //!
 //! A line is greatest at an end of its cell, and a quadratic stays within its Bézier points, so that the bounds apply everywhere in a cell. They are
 //! integers, for arguments −1 … 1, both ends included, and include every rounding of the tick.
