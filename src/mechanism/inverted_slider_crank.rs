@@ -196,6 +196,7 @@ impl InvertedSliderCrank {
 
     /// Quick-return ratio (π + S)/(π − S) at constant crank speed, time of the slow stroke over time of the quick one, with S of
     /// [`swing`](Self::swing).
+    ///
     /// For a rocking lever the strokes are its two swings. For a turning lever they are the strokes of a ram driven by a long rod from the lever, in
     /// line with its slot, along a line through C perpendicular to OC.
     #[must_use]

@@ -2,6 +2,7 @@
 //!
 //! Last part of section 6.3 of V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002: for a given total ratio, J_red of (6.9) depends on how it is
 //! split. With stage ratios i_k = ω_driver/ω_driven > 0, inertias D_k of the drivers and C_k of the driven wheels, and J_L at the output,
+//!
 //! ```text
 //! J_red = Σ_k (D_k + C_k(i_k)/i_k²)/(i_1·…·i_(k−1))² + J_L/i²          i = i_1·…·i_n
 //! ```
@@ -12,6 +13,7 @@
 //! In y_k = ln i_k every term is an exponential of a linear function, so that J_red is convex, and has one minimum over Σ y_k = ln i. There ∂J/∂y_k
 //! is equal for all stages whose ratio is not at a bound. After the first stage the rest of the train is of the same kind: with R(L) the smallest
 //! inertia of the rest for the remaining ratio L = ln i − y_1,
+//!
 //! ```text
 //! J(y_1) = D_1 + C_1/i_1² + R(L)/i_1²        J′ = (C_1/i_1²)′ − (2·R + R′)/i_1² = 0
 //! ```

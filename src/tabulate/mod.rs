@@ -50,8 +50,8 @@ pub const EXHAUSTIVE: u32 = 128;
 /// # use jred::tabulate::Request;
 /// let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(128);
 /// ```
+///
 /// Later versions may add fields, so that a program cannot list them:
-/// It may have more fields one day, so a program cannot list them:
 ///
 /// ```compile_fail,E0639
 /// # use jred::tabulate::Request;
