@@ -230,8 +230,7 @@ impl Balance<'_> {
         }
     }
 
-    /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the
-    /// global origin.
+    /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the global origin.
     fn add_inertia_forces(&mut self, omega: f64, alpha: f64) -> ([f64; 2], f64) {
         let (mut force, mut moment) = ([0.0; 2], 0.0);
         for (k, (link, frame)) in self.links.iter().zip(self.frames).enumerate() {

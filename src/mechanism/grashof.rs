@@ -7,8 +7,7 @@ use core::fmt;
 /// Let s be the shortest and l the longest of the four lengths, p and q the others. If s + l < p + q (Grashof), the shortest link turns fully against
 /// all others; if s + l > p + q no link does; if both are equal the linkage can flatten into one line, where its motion is not determined.
 ///
-/// F. Grashof, *Theoretische Maschinenlehre*, volume 2 (1883); K. Luck, K.-H. Modler, *Getriebetechnik*, section on
-/// four-bar linkages.
+/// F. Grashof, *Theoretische Maschinenlehre*, volume 2 (1883); K. Luck, K.-H. Modler, *Getriebetechnik*, section on four-bar linkages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Grashof {

@@ -76,9 +76,8 @@ pub struct Suspended {
 
 /// A hoist, driven at the drum. φ > 0 lifts the load.
 ///
-/// Links: [`DRUM`](Self::DRUM) (frame at O, u along +x at φ = 0), [`LOAD`](Self::LOAD) (with hook and lower block, frame on
-/// its rope, parallel to the global axes, at y = 0 for φ = 0) and, if there is one, [`COUNTERWEIGHT`](Self::COUNTERWEIGHT)
-/// (likewise).
+/// Links: [`DRUM`](Self::DRUM) (frame at O, u along +x at φ = 0), [`LOAD`](Self::LOAD) (with hook and lower block, frame on its rope, parallel to the
+/// global axes, at y = 0 for φ = 0) and, if there is one, [`COUNTERWEIGHT`](Self::COUNTERWEIGHT) (likewise).
 ///
 /// The links do not include the inertia of a tackle's sheaves: sheave number k from the rope's fixed end, of n − 1, turns by k·R/(n·r) for each
 /// radian of the drum, r its radius. Add J·(k·R/(n·r))² to the flywheel.

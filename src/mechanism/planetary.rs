@@ -7,8 +7,7 @@
 //! J_red = J_s·ω_s² + (J_c + N·m_p·a²)·ω_c² + J_r·ω_r² + N·J_p·ω_p²,   every ω for an input of 1
 //! ```
 //!
-//! One member is fixed, another is the input, the third the output. For a fixed ring and the sun as input
-//! ω_c = z_s/(z_s + z_r).
+//! One member is fixed, another is the input, the third the output. For a fixed ring and the sun as input ω_c = z_s/(z_s + z_r).
 //!
 //! R. Willis, *Principles of mechanism* (1841); the energy sum is (6.4) of Nazarenko, *Dynamics of mechanisms* (2002).
 

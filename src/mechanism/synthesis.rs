@@ -21,9 +21,8 @@
 //! J′ rises with y_1, and its zero is found by bisection, stage by stage. R′ needs no differences: at the minimum it is the slope of the rest's own
 //! first stage (envelope theorem).
 //!
-//! Equal pinions and no load give, for two stages, J/P = 1 + i_1² + 1/i_1² + i²/i_1⁴ and the condition
-//! i_2² = (i_1⁴ − 1)/2; for large ratios and n stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of
-//! Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
+//! Equal pinions and no load give, for two stages, J/P = 1 + i_1² + 1/i_1² + i²/i_1⁴ and the condition i_2² = (i_1⁴ − 1)/2; for large ratios and n
+//! stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
 
 use crate::math;
 use crate::number::error::RangeError;

@@ -16,8 +16,7 @@
 //! P = p·n + p_ν·e_z × n     ρ = p + p_νν     p_ν = p′/ν′
 //! ```
 //!
-//! R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 7; the support function of an envelope: any text on
-//! plane differential geometry.
+//! R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 7; the support function of an envelope: any text on plane differential geometry.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -134,8 +133,7 @@ impl Geometry {
         let Some(([x, y], swing)) = self.follower.pivot() else {
             return s + Transfer::constant(self.zero);
         };
-        // From the follower's pivot towards the cam's.
-        // 0 − y, because −y of a zero is a negative zero, with the angle −π.
+        // From the follower's pivot towards the cam's. 0 − y, because −y of a zero is a negative zero, with the angle −π.
         let towards_cam = math::atan2(0.0 - y, 0.0 - x);
         Transfer::constant(towards_cam) + (s + Transfer::constant(self.zero)) * swing.sign()
     }

@@ -51,9 +51,8 @@ pub struct FourBarDimensions {
 
 /// A four-bar linkage driven at the crank.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`COUPLER`](Self::COUPLER) (frame at A along AB),
-/// [`ROCKER`](Self::ROCKER) (frame at C along CB). Angles are continuous in φ over any number of turns; at φ = 0 (at the
-/// start of a stroke) those of coupler and rocker lie in (−π, π].
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`COUPLER`](Self::COUPLER) (frame at A along AB), [`ROCKER`](Self::ROCKER) (frame at C along
+/// CB). Angles are continuous in φ over any number of turns; at φ = 0 (at the start of a stroke) those of coupler and rocker lie in (−π, π].
 ///
 /// Accuracy: positions and transfer functions agree with 50-digit golden data to 1e-12, the reduction to 1e-11 of the
 /// column's largest value (test `four_bar_golden`); joint reactions to 1e-10 (test `four_bar_reactions_golden`).

@@ -73,8 +73,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
     /// An identification without samples.
     ///
     /// # Errors
-    /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics:
-    /// [`TableError::Length`].
+    /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics: [`TableError::Length`].
     pub fn new() -> Result<Self, Error> {
         let lengths = (0..=MAX_HARMONICS).map(|n| words_len::<Harmonic<f64>>(n, SET));
         let enough = lengths.take_while(|words| *words <= WORDS).last();
@@ -156,8 +155,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
     /// The coefficients that best explain the samples.
     ///
     /// # Errors
-    /// [`HarmonicError::TooFewSamples`]; [`HarmonicError::NotExcited`] with the least excited coefficient if its
-    /// excitation is below [`EXCITED`].
+    /// [`HarmonicError::TooFewSamples`]; [`HarmonicError::NotExcited`] with the least excited coefficient if its excitation is below [`EXCITED`].
     pub fn solve(&self) -> Result<Identified<WORDS>, Error> {
         let free = (self.samples as usize)
             .checked_sub(WORDS)
