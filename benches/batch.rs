@@ -66,7 +66,6 @@ fn slider_crank() -> Result<Machine<SliderCrank>, Error> {
         .with_flywheel(0.0063)?)
 }
 
-/// The slider-crank with friction at the crank.
 fn with_friction() -> Result<Machine<SliderCrank>, Error> {
     let crank = SliderCrank::CRANK;
     Ok(slider_crank()?

@@ -18,7 +18,6 @@ macro_rules! statuses {
             /// Every status.
             pub(crate) const ALL: &[Self] = &[$(Self::$variant),*];
 
-            /// Its name in C.
             pub(crate) const fn name(self) -> &'static CStr {
                 match self {
                     $(Self::$variant => $name,)*

@@ -68,7 +68,6 @@ fn order(lengths: [f64; 4]) -> [usize; 4] {
 /// Why the crank of the four-bar with these lengths does not turn fully, as text.
 pub(crate) struct Cause(pub(crate) [f64; 4]);
 
-/// The remedy.
 pub(crate) struct Remedy(pub(crate) [f64; 4]);
 
 impl fmt::Display for Cause {

@@ -37,7 +37,6 @@ const CELLS: u32 = 256;
 
 /// Data for the on-target program.
 pub(crate) struct Words {
-    /// The words.
     pub(crate) words: Vec<u32>,
     /// Number of table bytes among them.
     pub(crate) table_bytes: usize,

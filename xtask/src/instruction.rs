@@ -60,7 +60,6 @@ pub(crate) enum Stack {
     Restore,
 }
 
-/// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Instruction {
     pub(crate) size: u32,

@@ -16,7 +16,6 @@ pub(crate) enum Quantity {
     Acceleration,
 }
 
-/// Origin of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// The library: its instructions and bytes have ceilings.

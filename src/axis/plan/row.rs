@@ -2,7 +2,6 @@
 
 use crate::number::high;
 
-/// Words of a row.
 pub(super) const ROW_WORDS: usize = 8;
 
 /// A row as it lies in the image.

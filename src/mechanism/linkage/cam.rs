@@ -5,7 +5,6 @@ use crate::machine::link::Frame;
 use crate::mechanism::CamProfile;
 use crate::number::transfer::Transfer;
 
-/// The cams of a linkage.
 pub(super) type Cams<const CAMS: usize> = heapless::Vec<PlacedCam, CAMS>;
 
 /// A cam and its follower, placed in a linkage, for [`Pair::Cam`](super::Pair::Cam).

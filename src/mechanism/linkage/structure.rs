@@ -217,7 +217,6 @@ impl<const LINKS: usize> Structure<LINKS> {
         solved.map(|group| usize::from(group.size).pow(2)).sum()
     }
 
-    /// The equations of a group.
     pub(super) fn equations(&self, group: Group) -> &[Equation] {
         let start = usize::from(group.start);
         &self.equations.as_flattened()[start..start + usize::from(group.size)]
@@ -229,7 +228,6 @@ impl<const LINKS: usize> Structure<LINKS> {
         &self.contents.as_flattened()[start..start + usize::from(group.size)]
     }
 
-    /// The coordinates of a group.
     pub(super) fn coordinates(&self, group: Group) -> &[Coordinate] {
         let start = usize::from(group.start);
         &self.coordinates.as_flattened()[start..start + usize::from(group.size)]

@@ -47,7 +47,6 @@ struct Config<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct State<R> {
-    /// Sum of the weights.
     weight: Sum<R>,
     /// T², |n|, |n|·|T_out|³, motoring power, regenerative power.
     means: [Sum<R>; MEANS],

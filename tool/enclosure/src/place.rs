@@ -73,7 +73,6 @@ impl Place<Form> {
     }
 }
 
-/// The place of the body of a marker.
 pub(crate) fn body(marker: &Marker, places: &[Place<Form>]) -> Place<Form> {
     let link = marker.body.link().and_then(|link| places.get(link));
     link.copied().unwrap_or(Place::GROUND)
