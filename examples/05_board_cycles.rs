@@ -1,6 +1,6 @@
 //! Cycles of a tick, on your own board.
 //!
-//! Compiled in the tests, not run on a board: QEMU has no cycle counter. There, and on the host, the program reports that and ends.
+//! Compiled, but not run on a board: QEMU has no cycle counter. There, and on the host, the program reports that and ends.
 //!
 //! Cortex-M3, M4, M7 and M33 count cycles in CYCCNT of the DWT, the Cortex-M0 and M0+ only have SysTick; both run at the core's clock. A loop of 64
 //! calls is timed, and a loop with each call made twice; the difference is the time of 64 calls, without loop and counter. The shortest of several
