@@ -1,12 +1,12 @@
-//! Inverse dynamics of a million samples, beside NumPy on the same table, and the time that a table takes to make.
+//! Inverse dynamics of a million samples, compared with NumPy on the same table, and the time to make a table.
 //!
 //! ```text
 //! cargo bench -p jred --bench batch
 //! ```
 //!
-//! Instructions are counted by Valgrind and judged by `ceilings.txt`, the search for a table by its number of reductions; times depend
-//! on the machine and are printed. NumPy is
-//! run by `python3 benches/batch.py` where there is one; its torques are compared with these. docs/performance.md has the results.
+//! Valgrind counts the instructions, and `ceilings.txt` limits them; the search for a table is limited by its number of reductions. Times depend on
+//! the machine and are only printed. `python3 benches/batch.py` runs NumPy where installed; its torques are compared with these. docs/performance.md
+//! has the results.
 #![cfg(not(target_os = "none"))]
 
 #[path = "support/bench.rs"]
@@ -34,7 +34,7 @@ use jred::{
     Reduction, Scale, Set, Spline, Spline16, Table, curves,
 };
 
-/// Samples of a batch that is timed, and of one whose instructions are counted.
+/// Samples of a timed batch, and of a batch whose instructions are counted.
 const SAMPLES: usize = 1_000_000;
 const COUNTED: u32 = 10_000;
 /// Cells of the batch's table.
@@ -44,7 +44,7 @@ const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COUL
 /// Largest speed and acceleration (rad/s, rad/s²).
 const OMEGA: f64 = 60.0;
 const ALPHA: f64 = 400.0;
-/// Largest difference between two batches in f32, of the largest torque: roundings of 2⁻²⁴ in a tick and in the place.
+/// Largest difference between two batches in f32, relative to the largest torque: roundings of 2⁻²⁴ in a tick and in the place.
 const DIFFERENCE: f64 = 1e-6;
 
 /// λ = 0.25, 10 kg at the slider, largest inertia 5.25 times the least; weight acts along the guide.
@@ -66,7 +66,6 @@ fn slider_crank() -> Result<Machine<SliderCrank>, Error> {
         .with_flywheel(0.0063)?)
 }
 
-/// With friction at the crank.
 fn with_friction() -> Result<Machine<SliderCrank>, Error> {
     let crank = SliderCrank::CRANK;
     Ok(slider_crank()?
@@ -86,7 +85,7 @@ fn peak(machine: &impl Reducible) -> Result<f64, Error> {
     Ok(most)
 }
 
-/// Phases, speeds, accelerations, and room for torques.
+/// Phases, speeds, accelerations, and memory for torques.
 struct Batch<S: Number> {
     phases: Vec<Phase>,
     omegas: Vec<S::Speed>,
@@ -95,7 +94,7 @@ struct Batch<S: Number> {
 }
 
 impl<S: Number> Batch<S> {
-    /// Phases of a turn in order, or one after another far away: 2³²/φ apart, φ the golden ratio.
+    /// Phases of a turn in order, or consecutive ones far apart: by 2³²/φ, φ the golden ratio.
     fn new(ordered: bool, samples: usize) -> Self {
         let step = if ordered { 4295 } else { 0x9e37_79b9 };
         let wave = |k: u32, step: f64, size: f64| {
@@ -126,7 +125,7 @@ impl<S: Number> Batch<S> {
         assert_eq!(count, self.phases.len());
     }
 
-    /// The shortest time of all samples (s), of many runs.
+    /// The shortest time for all samples (s), of many runs.
     fn time<F: Format<Number = S>>(&mut self, model: &Model<'_, F, SET>) -> f64 {
         let runs = (0..BATCHES).map(|_| once(|| self.run(model)));
         runs.fold(f64::INFINITY, f64::min)
@@ -144,7 +143,7 @@ fn words<F: Format>(machine: &impl Reducible) -> Result<(Vec<F::Word>, Shape<F>)
 /// Runs of a batch: 3 ms each, so that some of them are not interrupted.
 const BATCHES: u32 = 31;
 
-/// Both orders of phases with one number type and layout: a hundred samples.
+/// Both orders of phases with one number type and layout: cost per hundred samples.
 fn batch<F: Format>(bench: &mut Bench, machine: &impl Reducible) -> Result<(), Error> {
     let (words, shape) = words::<F>(machine)?;
     let table = Table::<F>::new(&words, shape).map_err(Error::Table)?;
@@ -190,7 +189,7 @@ fn numpy(bench: &mut Bench, machine: &impl Reducible, peak: f64) -> Result<(), E
                 return Ok(());
             }
         };
-        // The other half of the runs after it: both see the same machine.
+        // The other half of the runs follows, so that both see the same machine load.
         own = own.min(batch.time(&model));
         let (version, time, torques) = torques;
         let pairs = batch.torques.iter().zip(&torques);
@@ -209,7 +208,7 @@ fn numpy(bench: &mut Bench, machine: &impl Reducible, peak: f64) -> Result<(), E
             time / own,
             difference / peak,
         );
-        // NaN fails too.
+        // NaN fails, too.
         let agrees = difference <= DIFFERENCE * peak;
         if !agrees {
             bench.fail(&format!(
@@ -280,7 +279,7 @@ impl<M: Reducible> Reducible for Counted<'_, M> {
     }
 }
 
-/// Most cells of a table that is looked for.
+/// Greatest number of cells in the search for a table.
 const MOST: u32 = 16_384;
 
 /// The smallest table for an error, as a share of the peak torque.

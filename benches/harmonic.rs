@@ -1,5 +1,4 @@
-//! Time of the way from a machine to its harmonics on this computer: `cargo bench -p jred --bench harmonic`. Figures for
-//! `docs/harmonics.md`; judges nothing.
+//! Time from a machine to its harmonics on this computer: `cargo bench -p jred --bench harmonic`. Figures for `docs/harmonics.md`; without limits.
 
 use jred::mechanism::SliderCrankDimensions;
 use std::hint::black_box;
@@ -15,13 +14,13 @@ const SET: Set = curves::LOAD | terms::SYMMETRIC;
 /// J and load, eleven harmonics.
 const WORDS: usize = words_len::<Harmonic<f64>>(11, SET);
 
-/// The model of these coefficients.
+/// The model with these coefficients.
 fn model(words: &[f32], harmonics: u32) -> Result<Model<'_, Harmonic<f32>, SET>, Error> {
     let table = Table::new(words, Shape::harmonics(harmonics, SET)).map_err(Error::Table)?;
     Model::new(table).map_err(Error::Table)
 }
 
-/// Shortest of many runs, in µs.
+/// Shortest time of many runs, in µs.
 fn time(what: &str, runs: u32, mut work: impl FnMut()) {
     let mut once = || {
         let start = Instant::now();

@@ -1,11 +1,11 @@
-//! What the general linkage costs on the host: instructions a position, and how they grow; time, for people; no memory.
+//! Cost of the general linkage on the host: instructions per position and their growth; times for information; no memory.
 //!
 //! ```text
 //! cargo bench -p jred --bench linkage
 //! ```
 //!
-//! Instructions are counted by Valgrind and judged by `ceilings.txt`; so is their growth from one number of positions or links
-//! to another. Times depend on the machine and are printed. docs/performance.md has the results.
+//! Valgrind counts the instructions, and `ceilings.txt` limits them and their growth with the number of positions or links. Times depend on the
+//! machine and are only printed. docs/performance.md has the results.
 #![cfg(not(target_os = "none"))]
 
 #[path = "support/bench.rs"]
@@ -34,36 +34,36 @@ static ALLOCATOR: Counting = Counting;
 
 /// Positions of a run.
 const POSITIONS: u32 = 4096;
-/// Positions that are timed together, shorter than a time slice: on a busy machine every longer run is interrupted.
+/// Positions timed together, in less than a time slice: a busy machine interrupts every longer run.
 const PIECE: u32 = 64;
 
-/// Reductions at the positions from `first` of a turn of so many.
+/// Reductions at `count` positions from `first` on, of a turn of `positions`.
 fn reduce(machine: &impl Reducible, first: u32, count: u32, positions: u32) {
     let step = TAU / f64::from(positions);
     let mut sum = 0.0;
     for k in first..first + count {
         let reduction = machine.reduction(f64::from(k) * step);
-        // What fails would be seen in the sum.
+        // A failure would make the sum NaN.
         sum += reduction.map_or(f64::NAN, |r| r.inertia);
     }
     assert!(sum > 0.0, "a position failed");
     black_box(sum);
 }
 
-/// Time of one reduction (s), over a turn of so many positions.
+/// Time of one reduction (s), over a turn of `positions`.
 fn time(machine: &impl Reducible, positions: u32) -> f64 {
     let pieces = (0..positions).step_by(PIECE as usize);
     let pieces = pieces.map(|first| best(|| reduce(machine, first, PIECE, positions)));
     pieces.sum::<f64>() / f64::from(positions)
 }
 
-/// Instructions of a reduction, over a turn of so many positions.
+/// Instructions of a reduction, over a turn of `positions`.
 fn count(bench: &mut Bench, name: &str, machine: &impl Reducible, positions: u32) -> Option<f64> {
     let count = bench.count(name, || reduce(machine, 0, positions, positions))?;
     Some(count as f64 / f64::from(positions))
 }
 
-/// Judges the instructions of a position, and prints its time.
+/// Checks the instructions per position, and prints its time.
 fn cost(bench: &mut Bench, name: &str, machine: &impl Reducible) {
     let line = |time: f64| {
         let turn = time * 1e3 * f64::from(POSITIONS);
@@ -74,7 +74,7 @@ fn cost(bench: &mut Bench, name: &str, machine: &impl Reducible) {
     bench.cost_of(name, POSITIONS, count, time, line);
 }
 
-/// The exponent p of time ~ nᵖ between the least squares of the points (n, time).
+/// The exponent p of time ~ nᵖ, the least-squares fit of the points (n, time).
 fn exponent(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let log = points.iter().map(|(x, y)| (x.ln(), y.ln()));
@@ -87,7 +87,7 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     top / bottom
 }
 
-/// A linkage that grows: number of links, size of the largest group, instructions and time (s) of a position.
+/// A growing linkage: number of links, size of the largest group, instructions and time (s) per position.
 type Sample = (usize, usize, Option<f64>, f64);
 
 macro_rules! grow {
@@ -105,7 +105,7 @@ macro_rules! grow {
     };
 }
 
-/// Prints how the cost of a position grows, and judges the exponent of what `size` says.
+/// Prints the growth of the cost per position, and checks the exponent with respect to `size`.
 fn growth(
     bench: &mut Bench,
     what: &str,

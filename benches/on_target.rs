@@ -1,13 +1,12 @@
-//! Instructions that mechanisms cost on a Cortex-M4F and a Cortex-M7, counted in QEMU: so many a position, on average over
-//! a turn.
+//! Instructions of mechanisms on a Cortex-M4F and a Cortex-M7, counted in QEMU: per position, on average over a turn.
 //!
 //! ```text
 //! scripts/test counts
 //! ```
 //!
-//! does it for both cores, the M7 with its double precision (`-Ctarget-cpu=cortex-m7`). With `-icount shift=0` QEMU lets one
-//! instruction take 1 ns, so that SysTick, at 25 MHz, counts 40 of them. The counts are the same on every run; they are not
-//! cycles. `ceilings.txt` bounds them from above and, by half of that, from below. docs/performance.md has the results.
+//! runs it for both cores, the M7 with its double precision (`-Ctarget-cpu=cortex-m7`). With `-icount shift=0` QEMU executes one instruction per 1
+//! ns, so that SysTick, at 25 MHz, counts 40 of them. The counts are the same on every run; they are not cycles. `ceilings.txt` bounds them from
+//! above and, by half of that, from below. docs/performance.md has the results.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![allow(
     unsafe_code,
@@ -46,10 +45,10 @@ mod target {
     use crate::ceilings::judge;
     use crate::support;
 
-    /// Instructions in a tick of SysTick: 1 ns each, at 25 MHz.
+    /// Instructions per tick of SysTick: 1 ns each, at 25 MHz.
     const PER_TICK: u32 = 40;
     const RELOAD: u32 = 0x00ff_ffff;
-    /// Positions in a turn.
+    /// Positions per turn.
     const POSITIONS: u32 = 64;
     /// Ticks of the duty meter.
     const TICKS: u32 = 1024;
@@ -67,7 +66,7 @@ mod target {
             Self(syst)
         }
 
-        /// Instructions of `run`, to 40.
+        /// Instructions of `run`, to a resolution of 40.
         fn count(&mut self, run: impl FnOnce()) -> u32 {
             self.0.clear_current();
             self.0.has_wrapped();
@@ -79,7 +78,7 @@ mod target {
         }
     }
 
-    /// The core, as `ceilings.txt` names it.
+    /// The core, named as in `ceilings.txt`.
     fn core() -> &'static str {
         // SAFETY: reads a register that identifies the core.
         match unsafe { (*CPUID::PTR).base.read() } >> 4 & 0xfff {
@@ -90,10 +89,10 @@ mod target {
     }
 
     fn run(counter: &mut Counter) -> Result<u32, Error> {
-        // A known loop shows whether instructions are counted at all.
+        // A known loop checks that instructions are counted at all.
         let known = 100_000;
         let counted = counter.count(|| {
-            // SAFETY: counts a register down and touches nothing else.
+            // SAFETY: counts a register down and changes nothing else.
             unsafe {
                 core::arch::asm!("2: subs {0}, {0}, #1", "bne 2b", inout(reg) known / 2 => _);
             }
@@ -174,7 +173,7 @@ mod target {
         plan(counter, &mut report).map_or(Ok(1), |()| Ok(failures))
     }
 
-    /// A set-point of a plan of 256 rows, and one of its follower while the rate changes; the model has numbers of single precision.
+    /// A set-point of a plan of 256 rows, and of its follower while the rate changes; the model is in single precision.
     fn plan(counter: &mut Counter, report: &mut dyn FnMut(&str, u32)) -> Option<()> {
         const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
         const ROWS: usize = 256;

@@ -1,4 +1,4 @@
-//! The tick: what torque does the press need now, and what acceleration will a torque give?
+//! The tick: which torque does the press need now, and which acceleration will a torque cause?
 //!
 //! ```text
 //! cargo run -p jred --example 01_tick                                               on the host
@@ -19,8 +19,8 @@ const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 const ENCODER: NonZeroU32 = NonZeroU32::new(4096).unwrap();
 
 fn run() -> Result<(), Failure> {
-    // Once, at start-up. The image stays where it is, in flash; nothing is copied. Any fault of it shows here; after this line
-    // a tick can neither fail nor panic.
+    // Once, at start-up. The image stays in place, in flash; nothing is copied. Every fault of it shows here; after this line a tick can neither fail
+    // nor panic.
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
 

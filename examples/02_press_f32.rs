@@ -1,7 +1,7 @@
 //! One cycle of the press at 1 kHz in single precision: feed-forward torque, and the inverse.
 //!
-//! Each tick takes the motion's φ, ω, α, computes the torque that it needs (inverse dynamics) and the acceleration that
-//! this torque gives (forward dynamics), which must be the α it started from.
+//! Each tick takes the motion's φ, ω, α, computes the torque for it (inverse dynamics) and the acceleration by this torque (forward dynamics), which
+//! must be the original α.
 //!
 //! ```text
 //! cargo run -p jred --example 02_press_f32 --profile firmware --target thumbv7m-none-eabi
@@ -19,18 +19,18 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Length of a tick (s).
+/// Period of a tick (s).
 const TICK: f32 = 0.001;
 /// The cycle lasts 0.5 s: 0.4 s for the stroke, then 0.1 s at rest.
 const TICKS: u32 = 500;
-/// The round trip must come back to within this (rad/s²).
+/// Limit of the round trip's error (rad/s²).
 const BOUND: f32 = 0.001;
 
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
-    // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial
-    // needs no sine, and in f32 no double precision.
+    // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial needs no sine, and in f32 no
+    // double precision.
     let stroke =
         Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
 

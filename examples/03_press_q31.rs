@@ -1,8 +1,7 @@
-//! The same cycle in fixed point, for cores without a floating-point unit, and what that costs in accuracy.
+//! The same cycle in fixed point, for cores without a floating-point unit, and its cost in accuracy.
 //!
-//! Numbers are per unit: a `Speed<Q31>` of 1 is the speed base in the image's `Scale`, an `Acceleration<Q31>` the base of accelerations, and a
-//! `Torque<Q31>` that of torques; to take one for another does not compile. Results that do not fit are limited and have a flag;
-//! nothing wraps.
+//! Numbers are per-unit: a `Speed<Q31>` of 1 is the speed base in the image's `Scale`, an `Acceleration<Q31>` of 1 the acceleration base, a
+//! `Torque<Q31>` of 1 the torque base; mixing them up does not compile. Results out of range are limited and flagged; nothing wraps.
 //!
 //! ```text
 //! cargo run -p jred --example 03_press_q31 --profile firmware --target thumbv6m-none-eabi
@@ -20,12 +19,11 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Length of a tick (s).
+/// Period of a tick (s).
 const TICK: f32 = 0.001;
 /// The cycle lasts 0.5 s: 0.4 s for the stroke, then 0.1 s at rest.
 const TICKS: u32 = 500;
-/// The round trip must come back to within this many units of 2⁻³¹: a torque is a whole multiple of 4 of them, and J is more
-/// than 0.18 of its base.
+/// Limit of the round trip's error in units of 2⁻³¹: a torque is a multiple of 4 of them, and J is more than 0.18 of its base.
 const BOUND: u32 = 4 * 6;
 /// Largest difference (N·m) between the torques in fixed point and in single precision.
 const DIFFERENCE: f32 = 0.001;
@@ -40,7 +38,7 @@ fn run() -> Result<(), Failure> {
         milli(scale.speed()),
         milli(scale.acceleration())
     );
-    // To compare with: firmware carries one of the two images.
+    // For comparison only: firmware carries one of the two images.
     let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let float: Model<'_, Spline<f32>, PRESS> = float.model()?;
     let stroke =
@@ -51,7 +49,7 @@ fn run() -> Result<(), Failure> {
     for tick in 0..TICKS {
         let wanted = stroke.at(tick as f32 * TICK);
         let phase = image.domain().phase(wanted.phi);
-        // SI to machine units: here from the motion law; a drive that plans in machine units has nothing to convert.
+        // SI to machine units, here from the motion law; a drive that plans in machine units needs no conversion.
         let omega = scale.omega(wanted.omega);
         let alpha = scale.alpha(wanted.alpha);
         let torque = press.torque(phase, omega.value, alpha.value);
@@ -85,7 +83,7 @@ fn run() -> Result<(), Failure> {
         milli(apart * 1000.0)
     );
 
-    // Beyond the bases the answer is the end of the range, and the flag says that it is not the answer.
+    // Beyond the bases the result is the end of the range, and the flag reports that.
     let too_much: Outcome<Acceleration<Q31>> = scale.alpha(1.0e6);
     println!(
         "1e6 rad/s2: {:08x}, saturated {}",

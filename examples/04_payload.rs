@@ -1,9 +1,8 @@
-//! A new payload: firmware makes a new table, from the mechanism itself.
+//! A new payload: firmware makes a new table from the mechanism itself.
 //!
-//! A crank swings an arm through a four-bar linkage. The arm takes up 2.5 kg, so masses change and the table with them. The
-//! linkage is described twice: by its links and pins alone, from which the new table is filled, and in closed form, against
-//! which that table is checked. All of it runs in double precision, in memory of fixed size: two tables, one in use while
-//! the other is filled.
+//! A crank swings an arm through a four-bar linkage. The arm picks up 2.5 kg, so that masses change and the table with them. The linkage is described
+//! twice: only by its links and pins, from which the new table is filled, and in closed form, against which that table is checked. All of it runs in
+//! double precision, in memory of fixed size: two tables, one in use while the other is filled.
 //!
 //! ```text
 //! cargo run -p jred --example 04_payload --profile firmware --target thumbv7em-none-eabihf
@@ -33,16 +32,16 @@ const DIMENSIONS: FourBarDimensions = FourBarDimensions {
 };
 /// The gripper's distance from that bearing (m).
 const REACH: f64 = 0.4;
-/// What it takes up (kg), and that mass' own inertia (kg·m²).
+/// The mass that it picks up (kg), and that mass's own inertia (kg·m²).
 const PAYLOAD: [f64; 2] = [2.5, 0.004];
 /// Standard gravity (m/s²).
 const GRAVITY: [f64; 2] = [0.0, -9.806_65];
 
-/// Cells of the table: enough for the design below, with the payload; `check` shows it.
+/// Cells of the table: enough for the requirements below, with the payload; `check` verifies it.
 const CELLS: u32 = 40;
 /// Words of such a table of inertia and load.
 const WORDS: usize = words_len::<Spline<f32>>(CELLS, curves::LOAD);
-/// What it was designed for.
+/// Its requirements.
 const DESIGN: Request = Request::new(0.02)
     .with_omega(12.0)
     .with_alpha(60.0)
@@ -93,7 +92,7 @@ fn loaded(arm: &Link) -> Result<Link, Error> {
     })?)
 }
 
-/// The linkage by its pins alone, assembled from a rough drawing and followed round a turn.
+/// The linkage from its pins only, assembled from a rough drawing and followed over a turn.
 fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
     let FourBarDimensions {
         crank,
@@ -131,7 +130,7 @@ fn tabulate<'w>(
     )
 }
 
-/// Checks a table against the closed form, and prints how exact it is.
+/// Checks a table against the closed form, and prints its error.
 fn check(table: &Table<'_, Spline<f32>>, links: [Link; 3]) -> Result<(), Failure> {
     let four_bar = FourBar::new(DIMENSIONS, Side::Left, links).map_err(Error::from)?;
     let machine = Machine::new(&four_bar)
@@ -157,7 +156,7 @@ fn run() -> Result<(), Failure> {
     println!("empty gripper");
     check(&in_use, [crank, coupler, arm])?;
 
-    // The gripper closes. The linkage's positions do not change, only a mass does.
+    // The gripper closes. The linkage's positions stay the same, only a mass changes.
     let arm = loaded(&arm)?;
     linkage.set_link(2, arm).map_err(Error::from)?;
     let spare = tabulate(&linkage, &mut spare)?;

@@ -1,17 +1,17 @@
-//! Cycles of a tick, on a board of your own.
+//! Cycles of a tick, on your own board.
 //!
-//! Built, not run on a board: QEMU has no cycle counter. There, and on the host, the program says so and ends.
+//! Compiled, but not run on a board: QEMU has no cycle counter. There, and on the host, the program reports that and ends.
 //!
-//! Cortex-M3, M4, M7 and M33 count cycles in CYCCNT of the DWT, the Cortex-M0 and M0+ have SysTick only; both run at the
-//! core's clock. A loop of 64 calls is timed, and one of the same calls twice; the difference is the time of 64 calls, without
-//! loop and counter. The shortest of several runs is the one without waits for flash or cache.
+//! Cortex-M3, M4, M7 and M33 count cycles in CYCCNT of the DWT, the Cortex-M0 and M0+ only have SysTick; both run at the core's clock. A loop of 64
+//! calls is timed, and a loop with each call made twice; the difference is the time of 64 calls, without loop and counter. The shortest of several
+//! runs is the one without waits for flash or cache.
 //!
 //! ```text
 //! cargo run -p jred --example 05_board_cycles --profile firmware --target thumbv7em-none-eabihf
 //! ```
 //!
-//! For a board: its memory in memory.x, its probe as the runner (`probe-rs run --chip …`) in .cargo/config.toml. Set clock and
-//! wait states of the flash as your firmware does; at reset most parts run from a slow oscillator without wait states.
+//! For a board: its memory in memory.x, its probe as the runner (`probe-rs run --chip …`) in .cargo/config.toml. Set clock and flash wait states as
+//! your firmware does; after reset most parts run from a slow oscillator without wait states.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[path = "support/cycles.rs"]
@@ -30,14 +30,14 @@ const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 type Press<S> = Model<'static, Spline<S>, PRESS>;
 
-/// Calls of a loop, at phases all round the turn.
+/// Calls of a loop, at phases over the whole turn.
 const CALLS: u32 = 64;
-/// The golden section of 2³²: every call another cell.
+/// The golden section of 2³²: every call is in another cell.
 const STEP: u32 = 0x9e37_79b9;
 /// Runs of each loop.
 const RUNS: u32 = 8;
 
-/// Cycles of a loop that makes each call `times` over: the shortest run.
+/// Cycles of a loop that makes each call `times` times: the shortest run.
 fn shortest(counter: &Counter, times: u32, mut call: impl FnMut(Phase)) -> u32 {
     let mut shortest = u32::MAX;
     for _ in 0..RUNS {
@@ -53,14 +53,14 @@ fn shortest(counter: &Counter, times: u32, mut call: impl FnMut(Phase)) -> u32 {
     shortest
 }
 
-/// Thousandths of the cycles of `call`, on average; the loop over `times` is the same in both.
+/// Average cycles of `call`, in thousandths; the loop over `times` is the same in both.
 fn cycles_of(counter: &Counter, mut call: impl FnMut(Phase)) -> i32 {
     let once = shortest(counter, black_box(1), &mut call);
     let twice = shortest(counter, black_box(2), &mut call);
     milli(twice.saturating_sub(once) as f32 / CALLS as f32)
 }
 
-/// Prints what a call takes.
+/// Prints the cycles of a call.
 fn report<S: Scalar>(
     counter: &Counter,
     number: &str,
@@ -75,7 +75,7 @@ fn report<S: Scalar>(
     let forward = cycles_of(counter, |phase| {
         black_box(press.acceleration(phase, black_box(omega), black_box(torque)));
     });
-    // What is left of the counting: the loop over `times`, and the black boxes.
+    // The remaining overhead: the loop over `times`, and the black boxes.
     let empty = cycles_of(counter, |phase| {
         black_box((phase, black_box(omega), black_box(alpha)));
     });

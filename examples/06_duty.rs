@@ -1,7 +1,7 @@
 //! The duty meter: a press that checks its own sizing.
 //!
-//! Each tick the press table gives the torque that the motion needs; a real drive would feed the measured torque. After a cycle
-//! the meter has the figures of `jred size`, and says whether they are within the motor's limits.
+//! Each tick the press table gives the torque for the motion; a real drive would feed the measured torque. After a cycle the meter has the figures of
+//! `jred size`, and compares them with the motor's limits.
 //!
 //! ```text
 //! cargo run -p jred --example 06_duty                                               on the host
@@ -19,12 +19,12 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Time of a tick (s).
+/// Period of a tick (s).
 const STEP: f32 = 0.5e-3;
-/// Ticks of the turn of the crank, and of the rest after it.
+/// Ticks of the crank's turn, and of the rest after it.
 const TURN: u16 = 1200;
 const REST: u16 = 400;
-/// Between motor and crank.
+/// Ratio between motor and crank.
 const RATIO: f32 = 5.0;
 /// Inertia of rotor and gearbox at the motor (kg·m²).
 const ROTOR: f32 = 0.0029;
@@ -73,7 +73,7 @@ fn run() -> Result<(), Failure> {
         }
         meter.count_cycle();
     }
-    // A failed sensor is reported, and does not spoil the figures.
+    // A failed sensor is reported, and does not affect the figures.
     meter.tick(f32::NAN, 0.0, 0.0);
 
     let figures = meter.figures();
@@ -99,7 +99,7 @@ fn run() -> Result<(), Failure> {
         figures.ticks,
         figures.invalid
     );
-    // The bits, so that host and target cannot differ unseen.
+    // The bits reveal every difference between host and target.
     println!(
         "{:08x} {:08x} {:08x}",
         figures.rms_torque.to_bits(),

@@ -1,8 +1,8 @@
-//! From an encoder's count to the torque command of the motor: what an interrupt of a drive does.
+//! From an encoder count to the torque command of the motor: the interrupt of a drive.
 //!
-//! The press turns behind a gearbox of 20; its encoder of 10 000 counts sits on the motor, counts down, and reads 1234 at φ = 0, in a counter of
-//! 16 bits that overflows three times a turn. The program moves the press, makes the counts that this encoder would show, and from them alone gets
-//! phase, speed and acceleration, and the motor's torque.
+//! The press turns behind a gearbox of ratio 20. Its encoder of 10 000 counts is on the motor, counts down, and reads 1234 at φ = 0, in a 16-bit
+//! counter that overflows three times per turn. The program moves the press, generates the counts of this encoder, and from them alone gets phase,
+//! speed and acceleration, and the motor's torque.
 //!
 //! ```text
 //! cargo run -p jred --example 07_axis                                               on the host
@@ -25,7 +25,7 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// A figure that is wrong does not compile.
+/// A wrong figure does not compile.
 const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: 10_000,
     gear: [20, 1],
@@ -35,7 +35,7 @@ const ENCODER: Encoder = match Encoder::new(Mounting {
     Ok(encoder) => encoder,
     Err(_) => panic!("the encoder's figures"),
 };
-/// Counts of a turn of the crank.
+/// Counts per turn of the crank.
 const COUNTS: f32 = 200_000.0;
 
 const GEARBOX: Gearbox = Gearbox {
@@ -43,14 +43,14 @@ const GEARBOX: Gearbox = Gearbox {
     efficiency: 0.95,
     rotor: 0.000_3,
 };
-/// Time of a tick, and from a command to the torque (s).
+/// Period of a tick, and delay from a command to the torque (s).
 const TICK: f32 = 0.000_5;
 const LEAD: f32 = 0.000_2;
 const TICKS: u16 = 1000;
-/// What the encoder shows when the program starts.
+/// Count of the encoder when the program starts.
 const START: i64 = 1234;
 
-/// What the interrupt of the drive works with.
+/// State of the drive's interrupt.
 struct Axis<'a> {
     counter: Counter<16>,
     tracker: Tracker,
@@ -62,7 +62,7 @@ struct Axis<'a> {
     limits: TorqueLimits<f32>,
 }
 
-/// What it has found: the speed of the crank, the torque on it, and the motor's torque within its limits.
+/// Its results: the speed of the crank, the torque on it, and the motor's torque within its limits.
 struct Found {
     count: i64,
     speed: f32,
@@ -76,7 +76,7 @@ impl<'a> Axis<'a> {
         let wrong = |_| "a figure of the axis is wrong";
         Ok(Self {
             counter: Counter::at(START),
-            // From where the machine is: elsewhere the filter would start with a jump.
+            // Start at the machine's position, otherwise the filter would start with a jump.
             tracker: Tracker::with_bandwidth(60.0, TICK)
                 .map_err(wrong)?
                 .at(ENCODER.phase_wide(START)),
@@ -89,7 +89,7 @@ impl<'a> Axis<'a> {
         })
     }
 
-    /// Of the timer's register, and of the speed and the acceleration that the crank shall have.
+    /// For the timer's register, and the set-points of the crank's speed and acceleration.
     #[inline(never)]
     fn interrupt(&mut self, register: u16, [omega, alpha]: [f32; 2]) -> Found {
         let count = self.counter.extend(register.into());
@@ -100,7 +100,7 @@ impl<'a> Axis<'a> {
             omega,
             alpha,
         };
-        // Where the machine will be when the torque acts; friction by the sign of the set-point.
+        // Position of the machine when the torque acts; friction by the sign of the set-point.
         let measured = Motion {
             omega: speed,
             ..reference
@@ -129,7 +129,7 @@ fn run() -> Result<(), Failure> {
     println!("tick   count     speed  of crank  set-point    needed    motor   clipped");
     for k in 0..TICKS {
         let wanted = turn.at(f32::from(k) * TICK);
-        // What the timer's register shows.
+        // The value of the timer's register.
         let register = (1234 - (wanted.phi / TAU * COUNTS) as i32) as u16;
         let found = axis.interrupt(register, [wanted.omega, wanted.alpha]);
 

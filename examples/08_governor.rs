@@ -1,8 +1,8 @@
-//! As fast as the drive allows: a press that is commanded a speed, presses slowly, and knows at every tick where it would stop.
+//! As fast as the drive allows: a press follows a commanded speed, presses slowly, and at every tick knows where it would stop.
 //!
-//! The drive has 200 N·m on the crank up to 12 rad/s, falling to 100 at 25, and brakes with 60. Between 315° and 360°, where the press works, it
-//! shall not exceed 8 rad/s. The program commands 20 rad/s all the time and then a stop: the governor slows down ahead of the work, accelerates behind
-//! it with all that the drive has, and never asks for a torque that the drive does not have.
+//! The drive has 200 N·m on the crank up to 12 rad/s, falling to 100 at 25, and brakes with 60. Between 315° and 360°, where the press works, it must
+//! not exceed 8 rad/s. The program commands 20 rad/s all the time and then a stop. The governor slows down ahead of the work, accelerates after it
+//! with the full torque of the drive, and never requests more torque than the drive has.
 //!
 //! ```text
 //! cargo run -p jred --example 08_governor                                               on the host
@@ -21,11 +21,11 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Time of a tick (s), and how many there are; from `STOP` on a stop is commanded.
+/// Period of a tick (s), and the number of ticks; a stop is commanded from `STOP` on.
 const TICK: f32 = 0.000_5;
 const TICKS: u16 = 2400;
 const STOP: u16 = 2000;
-/// Torque of the drive on the crank: speed (rad/s) and torque (N·m); when it brakes.
+/// Torque of the drive on the crank: speed (rad/s) and torque (N·m); and the braking torque.
 const DRIVING: [[f32; 2]; 2] = [[12.0, 200.0], [25.0, 100.0]];
 const BRAKE: f32 = 60.0;
 

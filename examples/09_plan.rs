@@ -1,13 +1,14 @@
-//! A motion that was planned on a host, followed tick by tick: the fastest stroke of the press within its drive, with its torque, at a rate that an operator changes.
+//! A motion planned on a host, followed tick by tick: the fastest stroke of the press with its drive, with its torque, at a rate changed by an
+//! operator.
 //!
-//! The plan is what this command writes, ten rows for a stroke of 0.35 s and a rest of 0.1 s (`scripts/test images`):
+//! This command writes the plan, ten rows for a stroke of 0.35 s and a rest of 0.1 s (`scripts/test images`):
 //!
 //! ```text
 //! jred fastest machines/press.toml --torque "50 N m" --motor-speed "3000 rpm" --max-speed "28 rad/s" \
 //!     --max-acceleration "220 rad/s^2" --plan examples/data/press_plan.jred
 //! ```
 //!
-//! The program follows it at 100 %, then at 40 %, holds, and goes on at 100 % to the end.
+//! The program follows it at 100 %, then at 40 %, holds, and continues at 100 % to the end.
 //!
 //! ```text
 //! cargo run -p jred --example 09_plan                                               on the host
@@ -26,13 +27,13 @@ use support::{Failure, milli, println, program};
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Time of a tick, and of a change of the rate from 0 to 100 % (s).
+/// Period of a tick, and time of a change of the rate from 0 to 100 % (s).
 const TICK: f32 = 0.000_5;
 const RAMP: f32 = 0.13;
-/// More than the plan takes at these rates.
+/// More than the plan needs at these rates.
 const TICKS: u16 = 2000;
 
-/// What the operator commands.
+/// The operator's command.
 fn commanded(tick: u16) -> Rate {
     Rate::percent(match tick {
         330..600 => 40,

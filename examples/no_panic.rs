@@ -1,20 +1,20 @@
-//! A link gate: this program links for a Cortex-M only if no panic can be reached from the calls below.
+//! A link gate: this program links for a Cortex-M only if the calls below cannot reach a panic.
 //!
-//! Its panic handler calls a function that does not exist. Where the optimiser proves that no call can panic, the handler
-//! is thrown away; one forgotten index, and the linker says `undefined symbol: a_panic_is_reachable`.
+//! Its panic handler calls a function that does not exist. If the optimiser proves that no call can panic, the handler is removed; after one
+//! forgotten index the linker reports `undefined symbol: a_panic_is_reachable`.
 //!
-//! `scripts/test gates` builds it three times: as it is; with `--cfg gate_panic`, which must not link; and with
-//! `--cfg gate_double`, where the search for double-precision routines must find some; otherwise it must find none.
+//! `scripts/test gates` builds it three times: as it is; with `--cfg gate_panic`, which must not link; and with `--cfg gate_double`, where the search
+//! for double-precision routines must find some; otherwise it must find none.
 //!
-//! Every public function of the layers `number`, `curve` and `tick` is called here by its path, those of `axis` in `no_panic_axis`, as
-//! `tests/no_panic_list.rs` sees to. `scripts/test` builds it with the feature `micromath`.
-//! What computes in double precision is called with `--cfg gate_double`, where no panic can be reached, either. Except:
+//! Every public function of the layers `number`, `curve` and `tick` is called here by its path, those of `axis` in `no_panic_axis`;
+//! `tests/no_panic_list.rs` checks that. `scripts/test` builds it with the feature `micromath`. Functions in double precision are called with `--cfg
+//! gate_double`, where no panic can be reached, either. Exceptions:
 //!
 //! - `Table::cell_curves`: for proofs on a host, with a cell that may not exist
-//! - `Transfer`: derivatives of mechanisms, of which tables are made
-//! - `CubicSpline`, `control_points`: curves of which tables are made
-//! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: they make tables
-//! - `$error::cure`: words of an error for people
+//! - `Transfer`: derivatives of mechanisms, for making tables
+//! - `CubicSpline`, `control_points`: curves, for making tables
+//! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: for making tables
+//! - `$error::cure`: text of an error for people
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use core::hint::black_box;
@@ -49,7 +49,7 @@ const CRANK: Set = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
 /// Every curve.
 const EVERY: Set = curves::ALL | curves::RECIPROCAL;
 
-/// Everything that firmware calls, with arguments unknown to the optimiser; or nothing but a panic.
+/// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
     if cfg!(gate_panic) {
         black_box([1, 2, 3][black_box(1usize)]);
@@ -61,14 +61,14 @@ fn calls() -> Result<(), ImageError> {
     );
     every_tick::<Spline<f32>, PRESS>(float)?;
     every_tick::<Spline<Q31>, PRESS>(fixed)?;
-    // Refused, because the images have other layouts and sets; the linker does not know.
+    // Refused, because the images have other layouts and sets, which the linker does not know.
     let other = || {
         [
             every_tick::<Cubic<f32>, { curves::ALL }>(float),
             every_tick::<Quadratic<f32>, CONSTANTS>(float),
             every_tick::<Harmonic<f32>, { curves::ALL | terms::ALL }>(float),
             every_tick::<Harmonic<f32>, { CONSTANTS | terms::SYMMETRIC }>(float),
-            // Its tick is long where single precision is software: there only what `every_crank` calls.
+            // Its tick is long where single precision is software: there only the calls of `every_crank`.
             #[cfg(all(feature = "micromath", not(short_multiply)))]
             every_tick::<SliderCrankForm, CRANK>(float),
             every_tick::<Spline<Q31>, EVERY>(fixed),
@@ -80,7 +80,7 @@ fn calls() -> Result<(), ImageError> {
             every_tick::<Rows16, { CONSTANTS | curves::RECIPROCAL }>(fixed),
         ]
     };
-    // Without them there is room in the flash of the smallest board for double precision.
+    // Without these calls double precision fits into the flash of the smallest board.
     if !cfg!(gate_double) {
         let _ = black_box(other());
     }
@@ -149,7 +149,7 @@ fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     Ok(())
 }
 
-/// As `every_tick`, of a set of curves that is known when the program runs only; and the table without a model.
+/// As `every_tick`, for a set of curves known only at run time; and the table without a model.
 fn every_format<F: Format>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let any = Image::any_model::<F>(&image)?;
@@ -175,7 +175,7 @@ fn every_format<F: Format>(bytes: &'static [u8]) -> Result<(), ImageError> {
     Ok(())
 }
 
-/// What a table says of itself, and its image made again.
+/// Information of a table, and its image encoded again.
 fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
     let (cells, set) = (Table::cells(&table), Table::set(&table));
     black_box((
@@ -205,7 +205,7 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
     let _ = black_box(identify(&mut buffer, black_box(7)));
 }
 
-/// Of one format: there is no room for more in the flash of the smallest board.
+/// For one format only: more do not fit into the flash of the smallest board.
 fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let any = Image::any_model::<Spline<f32>>(&image)?;
@@ -254,7 +254,7 @@ fn every_number() {
     }
     black_box(Q31::to_bits(Q31::from_bits(black_box(1))));
     black_box(Q15::to_bits(Q15::from_bits(black_box(1))));
-    // An acceleration and torques have the same functions, written by one macro.
+    // Accelerations and torques have the same functions, from one macro.
     let speeds = [1, 2].map(|bits| Speed::<Q31>::from_bits(black_box(bits)));
     let sum = Speed::saturating_add(speeds[0], speeds[1]);
     let difference = Speed::saturating_sub(sum, Speed::saturating_neg(speeds[0]));
@@ -295,7 +295,7 @@ fn every_meter(window: Window<f32>) {
     }
 }
 
-/// What computes in double precision.
+/// Functions in double precision.
 fn every_double<F: Format>(table: Table<'_, F>) {
     let phase = Phase::from_radians(black_box(1.0));
     black_box(Phase::radians(phase));

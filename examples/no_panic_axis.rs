@@ -1,5 +1,5 @@
-//! The link gate of `no_panic`, of what stands between an encoder and a torque command: the layer `axis`. A program of its own, because
-//! both together do not fit into the flash of the smallest board.
+//! The link gate of `no_panic` for the layer `axis`, between an encoder and a torque command. A separate program, because both together do not fit
+//! into the flash of the smallest board.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use core::hint::black_box;
@@ -24,7 +24,7 @@ mod gate;
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Everything that firmware calls, with arguments unknown to the optimiser; or nothing but a panic.
+/// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
     if cfg!(gate_panic) {
         black_box([1, 2, 3][black_box(1usize)]);
@@ -45,7 +45,7 @@ fn calls() -> Result<(), ImageError> {
     Ok(())
 }
 
-/// What stands between an encoder and a torque command.
+/// The parts between an encoder and a torque command.
 fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let model = Image::model::<F, SET>(&image)?;
@@ -117,7 +117,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     Ok(())
 }
 
-/// A plan, and what follows it.
+/// A plan and its follower.
 fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
     if let Ok(plan) = Plan::new(black_box(&[0; 41]), model) {
         black_box(Plan::rows(&plan));
@@ -145,7 +145,7 @@ fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
     black_box(Follower::plan(&follower));
 }
 
-/// What a drive can do, and what it can do ahead.
+/// The limits of a drive, now and ahead.
 fn every_limit<F: Format, const SET: Set>(model: &Model<'_, F, SET>, motion: Motion<F::Number>) {
     let points = black_box([[6.0, 80.0], [12.0, 20.0]]);
     let gearbox = black_box(Gearbox {
@@ -239,7 +239,7 @@ fn every_encoder() {
     }
 }
 
-/// What computes in double precision.
+/// Functions in double precision.
 fn every_double() {
     let scaled = black_box(Scaled {
         resolution: 1e-6,

@@ -1,4 +1,4 @@
-//! All that can be wrong before the first tick, in one type.
+//! All errors before the first tick, in one type.
 
 use core::fmt;
 
@@ -14,13 +14,12 @@ use crate::tabulate::harmonic::HarmonicError;
 use crate::tabulate::slider_crank::SliderCrankError;
 use crate::tick::ImageError;
 
-/// A reason why a machine, a motion or a table cannot be built: the errors of all layers, each of which has a type of its
-/// own. Nothing here can happen in a tick.
+/// Why a machine, a motion or a table cannot be created: the errors of all layers, each with its own type. None of them can occur in a tick.
 ///
-/// Values are in SI units (m, kg, s, rad); angles of the drive link are printed in degrees as well. The message says what
-/// is wrong, [`cure`](Self::cure) what to do about it.
+/// Values are in SI units (m, kg, s, rad); angles of the drive link are printed in degrees as well. The message names the error, [`cure`](Self::cure)
+/// the remedy.
 ///
-/// A later version may add errors, so a `match` needs an arm for the rest:
+/// Later versions may add errors, so that a `match` needs a wildcard arm:
 ///
 /// ```
 /// # use jred::Error;
@@ -51,15 +50,15 @@ pub enum Error {
     Range(RangeError),
     /// A position that the mechanism or the machine cannot take.
     Pose(PoseError),
-    /// Parts that do not make a machine.
+    /// Parts that do not form a machine.
     Machine(MachineError),
-    /// Dimensions that do not make a mechanism.
+    /// Dimensions that do not form a mechanism.
     Build(BuildError),
-    /// A cam program or a cam that is not possible.
+    /// An impossible cam program or cam.
     Cam(CamError),
-    /// Links and joints that are no linkage.
+    /// Links and joints that do not form a linkage.
     Linkage(LinkageError),
-    /// A friction drive that cannot be built or moved.
+    /// A friction drive that cannot be created or moved.
     Friction(FrictionError),
     /// A machine without harmonics, or harmonics that cannot be identified.
     Harmonic(HarmonicError),
@@ -68,13 +67,13 @@ pub enum Error {
     SliderCrank(SliderCrankError),
     /// An image that is refused, or cannot be written.
     Image(ImageError),
-    /// A table that cannot be made or ticked.
+    /// A table that cannot be created or ticked.
     Table(TableError),
-    /// No table within the buffer meets the torque error asked for.
+    /// No table within the buffer meets the requested torque error.
     TorqueErrorNotReached {
-        /// Torque error asked for (N·m).
+        /// Requested torque error (N·m).
         asked: f64,
-        /// Least torque error of the sizes tried (N·m).
+        /// Smallest torque error of the sizes tried (N·m).
         reached: f64,
         /// Number of cells of that table.
         cells: u32,

@@ -1,6 +1,6 @@
 #![no_std]
 #![forbid(unsafe_code)]
-// An answer or an error, never a panic. The linker shows it of a tick (examples/no_panic.rs); these read the rest.
+// An answer or an error, never a panic. The linker proves it for a tick (examples/no_panic.rs); these lints check the rest.
 #![cfg_attr(
     not(test),
     deny(
@@ -18,10 +18,9 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 //! Reduced inertia and torque of machines with one degree of freedom: presses, slider-cranks, linkages, gear trains.
 //!
-//! A machine with one degree of freedom moves like a single rotating link, its *drive link*, whose inertia and load
-//! depend on the angle. This crate makes that link from the machine's dimensions, tabulates it, and evaluates it in
-//! every control tick: the torque that a motion needs, and the acceleration that a torque gives. It is `no_std`,
-//! allocates nothing, contains no unsafe code, and its tick has no panic path.
+//! A machine with one degree of freedom moves like a single rotating link, its *drive link*, whose inertia and load depend on the angle. This crate
+//! computes that link from the machine's dimensions, tabulates it, and evaluates it in every control tick: the torque for a motion, and the
+//! acceleration for a torque. It is `no_std`, allocates nothing, contains no unsafe code, and its tick has no panic path.
 //!
 //! # The equation
 //!
@@ -39,10 +38,10 @@
 //! | b | viscous coefficient | N·m·s/rad | opposes ω |
 //! | c | Coulomb friction and other loads that oppose the motion | N·m | opposes ω |
 //!
-//! For a drive link that slides read s, v, a, the reduced mass m_red and the force F (7.10). Equation numbers are those
-//! of V. G. Nazarenko, *Dynamics of mechanisms*, lecture notes, Minsk 2002.
+//! For a drive link that slides read s, v, a, the reduced mass m_red and the force F (7.10). Equation numbers refer to V. G. Nazarenko, *Dynamics of
+//! mechanisms*, lecture notes, Minsk 2002.
 //!
-//! # The way of the data
+//! # Data flow
 //!
 //! ```text
 //! Link, Mechanism ─► Machine ─► Reduction ─► tabulate ─► Table ─► Model ─► torque, acceleration
@@ -51,9 +50,9 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! Firmware takes what it needs from the root. The rest lies in the modules of the layers: [`number`]; [`table`] and
-//! [`machine`]; [`mechanism`], [`friction`] and the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`] and [`harmonic`]. A layer uses
-//! those before it and nothing after it; each can be used alone. Every item has one path.
+//! Firmware finds its items in the root. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`]
+//! and the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`] and [`harmonic`]. A layer uses only those before it; each can be used alone. Every item
+//! has one path.
 //!
 //! # From dimensions to a tick
 //!
@@ -97,30 +96,31 @@
 //! }
 //! ```
 //!
-//! Firmware more often loads an [`Image`] that the command `jred export` made from a machine file. What stands between the encoder's count and the drive's torque command is in [`axis`]: phase,
-//! filter, lead time, feed-forward with a status, gearbox and limits, and the governor that slows down ahead of what the drive cannot do.
+//! Firmware more often loads an [`Image`] that `jred export` made from a machine file. [`axis`] has the steps between the encoder's count and the
+//! drive's torque command: phase, filter, lead time, feed-forward with a status, gearbox and limits, and the governor, which slows down ahead of
+//! places where the drive could not follow.
 //!
 //! # Numbers
 //!
-//! Mechanisms, reduction and tabulation run in `f64`: once, on the host or in firmware after a change of payload.
-//! Ticks run in the numbers of the table's [`Format`](table::Format): `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
-//! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor: digests of a
-//! million random ticks of every format in `f32` and fixed point agree on x86-64, AArch64, WebAssembly and Cortex-M (`scripts/test bits`).
+//! Mechanisms, reduction and tabulation compute in `f64`: once, on the host or in firmware after a change of payload. Ticks compute in the numbers of
+//! the table's [`Format`](table::Format): `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed point in per-unit, see
+//! [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor: digests of a million random ticks of every format in
+//! `f32` and fixed point agree on x86-64, AArch64, WebAssembly and Cortex-M (`scripts/test bits`).
 //!
-//! A table in fixed point needs machine units that its curves fit in: [`Scale::covering`] chooses them. Which curves a machine
-//! has, [`tabulate::curves_in_use`] says.
+//! A table in fixed point needs machine units that fit its curves: [`Scale::covering`] chooses them. [`tabulate::curves_in_use`] finds the curves of
+//! a machine.
 //!
 //! # Features
 //!
-//! - `mechanics`, the default: what makes tables from machines: [`machine`] but for its motion laws, [`mechanism`], [`friction`], [`tabulate`],
-//!   the search for [`harmonic`]s and [`Error`]. It needs `heapless`. Firmware with a finished image needs none of it and is compiled in a third of the time
-//!   with `default-features = false`; with the feature it makes tables itself. What is linked is the same in both;
+//! - `mechanics`, the default: everything that creates tables from machines: [`machine`] except its motion laws, [`mechanism`], [`friction`],
+//!   [`tabulate`], the search for [`harmonic`]s and [`Error`]. It needs `heapless`. Firmware with a finished image does not need it, and compiles in
+//!   a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both cases;
 //! - `defmt`: `defmt::Format` for the public value types;
 //! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
 
 #[deny(clippy::indexing_slicing)]
 pub mod axis;
-// What a tick reads takes elements by `get`, never by an index that could be out of bounds.
+// Code of a tick reads elements by `get`, never by an index that could be out of bounds.
 #[deny(clippy::indexing_slicing)]
 mod curve;
 #[cfg(feature = "mechanics")]
@@ -162,9 +162,9 @@ pub use tick::{
     Validity, duty,
 };
 
-/// Tables: their formats, how words and curves are made, checked and read, for those who make or keep their own.
+/// Tables: formats, words and curves, for programs that create or store their own.
 ///
-/// On the way of the data between [`tabulate`] and [`Model`].
+/// In the data flow between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
         AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf,
@@ -178,8 +178,8 @@ pub mod table {
 
 /// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
 ///
-/// Found from its mechanism ([`fit`](harmonic::fit)) or from measurements ([`identify`](harmonic::identify)); ticked by [`Model`], as
-/// the format [`Harmonic`].
+/// Found from its mechanism ([`fit`](harmonic::fit)) or from measurements ([`identify`](harmonic::identify)); ticked by [`Model`] in the format
+/// [`Harmonic`].
 ///
 /// ```
 /// use jred::harmonic::{fit, scratch_len, terms};
@@ -222,7 +222,7 @@ pub mod harmonic {
     };
 }
 
-/// A slider-crank in closed form: its lengths and masses instead of a table, ticked by [`Model`] as the format [`SliderCrankForm`].
+/// A slider-crank in closed form: lengths and masses instead of a table, ticked by [`Model`] in the format [`SliderCrankForm`].
 ///
 /// ```
 /// use jred::machine::MassProperties;
@@ -259,7 +259,7 @@ pub mod slider_crank {
     pub use crate::tabulate::slider_crank::{SliderCrankError, form, set_in_use};
 }
 
-/// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
+/// Table images: a machine's curves as the tool exports them and firmware uses them, in place in flash.
 pub mod image {
     pub use crate::tick::{
         Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, identify, image_len,
@@ -269,7 +269,7 @@ pub mod image {
 mod sealed {
     /// Keeps the number traits closed: their contracts are tested type by type.
     pub trait Sealed {}
-    /// What a log of the feature `defmt` takes.
+    /// The bound of loggable types, with the feature `defmt`.
     #[cfg(feature = "defmt")]
     pub trait Logged: defmt::Format {}
     #[cfg(feature = "defmt")]
@@ -293,7 +293,7 @@ mod sealed {
     impl Sealed for crate::SliderCrankForm {}
 }
 
-/// The README's program is compiled and run with the documentation tests.
+/// The documentation tests compile and run the README's program.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;

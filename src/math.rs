@@ -1,5 +1,5 @@
-//! The only door to `libm`: one library, so the same bits on every processor. `clippy.toml` refuses its functions everywhere
-//! else in the package. They are called by path, so that `std`'s methods never replace them in tests.
+//! The only use of `libm`: one library, so the same bits on every processor. `clippy.toml` refuses its functions everywhere else in the package. They
+//! are called by path, so that `std`'s methods never replace them in tests.
 #![allow(clippy::disallowed_methods, reason = "the door itself")]
 #![cfg_attr(
     not(feature = "mechanics"),
@@ -22,23 +22,23 @@ pub trait Real:
 {
     /// Distance of 1 to the next larger number.
     const EPSILON: Self;
-    /// The nearest value to a constant.
+    /// The value nearest to a constant.
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision.
     fn to_f64(self) -> f64;
-    /// The nearest number in single precision.
+    /// The number rounded to single precision.
     fn to_f32(self) -> f32;
-    /// The nearest value to a count, in single precision without double precision inside.
+    /// The value nearest to a count, without double precision for `f32`.
     fn from_count(count: u32) -> Self;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
-    /// Sine and cosine by `libm`, correct to 1 ulp. In `f32` this computes in double precision inside.
+    /// Sine and cosine by `libm`, accurate to 1 ulp. For `f32` this computes in double precision.
     fn sin_cos(self) -> (Self, Self);
     /// Square root by `libm`, correctly rounded.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// Cube root of a number that is not negative, to 3 ulp (test `cube_roots_are_right`); zero below the smallest normal
-    /// number. In single precision without double precision inside.
+    /// Cube root of a number that is not negative, to 3 ulp (test `cube_roots_are_right`); zero below the smallest normal number. No double precision
+    /// for `f32`.
     #[must_use]
     fn cbrt(self) -> Self;
 }
@@ -70,8 +70,8 @@ impl Real for f32 {
         if self < Self::MIN_POSITIVE {
             return 0.0;
         }
-        // A third of the exponent, five bits; each step of Halley's iteration makes three times as many. `libm::cbrtf` does its
-        // steps in double precision.
+        // A third of the exponent gives five bits; each step of Halley's iteration triples them. `libm::cbrtf` computes its steps in double
+        // precision.
         let mut root = Self::from_bits(self.to_bits() / 3 + 709_958_130);
         for _ in 0..2 {
             let off = self / (root * root * root);
@@ -153,12 +153,12 @@ pub(crate) fn floor(x: f64) -> f64 {
     libm::floor(x)
 }
 
-/// To the nearest integer, halves away from zero.
+/// The nearest integer, halves away from zero.
 pub(crate) fn round(x: f64) -> f64 {
     libm::round(x)
 }
 
-/// To the nearest integer, halves to even.
+/// The nearest integer, halves to even.
 pub(crate) fn rint(x: f64) -> f64 {
     libm::rint(x)
 }

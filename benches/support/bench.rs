@@ -1,9 +1,8 @@
-//! What work costs on the host: instructions, which are judged, and times, which are printed for people.
+//! Cost of work on the host: instructions, which are limited, and times, which are only printed.
 //!
-//! A benchmark starts itself once more under `valgrind --tool=callgrind`, which counts the instructions of each call of
-//! [`region`]; that run says what it counted, and the run that people see prints its times beside these counts. The processor
-//! that Valgrind imitates is the same wherever there is AVX2, so counts are too, but for what compilers and C libraries differ
-//! in. On other processors, and without Valgrind, nothing is judged: a line that begins with `SKIP` says so.
+//! A benchmark starts itself again under `valgrind --tool=callgrind`, which counts the instructions of each call of [`region`]. That run prints its
+//! counts, and the visible run prints its times next to them. Valgrind emulates the same processor wherever there is AVX2, so that counts only differ
+//! by compilers and C libraries. On other processors, and without Valgrind, nothing is checked; a line that begins with `SKIP` reports it.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 
 use std::collections::HashMap;
@@ -15,7 +14,7 @@ use std::{env, fs, io};
 
 use crate::ceilings::{Verdict, judge};
 
-/// Each time is the best of so many runs.
+/// Runs per time; the best counts.
 pub(crate) const RUNS: u32 = 7;
 
 /// The shortest time of several runs (s).
@@ -34,20 +33,20 @@ pub(crate) fn once<T>(run: impl FnOnce() -> T) -> f64 {
     time
 }
 
-/// Argument of the run that counts, and the folder that Valgrind writes into.
+/// Argument of the counting run, before the folder for Valgrind's output.
 const COUNT: &str = "--count-into";
-/// Valgrind's file in it; a number follows for each call of [`region`].
+/// Valgrind's file in it; a number for each call of [`region`] is appended.
 const FILE: &str = "callgrind.out";
 
-/// What Valgrind counts: it sets its count to zero where this is entered and writes it where this is left.
+/// The counted function: Valgrind resets its count on entry and writes it on exit.
 #[inline(never)]
 fn region(work: &mut dyn FnMut()) {
     work();
-    // Without this the call above would be a jump, and nobody would see this function left.
+    // Without this the call above would be a jump, and the exit of this function would be missed.
     black_box(());
 }
 
-/// Where instructions are known from.
+/// Source of the instruction counts.
 enum Counts {
     /// This run counts, into this folder.
     Here(PathBuf),
@@ -57,7 +56,7 @@ enum Counts {
     None,
 }
 
-/// A run of a benchmark: measures, prints, and remembers what was out of bounds.
+/// A run of a benchmark: measures, prints, and counts figures out of bounds.
 pub(crate) struct Bench {
     counts: Counts,
     judges: bool,
@@ -65,7 +64,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// Runs a benchmark, and its counting twin before it.
+    /// Runs a benchmark, after its counting twin.
     pub(crate) fn main<E: std::fmt::Display>(
         run: impl FnOnce(&mut Self) -> Result<(), E>,
     ) -> ExitCode {
@@ -102,12 +101,12 @@ impl Bench {
         ExitCode::FAILURE
     }
 
-    /// Whether this is the run that counts instructions: it needs no times, and nobody reads what it prints.
+    /// Whether this is the counting run: it needs no times, and its output is not shown.
     pub(crate) const fn counts(&self) -> bool {
         matches!(self.counts, Counts::Here(_))
     }
 
-    /// Instructions of one run of the work, as far as they can be counted. Names are those of `ceilings.txt` or any other.
+    /// Instructions of one run of the work, if they can be counted. Names may be in `ceilings.txt`.
     pub(crate) fn count(&mut self, name: &str, mut work: impl FnMut()) -> Option<u64> {
         match &self.counts {
             Counts::Known(known) => known.get(name).copied(),
@@ -125,7 +124,7 @@ impl Bench {
         }
     }
 
-    /// From here on figures are printed and not judged: they are of other data than the ceilings.
+    /// From here on figures are printed without a check: their data differ from the ceilings' data.
     pub(crate) const fn judge_nothing(&mut self) {
         self.judges = false;
     }
@@ -135,8 +134,8 @@ impl Bench {
         self.judged(name, Some(figure), line);
     }
 
-    /// Prints a line with the instructions of a unit of work, of which one run has `units`, and judges them; beside them the
-    /// `line` that is made of the time of a unit (s).
+    /// Prints a line with the instructions per unit of work, with `units` per run, and checks them; next to them the `line` for the time per unit
+    /// (s).
     pub(crate) fn cost(
         &mut self,
         name: &str,
@@ -148,7 +147,7 @@ impl Bench {
         self.cost_of(name, units, count, || best(work) / f64::from(units), line);
     }
 
-    /// The same for work whose instructions are counted already, or cannot be, and whose `time` is measured otherwise.
+    /// The same for work with known or unavailable instruction counts, and a separately measured `time`.
     pub(crate) fn cost_of(
         &mut self,
         name: &str,
@@ -180,7 +179,7 @@ impl Bench {
         self.failures += u32::from(!verdict.holds());
     }
 
-    /// Judges a ratio that must lie in `[low, high]`; without it, there is nothing to judge.
+    /// Checks a ratio, which must lie in `[low, high]`; without a ratio there is no check.
     pub(crate) fn band(&mut self, what: &str, [low, high]: [f64; 2], found: Option<f64>) {
         if self.counts() {
             return;
@@ -195,8 +194,8 @@ impl Bench {
         self.failures += u32::from(!holds);
     }
 
-    /// Shows that a figure which is too large, and one far too small, would fail: of `name`, whose `units` of work one run has,
-    /// the work done twice and a third of it must be out of bounds.
+    /// Checks that a figure too large, and one far too small, would fail: for `name`, with `units` of work per run, twice the work and a third of it
+    /// must be out of bounds.
     pub(crate) fn control(&mut self, name: &str, units: u32, mut work: impl FnMut(u32)) {
         let mut count = |times: u32, bench: &mut Self| {
             let label = format!("control-{name}-{times}");
@@ -223,7 +222,7 @@ impl Bench {
     }
 }
 
-/// How lines of the counting run begin that give a count.
+/// Prefix of a line of the counting run with a count.
 const COUNTED: &str = "counted: ";
 
 /// Instructions of the work, under Valgrind.
@@ -262,7 +261,7 @@ fn counted() -> io::Result<HashMap<String, u64>> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("counts")
         .join(name);
-    // What an earlier run has left.
+    // Files of an earlier run.
     drop(fs::remove_dir_all(&folder));
     fs::create_dir_all(&folder)?;
     let region = concat!(module_path!(), "::region");

@@ -1,23 +1,23 @@
-//! `benches/ceilings.txt`: what a figure may not exceed, nor fall far below.
+//! `benches/ceilings.txt`: upper limits of figures, which must not fall far below them either.
 #![allow(dead_code, reason = "every program uses its own part")]
 
 use core::fmt;
 
-/// What the file says about a figure.
+/// A figure compared with the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// Not above the ceiling, and not far below.
     Within(u64),
     /// Above the ceiling.
     Above(u64),
-    /// Below half of the ceiling, which is of no use any more.
+    /// Below half of the ceiling, which is then useless.
     Slack(u64),
     /// There is no ceiling for it.
     Missing,
 }
 
 impl Verdict {
-    /// Whether the figure may stay as it is.
+    /// Whether the figure is acceptable.
     pub(crate) const fn holds(self) -> bool {
         matches!(self, Self::Within(_))
     }
@@ -37,12 +37,12 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Judges a figure by the ceiling that the file gives for this `core` and `name`.
+/// Compares a figure with the file's ceiling for this `core` and `name`.
 pub(crate) fn judge(core: &str, name: &str, found: u64) -> Verdict {
     judge_by(include_str!("../ceilings.txt"), core, name, found)
 }
 
-/// Judges a figure by the `text` of the file: lines of core, name, ceiling.
+/// Compares a figure with the `text` of the file: lines of core, name, ceiling.
 pub(crate) fn judge_by(text: &str, core: &str, name: &str, found: u64) -> Verdict {
     let ceiling = text
         .lines()

@@ -1,10 +1,10 @@
-//! Counts what a benchmark allocates.
+//! Counts the allocations of a benchmark.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The system's allocator, and what was asked of it.
+/// The system's allocator, with counters.
 pub(crate) struct Counting;
 
 static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
@@ -17,7 +17,7 @@ fn taken(bytes: usize) {
     MOST.fetch_max(held, Ordering::Relaxed);
 }
 
-// SAFETY: every call goes on to the system's allocator, unchanged.
+// SAFETY: every call is passed to the system's allocator, unchanged.
 #[expect(unsafe_code, reason = "an allocator that counts is an allocator")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
@@ -35,16 +35,16 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// What a piece of work asked of the allocator.
+/// Allocations of a piece of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Memory {
-    /// Allocations, a growth among them.
+    /// Number of allocations, including growth.
     pub(crate) allocations: u64,
-    /// The most that was held at once beyond what was held before (bytes).
+    /// Peak of allocated memory in excess of the memory before (bytes).
     pub(crate) most: u64,
 }
 
-/// What the work allocates; other threads must rest.
+/// Allocations of the work; other threads must be idle.
 pub(crate) fn of<T>(work: impl FnOnce() -> T) -> Memory {
     let before = ALLOCATIONS.load(Ordering::Relaxed);
     let held = HELD.load(Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! What the benchmarks share: the four-bar linkage in two descriptions.
+//! Shared by the benchmarks: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 use jred::machine::{Joint, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
@@ -44,7 +44,7 @@ pub(crate) fn four_bar() -> Result<FourBar, Error> {
     Ok(FourBar::new(DIMENSIONS, Side::Left, links()?)?)
 }
 
-/// The same, known by its links and pins alone.
+/// The same, described only by its links and pins.
 pub(crate) fn four_bar_linkage<const STATIONS: usize>() -> Result<Assembly<3, 4, STATIONS>, Error> {
     let FourBarDimensions {
         crank,

@@ -1,4 +1,4 @@
-//! Linkages that grow: a chain of two-link groups, and one group that cannot be divided.
+//! Growing linkages: a chain of two-link groups, and one indivisible group.
 use jred::machine::{Joint, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::{Domain, Error, Link};
@@ -45,7 +45,7 @@ pub(crate) fn six_link() -> Result<Assembly<5, 7, 256>, Error> {
     Ok(Linkage::new(&six_links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)?)
 }
 
-/// So many positions are kept of the linkages that grow.
+/// Stations of the growing linkages.
 const STATIONS: usize = 64;
 
 /// A crank-rocker whose rocker moves the next rocker in parallel, and so on: `stages` two-link groups, 1 + 2·stages links.
@@ -79,8 +79,8 @@ pub(crate) fn chain<const LINKS: usize, const PAIRS: usize>(
     assemble(&links, &pairs, &drawing, up)
 }
 
-/// A chain of `m` links pinned to each other on m + 2 legs, one foot of which a crank of 5 mm moves: one group of 4·m + 2
-/// coordinates, 2·m + 3 links, 3·m + 4 pins.
+/// A chain of `m` links pinned to each other on m + 2 legs, with one foot moved by a crank of 5 mm: one group of 4·m + 2 coordinates, 2·m + 3 links,
+/// 3·m + 4 pins.
 pub(crate) fn group<const LINKS: usize, const PAIRS: usize>(
     m: usize,
 ) -> Result<Assembly<LINKS, PAIRS, STATIONS>, Error> {
@@ -88,7 +88,7 @@ pub(crate) fn group<const LINKS: usize, const PAIRS: usize>(
     let start = |k: usize| [length * k as f64, 0.3];
     let mut links = vec![link(0.1)?; 1 + m];
     let mut drawing: Vec<[f64; 3]> = (0..m).map(|k| [start(k)[0], start(k)[1], 0.0]).collect();
-    // The pins of the chain, then a leg to each end and to each middle: where on the chain, and where its foot stands.
+    // The pins of the chain, then a leg to each end and to each middle: its place on the chain, and the place of its foot.
     let mut pairs = Vec::new();
     for k in 1..m {
         pairs.push(pin(Marker::on(k, [length, 0.0]), Marker::on(k + 1, O)));

@@ -1,4 +1,4 @@
-//! No table: the slider-crank in closed form, in every tick, with the sine, cosine and root of two usual crates.
+//! Without a table: the slider-crank in closed form in every tick, with sine, cosine and root of two usual crates.
 //!
 //! ```text
 //! x = r·cos φ + l·√(1 − λ²·sin²φ)    J = J₀ + m·x′²    ½·J′ = m·x′·x″

@@ -1,8 +1,7 @@
-//! What a careful engineer writes by hand: three curves in linear tables of their own, one index and one fraction for
-//! all of them, single precision, the angle in radians.
+//! Code as a careful engineer writes it by hand: three curves in separate linear tables, one index and one fraction for all of them, single
+//! precision, the angle in radians.
 //!
-//! The data: number of cells N, N/2π, b, c; then J, ½·J′ and the load torque to overcome, N + 1 values each. N is known
-//! when the program is compiled, as it is in such firmware.
+//! The data: number of cells N, N/2π, b, c; then J, ½·J′ and the load torque, N + 1 values each. N is known at compile time, as in such firmware.
 
 use core::hint::black_box;
 
@@ -10,13 +9,13 @@ use crate::target::{Kernel, Point, each};
 
 /// Cells of the tables.
 const CELLS: usize = 256;
-/// Values of a table: the first one once more at its end.
+/// Values of a table, with the first one repeated at its end.
 const VALUES: usize = CELLS + 1;
 
-/// The machine by hand.
+/// The hand-written machine.
 #[repr(C)]
 pub(crate) struct Machine {
-    /// Cells a radian.
+    /// Cells per radian.
     per_radian: f32,
     viscous: f32,
     coulomb: f32,
@@ -26,11 +25,11 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// Over the words that follow N.
+    /// The machine over the words after N.
     pub(crate) fn new(data: &[u32]) -> &Self {
         let (cells, rest) = data.split_first().expect("data");
         assert!(*cells as usize == CELLS && size_of_val(rest) == size_of::<Self>());
-        // SAFETY: as many words as the structure has, and nothing but words in both; f32 takes any bits.
+        // SAFETY: both have the same number of words, and only words; f32 accepts any bits.
         unsafe { &*rest.as_ptr().cast() }
     }
 

@@ -1,6 +1,6 @@
 //! jred's own ticks.
 //!
-//! The data of each is a table image.
+//! The data of each tick is a table image.
 
 use core::hint::black_box;
 
@@ -14,14 +14,14 @@ use jred::{
 
 use crate::target::{Kernel, Point, each};
 
-/// Load, and friction of the drive link that does not depend on the angle.
+/// Load, and constant friction of the drive link.
 const FULL: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
-/// The inertia alone.
+/// Only the inertia.
 const BARE: Set = curves::INERTIA;
 /// With a seed of 1/J instead of a division.
 const SEED: Set = curves::RECIPROCAL;
 
-/// A function of that name, with the number type, the layout and the curves of its model.
+/// A function with this name, and with the number type, the layout and the curves of its model.
 macro_rules! kernels {
     ($($name:ident: $number:ident, $format:ty, $set:ident, $body:expr;)*) => {
         $(
@@ -64,7 +64,7 @@ kernels! {
     jred_q15_counts: Q15, Rows16, FULL, |m, p, w, a| m.torque(counted(p), of(w), of(a)).number();
 }
 
-/// The phase of the count that stands in the place of a phase.
+/// The phase of a count, which is passed as a phase.
 #[inline(always)]
 fn counted(count: Phase) -> Phase {
     const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
@@ -79,7 +79,7 @@ fn of<Q: Quantity>(number: Q::Number) -> Q {
     Q::of(number)
 }
 
-/// Calls a kernel over the model that the image holds.
+/// Calls a kernel over the model in the image.
 #[expect(clippy::type_complexity, reason = "a kernel is told by its type")]
 fn over<F: Format<Number: Word>, const SET: Set>(
     image: &[u32],

@@ -1,12 +1,10 @@
-//! The on-target half of `cargo xtask perf`: calls every kernel at the points that the host has prepared.
+//! The on-target half of `cargo xtask perf`: calls every kernel at the points prepared by the host.
 //!
-//! A kernel is a function that is not inlined, under a symbol of its own, so that the host finds its calls in a trace of
-//! the emulator. For each there is a file `NAME.in`: two numbers of words, the data (model, table), the points. The
-//! results go to `NAME.out`; a kernel without a file is left out. Data and arguments come from outside the program, so
-//! that the compiler knows as little about them as in firmware, and nothing here computes but the kernels.
+//! A kernel is a function that is not inlined, with its own symbol, so that the host finds its calls in a trace of the emulator. Each has a file
+//! `NAME.in`: two numbers of words, the data (model, table), the points. The results go to `NAME.out`; a kernel without a file is skipped. Data and
+//! arguments come from outside the program, so that the compiler knows as little about them as in firmware, and only the kernels compute.
 //!
-//! To add a kernel: a function and a line in `KERNELS` of one of the modules here, and a line in
-//! `xtask/src/kernels.rs`.
+//! To add a kernel: a function and a line in `KERNELS` of one of the modules here, and a line in `xtask/src/kernels.rs`.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![allow(
     unsafe_code,
@@ -40,10 +38,10 @@ mod target {
 
     use crate::files;
 
-    /// Three arguments: angle, speed, and acceleration or torque. The result takes the place of the first.
+    /// Three arguments: angle, speed, and acceleration or torque. The result replaces the first.
     pub(crate) type Point = [u32; 3];
 
-    /// A kernel's name, and what calls it: with its data, at every point.
+    /// A kernel's name, and the function that calls it with its data at every point.
     pub(crate) type Kernel = (&'static str, fn(&[u32], &mut [Point]));
 
     /// Replaces every point by the result of `call`.
@@ -92,11 +90,10 @@ mod target {
         }
     }
 
-    /// SysTick counts down from here.
+    /// Start value of SysTick, which counts down.
     const RELOAD: u32 = 0x00ff_ffff;
 
-    /// Reads SysTick. The host finds its calls in the trace: as many instructions lie between two of them as the clock
-    /// counts when each takes 1 ns.
+    /// Reads SysTick. The host finds its calls in the trace: between two of them lie as many instructions as the clock counts at 1 ns each.
     #[unsafe(no_mangle)]
     #[inline(never)]
     extern "Rust" fn tick_clock() -> u32 {

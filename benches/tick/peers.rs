@@ -1,4 +1,4 @@
-//! CMSIS-DSP and C by hand, from the object that `cargo xtask perf --peers` compiles of `xtask/peers/kernels.c`.
+//! CMSIS-DSP and hand-written C, from the object that `cargo xtask perf --peers` compiles of `xtask/peers/kernels.c`.
 
 use core::ffi::c_void;
 use core::hint::black_box;
@@ -7,7 +7,7 @@ use crate::target::{Kernel, Point, each};
 
 type Float = unsafe extern "C" fn(*const c_void, f32, f32, f32) -> f32;
 type Fixed = unsafe extern "C" fn(*const c_void, u32, i32, i32) -> i32;
-/// Makes a machine of the data, in memory of its own.
+/// Creates a machine from the data, in its own memory.
 type Build = unsafe extern "C" fn(*const u32) -> *const c_void;
 
 unsafe extern "C" {
@@ -35,7 +35,7 @@ unsafe extern "C" {
 
 fn float(build: Build, data: &[u32], points: &mut [Point], kernel: Float) {
     let kernel = black_box(kernel);
-    // SAFETY: the host prepared the data for this kernel, and the machine lives for ever.
+    // SAFETY: the host prepared the data for this kernel, and the machine is never freed.
     let machine = unsafe { build(data.as_ptr()) };
     each(points, |p| {
         let [phi, omega, third] = p.map(f32::from_bits);
@@ -46,7 +46,7 @@ fn float(build: Build, data: &[u32], points: &mut [Point], kernel: Float) {
 
 fn fixed(build: Build, data: &[u32], points: &mut [Point], kernel: Fixed) {
     let kernel = black_box(kernel);
-    // SAFETY: the host prepared the data for this kernel, and the machine lives for ever.
+    // SAFETY: the host prepared the data for this kernel, and the machine is never freed.
     let machine = unsafe { build(data.as_ptr()) };
     each(points, |[phase, omega, third]| {
         let [omega, third] = [omega, third].map(u32::cast_signed);

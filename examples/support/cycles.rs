@@ -1,9 +1,9 @@
-//! The cycle counter of a Cortex-M; on the host there is none.
+//! The cycle counter of a Cortex-M; the host has none.
 
 /// A counter that counts cycles.
 pub(crate) struct Counter {
     read: fn() -> u32,
-    /// The bits that it has.
+    /// Mask of its bits.
     mask: u32,
 }
 
@@ -17,15 +17,15 @@ impl Counter {
         self.now().wrapping_sub(start) & self.mask
     }
 
-    /// Starts the counter of this core; `None` if nothing here counts cycles.
+    /// Starts the counter of this core; `None` if there is no cycle counter.
     #[cfg(not(target_os = "none"))]
     pub(crate) fn start() -> Option<Self> {
         None
     }
 
-    /// Starts the counter of this core; `None` if nothing here counts cycles.
+    /// Starts the counter of this core; `None` if there is no cycle counter.
     ///
-    /// QEMU has no CYCCNT, which reads 0 there, and its SysTick follows the clock on the wall.
+    /// In QEMU CYCCNT reads 0, and SysTick follows the wall clock.
     #[cfg(target_os = "none")]
     pub(crate) fn start() -> Option<Self> {
         /// SysTick has 24 bits and counts down.
@@ -58,8 +58,8 @@ impl Counter {
         counter.counts_cycles().then_some(counter)
     }
 
-    /// Whether a delay of known length takes so many cycles. A core may run it faster than promised, but not in a quarter of
-    /// them; what follows the wall clock shows less than that in one of several runs, as an emulator is faster than the core.
+    /// Whether a delay of known length takes a plausible number of cycles. A core may run it faster than specified, but not in a quarter of the
+    /// cycles; a wall clock shows less than that in one of several runs, because an emulator is faster than the core.
     #[cfg(target_os = "none")]
     fn counts_cycles(&self) -> bool {
         const DELAY: u32 = 100_000;

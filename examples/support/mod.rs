@@ -1,4 +1,4 @@
-//! What every example needs and firmware does not: printing, and an exit code. One source for host and target.
+//! Parts of every example that firmware does not need: printing, and an exit code. One source for host and target.
 
 use core::fmt;
 
@@ -15,7 +15,7 @@ pub(crate) use std::println;
 pub(crate) enum Failure {
     /// The table image was refused.
     Image(ImageError),
-    /// Something the example claims does not hold.
+    /// A claim of the example is false.
     Claim(&'static str),
 }
 
@@ -52,8 +52,7 @@ pub(crate) fn milli(x: f32) -> i32 {
     }) as i32
 }
 
-/// Makes `run` the program: `main` on the host, the reset handler on the target. A failure is printed and gives
-/// exit code 1, which QEMU hands on as its own.
+/// Makes `run` the program: `main` on the host, the reset handler on the target. A failure is printed and gives exit code 1, which QEMU passes on.
 macro_rules! program {
     ($run:ident) => {
         #[cfg(not(target_os = "none"))]

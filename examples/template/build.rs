@@ -1,4 +1,4 @@
-//! Gives the linker the memory of the board that the features name, and the program the numbers that suit its core.
+//! Passes the memory of the board named by the features to the linker, and sets the number type for its core.
 
 use std::path::PathBuf;
 use std::{env, fs};
@@ -22,7 +22,7 @@ fn main() {
     fs::copy(&memory, out.join("memory.x")).unwrap_or_else(|error| panic!("{memory}: {error}"));
     println!("cargo::rerun-if-changed={memory}");
     println!("cargo::rustc-link-search={}", out.display());
-    // Unless the folder is still in that of jred, whose `.cargo/config.toml` gives it to all programs.
+    // Except in jred's own folder, whose `.cargo/config.toml` passes it to all programs.
     if !env::var("CARGO_ENCODED_RUSTFLAGS")
         .unwrap_or_default()
         .contains("-Tlink.x")

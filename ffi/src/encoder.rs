@@ -1,4 +1,4 @@
-//! Encoders, which are made here; what they do with a count stands in the header, inlined where C calls.
+//! Creates encoders; the conversion of a count is in the header, inlined into the C call.
 
 use core::mem::MaybeUninit;
 
@@ -13,7 +13,7 @@ use crate::status::Status;
 pub(crate) struct CMounting {
     pub(crate) counts_per_turn: u32,
     pub(crate) gear: [u32; 2],
-    /// A `bool` of C, whatever is in it.
+    /// A `bool` of C, with any value.
     pub(crate) counts_down: u8,
     pub(crate) home: i64,
 }
@@ -33,7 +33,7 @@ impl From<CMounting> for Mounting {
     }
 }
 
-/// Keeps what was made; if it cannot be, the other.
+/// Writes what was created; on an error, the replacement.
 fn keep<E>(
     memory: &mut MaybeUninit<E>,
     made: Result<E, AxisError>,
@@ -56,7 +56,7 @@ pub(crate) extern "C" fn jred_encoder_make(
     let (Some(encoder), Some(mounting)) = (encoder, mounting) else {
         return Status::Null;
     };
-    // Zeros, whose phase is 0.
+    // Zeros: an encoder whose phase is 0.
     keep(
         encoder,
         Encoder::new((*mounting).into()),

@@ -1,4 +1,4 @@
-//! Which models have functions: every format with every set of curves that it can have.
+//! The models with functions: every format with every possible set of curves.
 
 use jred::{Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16};
 
@@ -11,8 +11,8 @@ macro_rules! family {
     ($name:literal, $format:ty, $number:ty, [$($set:literal)*]) => {
         const _: () = {
             /// # Safety
-            /// `words` is null, or the address of `length` words that live and stay the same as long as the model is ticked;
-            /// `memory` is null or a `jred_memory`.
+            /// `words` is null, or the address of `length` words that stay valid and unchanged as long as the model is ticked; `memory` is null or a
+            /// `jred_memory`.
             #[unsafe(export_name = concat!("jred_", $name, "_load"))]
             unsafe extern "C" fn load(
                 memory: Option<&mut Memory<$format>>,
@@ -25,7 +25,7 @@ macro_rules! family {
             }
 
             /// # Safety
-            /// `words` is null, or the address of `length` words that live and stay the same as long as the follower is ticked; `memory` and
+            /// `words` is null, or the address of `length` words that stay valid and unchanged as long as the follower is ticked; `memory` and
             /// `follow` are null, or a `jred_memory` and a follower of this number type.
             #[unsafe(export_name = concat!("jred_", $name, "_follow"))]
             unsafe extern "C" fn follow(
@@ -50,8 +50,7 @@ macro_rules! family {
     };
 }
 
-/// A family with the sets of polynomials: a load or none; b none, a curve or a constant; c likewise. With `reciprocal` also those
-/// with 1/J.
+/// A family with the sets of polynomials: with or without a load; b absent, a curve or a constant; c likewise. With `reciprocal` also those with 1/J.
 macro_rules! polynomials {
     ($name:literal, $format:ty, $number:ty) => {
         #[cfg(few_sets)]
@@ -79,8 +78,8 @@ polynomials!("quadratic_q31", Quadratic<Q31>, Q31, reciprocal);
 polynomials!("spline16_q31", Spline16, Q31, reciprocal);
 polynomials!("rows_q15", Rows16, Q15, reciprocal);
 
-// Of harmonics there are more than a thousand sets. These have cosines or sines or both of J and of a load, and constant
-// frictions; the others have the functions for any set.
+// Harmonics have more than a thousand sets. These have cosines, sines or both of J and of a load, and constant frictions; the others use the
+// functions for any set.
 #[cfg(few_sets)]
 family!("harmonic_f32", Harmonic<f32>, f32, [2305]);
 #[cfg(not(few_sets))]
@@ -91,8 +90,8 @@ family!("harmonic_f32", Harmonic<f32>, f32, [
     48 304 560 816 49 305 561 817 1073 1329 1585 1841 2097 2353 2609 2865 3121 3377 3633 3889
 ]);
 
-// Of a slider-crank: a load with or without parts in the crank's sine and cosine, b none or constant, c none, the slider's, constant
-// or both; the others have the functions for any set.
+// For a slider-crank: a load with or without parts in the crank's sine and cosine, b absent or constant, c absent, the slider's, constant or both;
+// the others use the functions for any set.
 #[cfg(few_sets)]
 family!("slider_crank_f32", SliderCrankForm, f32, [0 49 529]);
 #[cfg(not(few_sets))]

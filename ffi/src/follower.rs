@@ -1,4 +1,4 @@
-//! A plan and what follows it, in memory of the caller.
+//! A plan and its follower, in memory of the caller.
 
 use core::mem::MaybeUninit;
 
@@ -11,10 +11,10 @@ use crate::memory::words;
 use crate::number::{CNumber, to_c};
 use crate::status::Status;
 
-/// Words of 64 bits that a follower has room for, as `JRED_FOLLOWER_WORDS` of `jred.h` says.
+/// 64-bit words of memory for a follower, as `JRED_FOLLOWER_WORDS` of `jred.h`.
 pub(crate) const WORDS: usize = 28;
 
-/// A follower, or none: zeros are none.
+/// A follower; zeros contain no follower.
 #[repr(C)]
 pub(crate) struct Follow<N: Number> {
     /// 1; 0 without a follower.
@@ -28,10 +28,10 @@ impl<N: Number> Follow<N> {
             && align_of::<Self>() <= align_of::<u64>()
     );
 
-    /// Makes a follower of a plan for this model; none if that fails.
+    /// Creates a follower of a plan for this model; on failure there is no follower.
     ///
     /// # Safety
-    /// As of [`words`], for as long as the follower is ticked.
+    /// As [`words`], as long as the follower is ticked.
     pub(crate) unsafe fn follow(
         &mut self,
         address: *const u32,
@@ -63,7 +63,7 @@ impl<N: Number> Follow<N> {
     }
 
     fn get(&mut self) -> Option<&mut Follower<'static, N>> {
-        // SAFETY: zeros or what `follow` has written; the tag says that there is a follower.
+        // SAFETY: zeros or written by `follow`; the tag shows that there is a follower.
         (self.tag == 1).then(|| unsafe { self.follower.assume_init_mut() })
     }
 }

@@ -1,4 +1,4 @@
-//! What an image says of itself.
+//! Information about an image.
 
 use core::mem::MaybeUninit;
 

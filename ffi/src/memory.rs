@@ -8,19 +8,19 @@ use jred::{AnyModel, Image, ImageError, Model, Set, TableError};
 
 use crate::status::Status;
 
-/// Pointers that a `jred_memory` has room for, as `JRED_MEMORY_POINTERS` of `jred.h` says.
+/// Pointers of memory in a `jred_memory`, as `JRED_MEMORY_POINTERS` of `jred.h`.
 pub(crate) const POINTERS: usize = 37;
 
 /// More than any image has: 65 535 cells of twenty words, and its header.
 const MOST_WORDS: usize = 1 << 21;
 
-/// Any set of curves: `JRED_ANY` of `jred.h`. No image has it.
+/// Any set of curves: `JRED_ANY` of `jred.h`. No image has this set.
 pub(crate) const ANY: Set = !0;
 
 /// The words of an image.
 ///
 /// # Safety
-/// `address` is null, or that of `length` words that live and stay the same as long as what is made of them.
+/// `address` is null, or the address of `length` words that stay valid and unchanged as long as the result is used.
 pub(crate) unsafe fn words<'a>(address: *const u32, length: usize) -> Result<&'a [u32], Status> {
     if address.is_null() {
         Err(Status::Null)
@@ -29,15 +29,15 @@ pub(crate) unsafe fn words<'a>(address: *const u32, length: usize) -> Result<&'a
     } else if length > MOST_WORDS {
         Err(Status::Length)
     } else {
-        // SAFETY: neither null nor misaligned nor longer than memory is, and the caller promises the rest.
+        // SAFETY: not null, aligned, and not longer than memory; the caller promises the rest.
         Ok(unsafe { slice::from_raw_parts(address, length) })
     }
 }
 
-/// A model in the memory of a `jred_memory`, or none: zeros are none.
+/// A model in the memory of a `jred_memory`; zeros contain no model.
 #[repr(C)]
 pub(crate) struct Memory<F: Format> {
-    /// The set of curves and 1; 0 without a model. `jred.h` looks at it before every tick.
+    /// The set of curves plus 1; 0 without a model. `jred.h` checks it before every tick.
     tag: usize,
     model: MaybeUninit<AnyModel<'static, F>>,
 }
@@ -48,10 +48,10 @@ impl<F: Format> Memory<F> {
             && align_of::<Self>() <= align_of::<usize>()
     );
 
-    /// Makes a model of an image that has this set of curves, or any; none if that fails.
+    /// Creates a model of an image with this set of curves, or any; on failure there is no model.
     ///
     /// # Safety
-    /// As of [`words`], for as long as the model is ticked.
+    /// As [`words`], as long as the model is ticked.
     pub(crate) unsafe fn load(&mut self, set: Set, address: *const u32, length: usize) -> Status {
         let () = Self::FITS;
         self.tag = 0;
@@ -75,28 +75,27 @@ impl<F: Format> Memory<F> {
 
     /// The model, if there is one.
     pub(crate) fn loaded(&self) -> Option<&AnyModel<'static, F>> {
-        // SAFETY: the tag says that there is one.
+        // SAFETY: the tag shows that there is one.
         (self.tag != 0).then(|| unsafe { self.model.assume_init_ref() })
     }
 
-    /// The model of any set.
+    /// The model with any set.
     ///
     /// # Safety
-    /// There is one: `load` has answered that all is well.
+    /// There is a model: `load` returned success.
     #[inline]
     pub(crate) unsafe fn any(&self) -> &AnyModel<'static, F> {
         // SAFETY: as promised by the caller.
         unsafe { self.model.assume_init_ref() }
     }
 
-    /// The model of this set.
+    /// The model with this set.
     ///
     /// # Safety
-    /// There is one, and the set is its own.
+    /// There is a model, and it has this set.
     #[inline]
     pub(crate) unsafe fn known<const SET: Set>(&self) -> &Model<'static, F, SET> {
-        // SAFETY: as promised by the caller; a `Model` is transparent over an `AnyModel`, and of a table with its set there is
-        // nothing else to it.
+        // SAFETY: as promised by the caller; a `Model` is transparent over an `AnyModel`, and has no other invariant than the table's set.
         unsafe { &*self.model.as_ptr().cast() }
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers of a tick as C has them, and SI units.
+//! Numbers of a tick in C, and SI units.
 
 use core::mem::MaybeUninit;
 
@@ -9,7 +9,7 @@ use jred::{Q15, Q31, Scale};
 use crate::image::Info;
 use crate::status::Status;
 
-/// A number of a tick, and what stands for it in C.
+/// A number of a tick, and its type in C.
 pub(crate) trait CNumber: Number {
     /// `float`, `int32_t` or `int16_t`.
     type C: Copy + Default;
@@ -57,19 +57,19 @@ impl CNumber for Q15 {
     }
 }
 
-/// A speed, an acceleration or a torque of the number that C has for it: C knows them by the names of parameters alone.
+/// A speed, an acceleration or a torque from C's number: C distinguishes them only by the names of parameters.
 #[inline]
 pub(crate) fn of<Q: Quantity<Number: CNumber>>(c: <Q::Number as CNumber>::C) -> Q {
     Q::of(CNumber::number(c))
 }
 
-/// And back.
+/// Inverse of [`of`].
 #[inline]
 pub(crate) fn to_c<Q: Quantity<Number: CNumber>>(quantity: Q) -> <Q::Number as CNumber>::C {
     CNumber::c(quantity.number())
 }
 
-/// What friction is against: `jred_…_sliding` in C, member by member.
+/// The motion that friction opposes: `jred_…_sliding` in C, member by member.
 #[inline]
 pub(crate) fn sliding<N: CNumber>(number: N::C, is_share: bool) -> Sliding<N> {
     if is_share {
@@ -96,7 +96,7 @@ pub(crate) struct CMotionRange<C> {
     pub(crate) alpha: C,
 }
 
-/// The motions that a table was made for, in the numbers of its model; rest alone if the bases are none.
+/// The motions that a table is valid for, in the numbers of its model; only rest if the bases are invalid.
 fn motion_range<N: CNumber>(
     info: Option<&Info>,
     range: Option<&mut MaybeUninit<CMotionRange<N::C>>>,

@@ -1,4 +1,4 @@
-//! Phases from angles and places.
+//! Phases from angles and positions.
 
 use jred::{Domain, Phase};
 

@@ -1,4 +1,4 @@
-//! What a function answers.
+//! The return value of a function.
 
 use core::ffi::{CStr, c_char};
 
@@ -7,7 +7,7 @@ use jred::{ImageError, TableError};
 
 macro_rules! statuses {
     ($($(#[$doc:meta])* $variant:ident = $code:literal $name:literal,)*) => {
-        /// What a function answers: 0 is good. The names in C are those that [`name`](Self::name) gives.
+        /// The return value of a function; 0 is success. [`name`](Self::name) gives the names in C.
         #[repr(i32)]
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(crate) enum Status {
@@ -18,7 +18,6 @@ macro_rules! statuses {
             /// Every status.
             pub(crate) const ALL: &[Self] = &[$(Self::$variant),*];
 
-            /// Its name in C.
             pub(crate) const fn name(self) -> &'static CStr {
                 match self {
                     $(Self::$variant => $name,)*
@@ -31,7 +30,7 @@ macro_rules! statuses {
 statuses! {
     /// Done.
     Ok = 0 c"JRED_OK",
-    /// Done, but the number lies outside the range of the number type: the nearest end was taken.
+    /// Done, but the number is outside the range of the number type; the nearest end was used.
     Limited = 1 c"JRED_LIMITED",
     /// A pointer is null.
     Null = 2 c"JRED_NULL",
@@ -39,7 +38,7 @@ statuses! {
     Misaligned = 3 c"JRED_MISALIGNED",
     /// Images are little-endian, and this processor is not.
     BigEndian = 4 c"JRED_BIG_ENDIAN",
-    /// Not the number of words that the image says: truncated, or padded.
+    /// The number of words is not the image's: truncated, or padded.
     Length = 5 c"JRED_LENGTH",
     /// The words do not begin with "JRED".
     NotAnImage = 6 c"JRED_NOT_AN_IMAGE",
@@ -47,9 +46,9 @@ statuses! {
     Version = 7 c"JRED_VERSION",
     /// The image is damaged.
     Crc = 8 c"JRED_CRC",
-    /// A word of the header has no meaning.
+    /// A word of the header is invalid.
     Header = 9 c"JRED_HEADER",
-    /// The image holds another number type.
+    /// The image contains another number type.
     NumberType = 10 c"JRED_NUMBER_TYPE",
     /// The image has another layout.
     Layout = 11 c"JRED_LAYOUT",
@@ -57,9 +56,9 @@ statuses! {
     Set = 12 c"JRED_SET",
     /// Too few or too many cells or harmonics.
     Cells = 13 c"JRED_CELLS",
-    /// Not as many rows as cells and curves need.
+    /// The number of rows does not match the cells and curves.
     Rows = 14 c"JRED_ROWS",
-    /// A number is not finite or leaves its range.
+    /// A number is not finite or outside its range.
     Range = 15 c"JRED_RANGE",
     /// The inertia is not positive everywhere.
     NoInertia = 16 c"JRED_NO_INERTIA",
@@ -71,25 +70,26 @@ statuses! {
     Units = 19 c"JRED_UNITS",
     /// A constant friction is negative or not finite.
     Constant = 20 c"JRED_CONSTANT",
-    /// The curve of 1/J is not that of J.
+    /// The curve of 1/J does not match J.
     Reciprocal = 21 c"JRED_RECIPROCAL",
-    /// Anything else that is wrong with a table.
+    /// Any other error of a table.
     Table = 22 c"JRED_TABLE",
     /// The words do not begin with "JRPL".
     NotAPlan = 23 c"JRED_NOT_A_PLAN",
     /// The plan was made for another range of the drive link than the model.
     OtherRange = 24 c"JRED_OTHER_RANGE",
-    /// A row of the plan does not begin after the one before, or has a number that does not fit.
+    /// A row of the plan does not begin after the one before, or has a number that is out of range.
     PlanRow = 25 c"JRED_PLAN_ROW",
     /// A row of the plan does not end where the next begins.
     Gap = 26 c"JRED_GAP",
     /// The plan leaves the stroke.
     Stroke = 27 c"JRED_STROKE",
-    /// The plan does not end as it begins, so it cannot be repeated.
+    /// The end of the plan does not match its start, so that it cannot be repeated.
     Open = 28 c"JRED_OPEN",
-    /// A figure that does not fit: of an encoder; the period or the ramp of the rate, or a plan that is faster than the machine units of the model; no speed that a table was made for.
+    /// A figure out of range: of an encoder; the period or the ramp of the rate; a plan faster than the machine units of the model; a table without a
+    /// valid speed.
     Figure = 29 c"JRED_FIGURE",
-    /// There is no model, or no follower, in the memory.
+    /// The memory contains no model, or no follower.
     NotLoaded = 30 c"JRED_NOT_LOADED",
 }
 

@@ -1,4 +1,4 @@
-//! What C sees is what Rust has.
+//! C sees the same as Rust.
 
 use jred::{Q31, Set, Spline, curves, include_image};
 

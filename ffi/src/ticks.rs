@@ -1,7 +1,7 @@
 //! The functions of one model.
 
-/// The ticks under the names that begin with `$prefix`. Whoever calls one has looked that
-/// the memory has a model of this set, as the functions of `jred.h` do: here it would cost registers that the tick needs.
+/// The ticks with names that begin with `$prefix`. The caller must have checked that the memory has a model of this set, as the functions of `jred.h`
+/// do: here the check would need registers that the tick uses.
 macro_rules! ticks {
     ($prefix:expr, $format:ty, $number:ty, $model:expr) => {
         const _: () = {

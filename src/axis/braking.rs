@@ -1,4 +1,4 @@
-//! How a drive brakes a machine, looked at from the end backwards.
+//! How a drive brakes a machine, computed from the end backwards.
 
 use super::error::{positive, within};
 use super::{AxisError, Direction};
@@ -6,33 +6,34 @@ use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
 use crate::number::{Number, Quantity as _, Real as _, Sliding};
 use crate::{Domain, Model, Phase};
 
-/// What stops a machine.
+/// The drive's braking ability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Braking {
-    /// The torque of the drive against the motion, on the drive link (N·m, or N): the least that it has at any speed up to the greatest.
+    /// Torque of the drive against the motion, on the drive link (N·m, or N): the least that it has at any speed up to the greatest.
     pub torque: f32,
-    /// The greatest deceleration a (rad/s², or m/s²): that of [`Limits`](super::Limits), or infinite if only the torque limits it. Where a machine stops is told
-    /// without it. A [`LookAhead`](super::LookAhead) counts on less of it, by the share 2·a·τ/ω_max for a tick τ: what a tick that begins to brake late must catch up with.
+    /// The greatest deceleration a (rad/s², or m/s²): the same as in [`Limits`](super::Limits), or infinite if only the torque limits it.
+    /// [`LookAhead::stop`](super::LookAhead::stop) does not use it. A [`LookAhead`](super::LookAhead) plans with less of it, by the share 2·a·τ/ω_max
+    /// for a tick τ: the reserve for a tick that begins to brake late.
     pub deceleration: f32,
-    /// Whether load and friction count where they help to brake. `false` for a load that may be missing, such as a workpiece: then only what drives the
-    /// machine on counts.
+    /// Whether load and friction count where they help to brake. `false` for a load that may be missing, such as a workpiece: then only loads that
+    /// drive the machine count.
     pub helped: bool,
 }
 
-/// A range, looked along in the direction of a motion.
+/// A range in the direction of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Way {
     pub(super) direction: Direction,
     pub(super) stroke: bool,
-    /// How many of the same width the nodes make; those of a stroke have one at its end.
+    /// Number of intervals of equal width between the nodes; on a stroke the last node is its end.
     pub(super) intervals: u32,
-    /// Of an interval, in units of 2⁻³² of the range.
+    /// Width of an interval, in units of 2⁻³² of the range.
     pub(super) width: u32,
 }
 
 impl Way {
-    /// The phase as it is for a motion forward.
+    /// The phase as seen by a forward motion.
     #[inline]
     pub(super) fn mirrored(self, phase: Phase) -> u32 {
         match self.direction {
@@ -41,7 +42,7 @@ impl Way {
         }
     }
 
-    /// And back.
+    /// Inverse of [`mirrored`](Self::mirrored).
     #[inline]
     pub(super) fn actual(self, bits: u32) -> Phase {
         Phase::from_bits(match self.direction {
@@ -50,13 +51,13 @@ impl Way {
         })
     }
 
-    /// The interval of a phase, and where in it.
+    /// The interval of a phase, and the position in it.
     #[inline]
     pub(super) fn cell(self, phase: Phase) -> (u32, u32) {
         Phase::from_bits(self.mirrored(phase)).cell(self.intervals)
     }
 
-    /// The phase so many half intervals from the start.
+    /// The phase `half` half intervals from the start.
     pub(super) fn node(self, half: u32) -> Phase {
         let bits = (u64::from(half) << 31) / u64::from(self.intervals.max(1));
         let last = if self.stroke { u32::MAX } else { bits as u32 };
@@ -64,7 +65,7 @@ impl Way {
     }
 }
 
-/// What a model says about braking at a place, in units of the torque base.
+/// Terms of the model for braking at a place, in units of the torque base.
 #[derive(Clone, Copy, Default)]
 struct Place {
     /// J·α_b
@@ -73,7 +74,8 @@ struct Place {
     braking: f32,
 }
 
-/// An interval: what is at its start, the work of the brake over it (in torque bases times rad or m), and by how much J exceeds the straight line in its middle.
+/// An interval: values at its start, the work of the brake over it (in torque bases times rad or m), and by how much J in its middle exceeds the
+/// straight line.
 #[derive(Clone, Copy, Default)]
 struct Interval {
     inertial: f32,
@@ -81,14 +83,14 @@ struct Interval {
     bulge: f32,
 }
 
-/// A motion through the range of a model, and what brakes it.
+/// A motion through the range of a model, and its braking.
 pub(super) struct Course<const NODES: usize> {
     pub(super) way: Way,
     /// Length of an interval (rad, or m).
     pub(super) step: f32,
-    /// One for each node; of a stroke, the last has no length.
+    /// One for each node; on a stroke, the last has no length.
     intervals: [Interval; NODES],
-    /// What an acceleration of α_b changes of the square of the speed along an interval; what the greatest deceleration does.
+    /// Change of ω² over an interval: by an acceleration of α_b, and by the greatest deceleration.
     gained: f32,
     most: f32,
 }
@@ -96,7 +98,7 @@ pub(super) struct Course<const NODES: usize> {
 /// 2³⁰: the square of the greatest speed.
 pub(super) const ONE: f32 = 1_073_741_824.0;
 
-/// What a model says at a phase.
+/// Terms of the model at a phase.
 fn place<F: Format, const SET: Set>(
     model: &Model<'_, F, SET>,
     way: Way,
@@ -104,7 +106,7 @@ fn place<F: Format, const SET: Set>(
     half: u32,
 ) -> Result<Place, AxisError> {
     let phase = way.node(half);
-    // The greatest number that a model takes.
+    // 1.0, the greatest number that a model takes in fixed point.
     let one = F::Number::per_unit(1.0, 1.0).value;
     let (omega, alpha) = (SpeedOf::<F>::of(one), AccelerationOf::<F>::of(one));
     let terms = model.contributions(phase, omega, alpha, Sliding::Against(omega));
@@ -190,7 +192,7 @@ impl<const NODES: usize> Course<NODES> {
         })
     }
 
-    /// Of the interval after this one.
+    /// The interval after this one.
     fn next(&self, k: usize) -> Interval {
         let [first, ..] = self.intervals.as_slice() else {
             return Interval::default();
@@ -198,23 +200,24 @@ impl<const NODES: usize> Course<NODES> {
         *self.intervals.get(k + 1).unwrap_or(first)
     }
 
-    /// Lowers the squares of the speed, in units of 2⁻³⁰ of that of `top`, so far that the machine can be braked to each from the one before:
+    /// Lowers the squares of the speed, in units of 2⁻³⁰ of that of `top`, until the machine can be braked from each node to the next:
     ///
     /// ```text
     /// ½·J·ω² ≤ ½·J·ω² there + work between,   ω² ≤ ω² there + 2·a·(1 − 2·a·τ/ω_top)·Δφ
     /// ```
     ///
-    /// A tick that begins just before a limit falls moves `tick` = ω_top·τ along it at full speed: then ω² is 2·a·ω_top·τ above it, and nothing could bring it down if the limit itself took all of a. The share
-    /// that is left out makes up for it until the machine rests: 2·a·(2·a·τ/ω_top)·s along the way s = ω_top²/(2·a).
+    /// A tick that begins just before a limit falls moves `tick` = ω_top·τ along it at full speed: then ω² is 2·a·ω_top·τ above the limit, and could
+    /// not be reduced if the limit itself used all of a. The reserved share makes up for it by standstill: 2·a·(2·a·τ/ω_top)·s along the way s =
+    /// ω_top²/(2·a).
     pub(super) fn slow_down(&self, squares: &mut [u32; NODES], [top, tick]: [f32; 2]) {
         let gained = self.gained / top / top;
         let most = self.most / top / top;
-        // 2·a·τ/ω_top, of a braking way that is longer than some ticks.
+        // 2·a·τ/ω_top, for a braking distance longer than a few ticks.
         let most = most * (1.0 - (most / self.step * tick).min(0.5));
         if let (true, Some(end)) = (self.way.stroke, squares.last_mut()) {
             *end = 0;
         }
-        // On a turn the second round has the right start: what binds the start in the first is a limit that the second does not lower.
+        // A turn needs two rounds, because the first one starts with an unlowered limit. The second cannot lower the limit that binds at the start.
         let rounds = if self.way.stroke { 1 } else { 2 };
         for _ in 0..rounds {
             let first = squares.first().copied().unwrap_or_default();
@@ -230,15 +233,15 @@ impl<const NODES: usize> Course<NODES> {
                 };
                 let energy = self.next(k).inertial * after + gained * interval.work;
                 let least = (energy / interval.inertial).min(after + most);
-                // Rounded down, whatever the last roundings were.
+                // Rounded down, regardless of rounding errors before.
                 *square = (*square).min((least * (ONE * 0.999_999)) as u32);
                 after = *square as f32 / ONE;
             }
         }
     }
 
-    /// The work of the brake up to each node, in units of 2⁻³² of that over the range; ½·J, so that the square of a speed times it, shifted down by what is
-    /// returned, is that work. Straight lines between the nodes lie above J where it bulges.
+    /// Fills the work of the brake up to each node, in units of 2⁻³² of the work over the range, and ½·J, scaled so that ½·J times the square of a
+    /// speed, shifted right by the returned count, is a work in that unit. Where J bulges the lines between the nodes are raised to lie above it.
     pub(super) fn works(
         &self,
         works: &mut [u32; NODES],

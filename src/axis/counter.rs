@@ -1,11 +1,12 @@
-//! Counts that do not end: a hardware counter's, extended to 64 bits.
+//! Hardware counts, extended to 64 bits.
 
-/// Extends the counts of a hardware counter of `BITS` bits (1 to 32), which overflows, to 64 bits.
+/// Extends a hardware counter of `BITS` bits (1 to 32), which overflows, to 64 bits.
 ///
 /// The machine must move less than half the counter's range between two readings: 32 767 counts for 16 bits.
 ///
-/// One wrong reading is corrected by the next right one, unless it is off by half of the range, give or take what the machine moves from the reading before it to the
-/// one after it: the count then is a whole range off, and stays so (test `a_wrong_reading_is_corrected_unless_it_is_half_the_range_off`). An index pulse tells.
+/// The next right reading corrects a wrong one, unless the wrong one is off by half of the range, plus or minus the machine's movement between the
+/// readings before and after it. Then the count stays off by a whole range (test `a_wrong_reading_is_corrected_unless_it_is_half_the_range_off`); an
+/// index pulse reveals that.
 ///
 /// ```
 /// use jred::axis::Counter;
@@ -17,8 +18,7 @@
 /// assert_eq!(counter.extend(64_000), 64_000);
 /// ```
 ///
-/// A timer that an index pulse or a limit of its own sets to zero once a turn needs none: its count is that of an
-/// [`Encoder`](super::Encoder) as it is.
+/// A timer that an index pulse or its own limit resets once a turn needs no `Counter`: its count goes directly to an [`Encoder`](super::Encoder).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Counter<const BITS: u32> {
@@ -26,19 +26,19 @@ pub struct Counter<const BITS: u32> {
 }
 
 impl<const BITS: u32> Counter<BITS> {
-    /// How far a reading is to the left of 32 bits.
+    /// Left shift of a reading to 32 bits.
     const SHIFT: u32 = {
         assert!(BITS >= 1 && BITS <= 32, "a counter has 1 to 32 bits");
         32 - BITS
     };
 
-    /// That has this count now.
+    /// A counter that has this count now.
     #[must_use]
     pub const fn at(count: i64) -> Self {
         Self { count }
     }
 
-    /// The count, of what the counter reads now: the nearest to the last one.
+    /// The new count for a reading: the nearest one to the last count.
     #[inline]
     pub const fn extend(&mut self, reading: u32) -> i64 {
         let moved = (reading << Self::SHIFT).wrapping_sub((self.count as u32) << Self::SHIFT);

@@ -1,4 +1,4 @@
-//! From an encoder's count to the phase of a drive link that turns, without a division in the tick.
+//! From an encoder count to the phase of a drive link that turns, without a division in the tick.
 
 use core::num::NonZeroU128;
 
@@ -6,7 +6,7 @@ use super::AxisError;
 use crate::Phase;
 use crate::number::{signed_words, upper_of_sum};
 
-/// Which way an encoder counts.
+/// Counting direction of an encoder.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Counting {
@@ -17,7 +17,7 @@ pub enum Counting {
     Down,
 }
 
-/// An encoder and how it is mounted: what its count says about φ.
+/// An encoder and its mounting: how a count relates to φ.
 ///
 /// ```text
 /// φ/2π = ±(count − home)/(counts_per_turn·gear)
@@ -25,19 +25,18 @@ pub enum Counting {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Mounting {
-    /// Counts of one turn of the encoder's shaft; of a quadrature encoder four times its lines.
+    /// Counts per turn of the encoder's shaft; for a quadrature encoder four times its lines.
     pub counts_per_turn: u32,
-    /// Turns of the encoder's shaft, and the turns of the drive link that they make: `[1, 1]` on its own shaft, `[17, 2]` behind a ratio
-    /// of 8.5.
+    /// Turns of the encoder's shaft, and the turns of the drive link that they cause: `[1, 1]` on its own shaft, `[17, 2]` behind a ratio of 8.5.
     pub gear: [u32; 2],
-    /// Which way it counts.
+    /// Counting direction.
     pub counting: Counting,
     /// The count at φ = 0.
     pub home: i64,
 }
 
 impl Mounting {
-    /// On the shaft of the drive link, counting up from φ = 0.
+    /// An encoder on the shaft of the drive link, counting up from φ = 0.
     #[must_use]
     pub const fn direct(counts_per_turn: u32) -> Self {
         Self {
@@ -49,7 +48,7 @@ impl Mounting {
     }
 }
 
-/// An encoder of a drive link that turns: the phase of any count, with two multiplications.
+/// Converts any count of an encoder to the phase of a drive link that turns, with two multiplications.
 ///
 /// ```
 /// use jred::axis::{Counting, Encoder, Mounting};
@@ -69,24 +68,23 @@ impl Mounting {
 /// assert_eq!(ENCODER.phase(1234 - 85_000 / 4).to_bits(), 1 << 30);
 /// ```
 ///
-/// Accuracy: less than a unit of 2⁻³² of a turn (1.5e-9 rad) off for every count of 32 or 64 bits, whatever the ratio, and
-/// exact where the phase is a whole number of units, as it is at home and whole turns later (test `the_phase_of_every_count_is_within_a_unit`).
-/// No error accumulates.
+/// Accuracy: less than a unit of 2⁻³² of a turn (1.5e-9 rad) for every count of 32 or 64 bits and every ratio, and exact where the phase is a whole
+/// number of units, such as at home and whole turns from it (test `the_phase_of_every_count_is_within_a_unit`). No error accumulates.
 ///
-/// A counter of less than 32 bits, or one that overflows, first goes through a [`Counter`](super::Counter): a register of 32 bits that passes 2³¹ keeps its angle by itself only if
-/// 2³² counts are whole turns of the drive link (test `a_register_that_overflows_keeps_its_angle`).
+/// A counter of less than 32 bits, or one that overflows, first needs a [`Counter`](super::Counter). A 32-bit register that passes 2³¹ keeps its
+/// angle without one only if 2³² counts are whole turns of the drive link (test `a_register_that_overflows_keeps_its_angle`).
 ///
-/// In memory it is a `jred_encoder` of C, whose header computes the same bits.
+/// In memory it is the `jred_encoder` of C, whose header computes the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
 pub struct Encoder {
-    /// Turns a count in units of 2⁻⁶⁴, to the nearest, modulo a turn: `upper`·2³² + `lower`.
+    /// Turns per count, modulo a turn, rounded to units of 2⁻⁶⁴: `upper`·2³² + `lower`.
     lower: i32,
     upper: u32,
-    /// The phase of count 0 in units of 2⁻⁶⁴, and half a unit of a phase.
+    /// The phase of count 0 plus half a unit of a phase, in units of 2⁻⁶⁴.
     start: u64,
-    /// The rest of `step`, in units of 2⁻⁹⁶.
+    /// The remainder of the turns per count, in units of 2⁻⁹⁶.
     rest: i32,
 }
 
@@ -94,10 +92,11 @@ pub struct Encoder {
 const HALF: u64 = 1 << 31;
 
 impl Encoder {
-    /// Of an encoder mounted like this. `const`: a program can have it in flash.
+    /// Creates an encoder with this mounting. `const`: a program can have it in flash.
     ///
     /// # Errors
-    /// [`AxisError::NotPositive`]: no counts a turn, or a zero in the gear. [`AxisError::OutOfRange`]: less than two counts a turn of the drive link.
+    /// [`AxisError::NotPositive`]: zero counts per turn, or a zero in the gear. [`AxisError::OutOfRange`]: less than two counts per turn of the drive
+    /// link.
     pub const fn new(mounting: Mounting) -> Result<Self, AxisError> {
         let Mounting {
             counts_per_turn,
@@ -128,9 +127,9 @@ impl Encoder {
                 range: "at least 2",
             });
         }
-        // To the nearest unit of 2⁻⁹⁶: link < 2³².
+        // Rounded to units of 2⁻⁹⁶: link < 2³².
         let step = ((link << 96) + per.get() / 2) / per.get();
-        // The phase of home alone, exact: (home mod per)·link mod per, as a part of per.
+        // The phase of home alone, exact: (home mod per)·link mod per, over per.
         let below = home.unsigned_abs() as u128 % per.get();
         let within = if home < 0 && below > 0 {
             per.get() - below
@@ -155,14 +154,14 @@ impl Encoder {
         })
     }
 
-    /// The phase at a count of 32 bits.
+    /// The phase at a 32-bit count.
     #[must_use]
     #[inline(always)]
     pub const fn phase(&self, count: i32) -> Phase {
         Phase::from_bits(upper_of_sum(count, (self.lower, self.upper), self.start))
     }
 
-    /// The phase at a count of 64 bits.
+    /// The phase at a 64-bit count.
     #[must_use]
     #[inline]
     pub const fn phase_wide(&self, count: i64) -> Phase {

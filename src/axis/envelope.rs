@@ -1,11 +1,11 @@
-//! What a drive can give at each speed.
+//! The torque that a drive has at each speed.
 
 use super::error::{positive, within};
 use super::{AxisError, Gearbox};
 use crate::number::{Factor, Number, Quantity};
 use crate::{MachineUnits, Outcome};
 
-/// Torque against speed of a drive, in both directions: where it drives, a curve that falls with the speed; where it brakes, a constant.
+/// Torque-speed envelope of a drive, in both directions: a curve that falls with the speed where it drives, a constant where it brakes.
 ///
 /// ```text
 /// T ∈ [−T_brake, T(ω)]      ω > 0
@@ -13,8 +13,8 @@ use crate::{MachineUnits, Outcome};
 /// T ∈ [−T(−ω), T_brake]     ω < 0
 /// ```
 ///
-/// T(ω) is T₁ up to the first speed, straight between the points, and 0 beyond the last: a motor has a constant peak torque up to a corner, then
-/// the voltage takes it away.
+/// T(ω) is T₁ up to the first speed, linear between the points, and 0 beyond the last: a motor has a constant peak torque up to a corner speed, above
+/// which the voltage limits it.
 ///
 /// ```
 /// use jred::axis::Envelope;
@@ -32,19 +32,20 @@ use crate::{MachineUnits, Outcome};
 /// # }
 /// ```
 ///
-/// In fixed point a torque is off by six units of 2⁻³¹ of the torque base, and by 2⁻²³ of what it fell from point to point (`Q15`: three units of 2⁻¹⁵; test `an_envelope_is_that_of_its_points`).
+/// Accuracy in fixed point: six units of 2⁻³¹ of the torque base, plus 2⁻²³ of the fall from point to point (`Q15`: three units of 2⁻¹⁵; test
+/// `an_envelope_is_that_of_its_points`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Envelope<N: Number, const POINTS: usize> {
-    /// 0 to T₁.
+    /// From 0 to T₁.
     driving: [N::Torque; 2],
-    /// T_brake, the other way round.
+    /// −T_brake.
     brake: N::Torque,
     falls: [Fall<N>; POINTS],
     top: N::Speed,
 }
 
-/// The straight line to a point: where it begins, and what the torque loses a unit of speed.
+/// The line to a point: its start, and the torque lost per unit of speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Fall<N: Number> {
@@ -59,11 +60,12 @@ const POINT_COUNT: &str = "the number of points of the torque curve";
 const BRAKE: &str = "the braking torque";
 
 impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
-    /// Of points `[speed, torque]` on the drive link (rad/s, N·m; or m/s, N) and the torque when it brakes, for a model in its machine units.
+    /// Creates an envelope for a model in its machine units. `driving`: points `[speed, torque]` on the drive link (rad/s, N·m; or m/s, N); `brake`:
+    /// the braking torque.
     ///
     /// # Errors
-    /// No point; a first or a braking torque that is not positive and finite, or a torque that rises with the speed; speeds that do not rise from 0 or
-    /// more; in fixed point a torque beyond its base.
+    /// No point; a first torque or a braking torque that is not positive and finite; a torque that rises with the speed; speeds that are negative or
+    /// do not rise; in fixed point a torque beyond its base.
     pub fn new(
         driving: [[f32; 2]; POINTS],
         brake: f32,
@@ -115,7 +117,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
                     Factor::default()
                 },
             };
-            // In fixed point the line ends at the greatest speed that a number can have.
+            // In fixed point the line ends at the greatest representable speed.
             top = scale.omega(point[0]).value;
             last = point;
         }
@@ -127,11 +129,11 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         })
     }
 
-    /// As [`new`](Self::new), of the motor's points and braking torque, on the drive link's side of a gearbox: ω/i, and T·i·η where the motor drives. Where it brakes, T·i:
-    /// the gearbox helps to brake the machine, but not the rotor. The rotor's inertia must be in the table, as i²·J_M.
+    /// As [`new`](Self::new), for the motor's points and braking torque, converted to the drive link: ω/i, and T·i·η where the motor drives. Where it
+    /// brakes, T·i: the gearbox losses help to brake the machine, but not the rotor. The table must contain the rotor's inertia as i²·J_M.
     ///
     /// # Errors
-    /// Those of `new`; a ratio that is not positive, an efficiency outside 0.01 to 1, or a rotor that is not 0.
+    /// As `new`; a ratio that is not positive, an efficiency outside 0.01 to 1, or a rotor inertia other than 0.
     pub fn of_motor(
         driving: [[f32; 2]; POINTS],
         brake: f32,
@@ -158,13 +160,13 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         self.top
     }
 
-    /// The least and the greatest torque at a speed. At a speed that is no number both are 0.
+    /// The least and the greatest torque at a speed. At NaN both are 0.
     #[inline]
     pub fn torques(&self, omega: N::Speed) -> [N::Torque; 2] {
         let (rest, none) = (N::Speed::default(), N::Torque::default());
         let forward = omega >= rest;
         let magnitude = if forward { omega } else { omega.negated() };
-        // The last line that begins below: the speeds rise.
+        // The last line that begins at or below this speed: the speeds rise.
         let mut line = Fall::default();
         for fall in &self.falls {
             if magnitude >= fall.from {
@@ -188,7 +190,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
     }
 }
 
-/// The quantity in machine units, if it is in their range: of this value and base in SI units.
+/// A quantity in machine units, checked against their range; `value` and `base` are in SI units.
 pub(super) fn in_range<Q: Quantity>(
     what: &'static str,
     value: f32,

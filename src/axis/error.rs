@@ -1,33 +1,33 @@
-//! What can be wrong with an axis.
+//! Errors of the parts of an axis.
 
 use core::fmt;
 
 use crate::Phase;
 use crate::number::error::{Curable, error};
 
-/// Why a part of an axis cannot be made.
+/// Why a part of an axis cannot be created.
 ///
-/// Its figures are in single precision, and are written with integers alone: firmware that prints an error needs no printing of floating point.
+/// Figures are in single precision and written with integers only: firmware that prints an error needs no floating-point formatting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum AxisError {
     /// The named quantity is NaN or infinite.
     NotFinite(&'static str),
-    /// The named quantity must be greater than zero; its value.
+    /// The named quantity must be greater than zero; with its value.
     NotPositive(&'static str, f32),
     /// The named quantity must lie within a range.
     OutOfRange {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f32,
-        /// From where to where.
+        /// The allowed range.
         range: &'static str,
     },
     /// In fixed point the named quantity must be less than its base.
     BeyondBase {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f32,
@@ -36,18 +36,18 @@ pub enum AxisError {
     },
     /// The two look-aheads of a governor are not one forward and one backward.
     Directions,
-    /// Here the load drives the machine with more than the braking torque: nothing would stop it.
+    /// The load drives the machine with more than the braking torque, so that it cannot be stopped.
     Overpowered {
-        /// Where.
+        /// Place.
         phase: Phase,
-        /// The torque of the load, less friction that helps (N·m, or N).
+        /// The torque of the load, less helping friction (N·m, or N).
         load: f32,
         /// The braking torque.
         braking: f32,
     },
 }
 
-/// A number for a message, to three places, written with integers.
+/// A number for a message, with three decimals, written with integers.
 struct Shown(f32);
 
 impl fmt::Display for Shown {
@@ -133,7 +133,7 @@ impl Curable for AxisError {
     }
 }
 
-/// `value` if it is a number that is finite and greater than zero.
+/// `value` if it is finite and greater than zero.
 pub(super) fn positive(what: &'static str, value: f32) -> Result<f32, AxisError> {
     if !value.is_finite() {
         Err(AxisError::NotFinite(what))
@@ -144,7 +144,7 @@ pub(super) fn positive(what: &'static str, value: f32) -> Result<f32, AxisError>
     }
 }
 
-/// An error unless the value is a number and `holds`, which of NaN no comparison does.
+/// An error unless `value` is finite and `holds`; a comparison with NaN is false.
 pub(super) fn within(
     what: &'static str,
     value: f32,

@@ -1,4 +1,4 @@
-//! Feed-forward: the torque that a motion needs, and whether the table was made for that motion.
+//! Feed-forward: the torque for a motion, and whether the table is valid for that motion.
 
 use core::marker::PhantomData;
 
@@ -8,29 +8,28 @@ use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
 use crate::number::{Factor, Number, Quantity, Sliding};
 use crate::{MachineUnits, Model, Phase, Validity};
 
-/// A torque on the drive link, and whether the table was made for its motion.
+/// A torque on the drive link, and whether the table is valid for its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Checked<N: Number> {
-    /// The torque, as [`Model::torque`] gives it; of a motion that the table was not made for, the torque of the nearest one that it was made for. Always a finite number.
+    /// The torque of [`Model::torque`]; for a motion outside the validity of the table, the torque of the nearest valid motion. Always finite.
     pub torque: N::Torque,
-    /// What is wrong with the motion.
+    /// Which of speed and acceleration are outside the validity.
     pub status: Status,
 }
 
-/// Feed-forward with a model, and with the motions that its table was made for.
+/// Feed-forward with a model, limited to the motions that its table is valid for.
 ///
-/// Two modes. [`at_reference`](Self::at_reference) takes everything from the set-point: nothing that is measured can disturb it, and it is right as
-/// long as the machine follows. [`at_measured`](Self::at_measured) takes position and speed from the encoder (computed torque): it is right where the
-/// machine *is*, but feeds the encoder's noise back. In both, Coulomb friction should have the sign of the set-point's speed
-/// (`Sliding::Against(reference.omega)`, or a [`Ramp`]), so that the noise of a measured speed around zero does not turn it over.
+/// Two modes. [`at_reference`](Self::at_reference) takes position, speed and acceleration from the set-point: measurements cannot disturb it, and it
+/// is right as long as the machine follows. [`at_measured`](Self::at_measured) takes position and speed from the encoder (computed torque): it is
+/// right where the machine *is*, but feeds back the encoder's noise. In both, Coulomb friction should have the sign of the set-point's speed
+/// (`Sliding::Against(reference.omega)`, or a [`Ramp`]), so that noise of a measured speed around zero does not reverse it.
 ///
-/// Every input has a say in the one [`Status`]: the speed, the acceleration, the set-point's speed, what friction is against; too large, NaN and infinity. A motion that is flagged
-/// gets the torque of the nearest that the table was made for, so that the weight of an axis stays held (test `what_is_flagged_holds_the_weight`).
+/// The one [`Status`] covers every input: speed, acceleration, the set-point's speed and the friction's speed or share; too large, NaN or infinite. A
+/// flagged motion gets the torque of the nearest valid one, so that the weight of an axis is still carried (test `what_is_flagged_holds_the_weight`).
 ///
-/// What else stands between the model and the drive is put before and after it, each piece for itself: a lead time
-/// ([`Period::later`](super::Period::later)), the gearbox ([`Transmission`](super::Transmission)), the limits of the drive
-/// ([`TorqueLimits`], last of all).
+/// The other parts between model and drive are separate: before it a lead time ([`Period::later`](super::Period::later)), after it the gearbox
+/// ([`Transmission`](super::Transmission)) and, last of all, the limits of the drive ([`TorqueLimits`]).
 ///
 /// ```
 /// use jred::axis::{Encoder, FeedForward, Gearbox, Motion, Mounting, Period, TorqueLimits, Transmission};
@@ -71,14 +70,14 @@ pub struct FeedForward<'a, F: Format, const SET: Set> {
 }
 
 impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
-    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity), of the same image).
+    /// Feed-forward with a model and the validity of its table ([`Image::validity`](crate::Image::validity), of the same image).
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
         let range = MotionRange::new(validity, model.table().scale());
         Self { model, range }
     }
 
-    /// The same over the words that its model was made of, borrowed anew or in another place.
+    /// The same over the words of its model, borrowed again or moved.
     #[inline(always)]
     pub(super) fn moved<'b>(&self, words: &'b [F::Word]) -> FeedForward<'b, F, SET> {
         FeedForward {
@@ -93,7 +92,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         &self.model
     }
 
-    /// The motions that the table was made for.
+    /// The motions that the table is valid for.
     #[must_use]
     pub const fn range(&self) -> &MotionRange<F::Number> {
         &self.range
@@ -105,7 +104,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         self.range.status(omega, alpha)
     }
 
-    /// The torque for the reference, at the reference's phase and speed. The status is of what `sliding` is against, too.
+    /// The torque for the reference, at the reference's phase and speed. The status includes the speed or share in `sliding`.
     #[inline(always)]
     pub fn at_reference(
         &self,
@@ -115,7 +114,8 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         self.checked(reference, sliding, false)
     }
 
-    /// The torque for the reference's acceleration, at the measured phase and speed. The status is of both speeds, and of what `sliding` is against.
+    /// The torque for the reference's acceleration, at the measured phase and speed. The status includes both speeds, and the speed or share in
+    /// `sliding`.
     #[inline(always)]
     pub fn at_measured(
         &self,
@@ -162,9 +162,9 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     }
 }
 
-/// Coulomb friction that rises in a straight line between standstill and a speed, instead of a jump.
+/// Coulomb friction that rises linearly from standstill to a speed, instead of a jump.
 ///
-/// One of a model in `Q15` is none for speeds in `Q31`:
+/// A ramp for a model in `Q15` does not accept speeds in `Q31`:
 ///
 /// ```compile_fail,E0308
 /// # use jred::axis::Ramp;
@@ -182,7 +182,7 @@ pub struct Ramp<N> {
 }
 
 impl<N: Number> Ramp<N> {
-    /// Up to the speed `width` (rad/s, or m/s), for a model in its machine units.
+    /// Creates a ramp up to the speed `width` (rad/s, or m/s), for a model in its machine units.
     ///
     /// # Errors
     /// A width that is not positive and finite, or less than 1e-6 of the speed base.
@@ -201,14 +201,15 @@ impl<N: Number> Ramp<N> {
         })
     }
 
-    /// How much of c acts at a speed: that of the set-point. Nothing at NaN, which the status of [`FeedForward`] finds in the set-point itself; all of it at infinity.
+    /// The share of c that acts at the set-point's speed `omega`: 0 at NaN, which the status of [`FeedForward`] reports for the set-point itself; all
+    /// of c at infinity.
     #[inline]
     pub fn at(&self, omega: N::Speed) -> Sliding<N> {
         Sliding::Share(omega.number().times(&self.share).value.to_unit())
     }
 }
 
-/// What a drive can do: the command is limited after everything else, so that the drive gets what it was told and the program knows what is missing.
+/// The torque limits of a drive, applied to the command last of all, so that the program knows by how much the drive's torque falls short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueLimits<T> {
@@ -219,17 +220,17 @@ pub struct TorqueLimits<T> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limited<T> {
-    /// The torque; 0 for what is no number.
+    /// The torque; NaN becomes 0.
     pub torque: T,
-    /// What the limits took away: 0 if nothing.
+    /// The part of the torque that was cut off; 0 within the limits.
     pub clipped: T,
 }
 
 impl<T: Quantity> TorqueLimits<T> {
-    /// From `least` to `greatest`.
+    /// Limits from `least` to `greatest`.
     ///
     /// # Errors
-    /// Limits that do not contain 0, or are NaN; the message has them in machine units. An infinite limit is none.
+    /// Limits that do not contain 0, or are NaN; the message has them in machine units. An infinite limit does not limit.
     pub fn new(least: T, greatest: T) -> Result<Self, AxisError> {
         let none = T::default();
         for (what, torque, holds, range) in [
@@ -248,7 +249,7 @@ impl<T: Quantity> TorqueLimits<T> {
         })
     }
 
-    /// The torque within the limits, and what they took away: of NaN the torque is 0, and what was taken away NaN; of infinity the limit and infinity.
+    /// The torque within the limits, and the part that was cut off. NaN: torque 0, cut off NaN. Infinity: the limit, cut off infinity.
     #[inline]
     pub fn limited(&self, torque: T) -> Limited<T> {
         let within = torque.within(self.limits);

@@ -1,4 +1,4 @@
-//! A plan followed tick by tick, at its own pace or slower.
+//! Follows a plan tick by tick, at its own pace or slower.
 
 use super::error::{positive, within};
 use super::plan::{Plan, PlanError, power_of_two, shifted};
@@ -6,7 +6,7 @@ use super::{AxisError, Motion};
 use crate::MachineUnits;
 use crate::number::{Factor, Number};
 
-/// How fast a plan is followed, as a share of its own pace: the override of a machine tool.
+/// Rate at which a plan is followed, as a share of its own pace: the override of a machine tool.
 ///
 /// ```
 /// use jred::axis::Rate;
@@ -22,7 +22,7 @@ pub struct Rate(u32);
 /// 100 %.
 const FULL: u32 = 1 << 24;
 
-/// Bits that a rate has more where it is summed up than where it is commanded, and than a tick uses.
+/// Extra bits of a rate in the sum, compared with a commanded rate, and compared with the rate that a tick uses.
 const FINER: u32 = 32;
 const UNUSED: u32 = 25;
 
@@ -32,7 +32,7 @@ impl Rate {
     /// Hold.
     pub const STILL: Self = Self(0);
 
-    /// So many per cent; more than 100 are 100, because a faster motion than the planned one may not keep its limits.
+    /// `percent` per cent; more than 100 counts as 100, because a motion faster than planned may exceed the plan's limits.
     #[must_use]
     pub const fn percent(percent: u32) -> Self {
         if percent >= 100 {
@@ -43,18 +43,19 @@ impl Rate {
     }
 }
 
-/// How far a plan has been followed.
+/// Progress of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
-    /// Not started: at its start.
+    /// Not started: at the plan's start.
     #[default]
     Waiting,
-    /// On its way.
+    /// Under way.
     Running,
-    /// On its way, with the rate 0.
+    /// Under way, with the rate 0.
     Held,
-    /// At its end, where it stays: if the plan ends with a speed, which the set-point still has, at the last rate, something else must go on.
+    /// At the end, where it stays. If the plan ends with a speed, the set-point keeps that speed times the last rate, and the program must continue
+    /// the motion.
     Done,
 }
 
@@ -64,47 +65,50 @@ pub enum Stage {
 pub struct Planned<N: Number> {
     /// Position, speed and acceleration.
     pub motion: Motion<N>,
-    /// Whole turns since φ = 0; 0 on a stroke. They jump back at each repeat of a plan that goes on by whole turns: whoever needs the way counts the jumps.
+    /// Whole turns since φ = 0; 0 on a stroke. They jump back at each repeat of a plan that advances by whole turns; a program that needs the total
+    /// way counts the jumps.
     pub turns: i32,
-    /// How far.
+    /// Progress.
     pub stage: Stage,
-    /// In fixed point a number was limited: with the acceleration that a change of the rate takes it is beyond its base.
+    /// In fixed point a number was limited: including a change of the rate, the acceleration is beyond its base.
     pub limited: bool,
 }
 
 /// Follows a [`Plan`] tick by tick, with a rate that may change.
 ///
-/// With the rate r the time s of the plan goes by as ds/dt = r, so that
+/// The rate r scales the plan's time s: ds/dt = r, so that
 ///
 /// ```text
 /// φ = φ_plan(s),   ω = r·ω_plan(s),   α = r²·α_plan(s) + dr/dt·ω_plan(s)
 /// ```
 ///
-/// The rate goes to the commanded one in a straight line, so that the speed has no steps; the acceleration has that of the ramp. At a constant rate r the torque
-/// of a machine without viscous friction lies between those of the plan and of standstill, where the load is that of the position alone. A change of the rate takes J·ω·dr/dt more: a drive that
-/// the plan uses fully has that only where the rate falls while the plan drives, or rises while it brakes. [`Plan::least_ramp`] is the shortest ramp for which the drive has it everywhere.
+/// The rate changes linearly to the commanded one: the speed is continuous, and the acceleration contains that of the ramp. At a constant rate r the
+/// torque of a machine without viscous friction lies between the plan's torque and that at standstill, where only the load of the position acts. A
+/// change of the rate takes J·ω·dr/dt more. A drive that the plan uses fully has that only where the rate falls while the plan drives, or rises while
+/// it brakes. [`Plan::least_ramp`] is the shortest ramp for which the drive has it everywhere.
 ///
-/// Accuracy: the period counts as a whole number of 2⁻⁴⁰ s, which one of 8 µs and more in single precision is, and no fraction of the plan's time is lost from tick to tick
-/// (test `a_follower_is_on_time`). The rate is summed up in units of 2⁻⁵⁶ and used in units of 2⁻³¹: a change of the rate takes its time to a tick and 2⁻²² of it, however
-/// long it is and however short the tick (test `a_long_ramp_takes_its_time`). Its acceleration is off by 2⁻²⁸ of the greatest that it may have, and by the single precision of a
-/// factor; the sum with that of the plan is rounded once (test `a_ramp_is_as_fine_as_its_numbers`). A speed times the rate is a unit too small at most, an acceleration times its
-/// square two (`tests/proofs/plan.g`).
+/// Accuracy: the period is rounded to units of 2⁻⁴⁰ s, which is exact in single precision from 8 µs on, and no fraction of the plan's time is lost
+/// from tick to tick (test `a_follower_is_on_time`). The rate is summed in units of 2⁻⁵⁶ and used in units of 2⁻³¹: a change of the rate takes its
+/// time to within a tick and 2⁻²² of it, for any ramp and tick (test `a_long_ramp_takes_its_time`). Its acceleration is off by 2⁻²⁸ of the greatest
+/// possible one, and by the single precision of a factor; the sum with the plan's acceleration is rounded once (test
+/// `a_ramp_is_as_fine_as_its_numbers`). A speed times the rate is at most one unit too small, an acceleration times its square two
+/// (`tests/proofs/plan.g`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follower<'a, N> {
     plan: Plan<'a, N>,
-    /// A tick, and the time of the plan, in units of 2⁻⁴⁰ s; what is left of it in units of 2⁻⁷² s.
+    /// A tick and the plan's time, in units of 2⁻⁴⁰ s; the remainder of the time in units of 2⁻⁷² s.
     step: u64,
     time: u64,
     rest: u32,
-    /// The rate, and what it changes in a tick at most, in units of 2⁻⁵⁶.
+    /// The rate, and its greatest change per tick, in units of 2⁻⁵⁶.
     rate: u64,
     change: u64,
-    /// Brings what a rate changes in a tick to 31 bits.
+    /// Shift that brings the change of the rate per tick to 31 bits.
     shift: i32,
-    /// Of a speed times those to accelerations.
+    /// Factor from a speed times that change to an acceleration.
     ramp: Factor,
     started: bool,
-    /// It has not moved: the rate is that which is commanded.
+    /// It has not moved yet: the rate follows the commanded one at once.
     fresh: bool,
     repeats: bool,
 }
@@ -112,15 +116,17 @@ pub struct Follower<'a, N> {
 /// 2⁴⁰
 const SECOND: f32 = 1_099_511_627_776.0;
 
-/// 2⁵⁶: the rate of 100 % as it is summed up.
+/// 2⁵⁶: the rate of 100 % in the sum.
 const WHOLE: f32 = 72_057_594_037_927_936.0;
 
 impl<'a, N: Number> Follower<'a, N> {
-    /// At the start of a plan, with a tick of `period` seconds; `ramp` is the time (s) that the rate takes from 0 to 100 %. The plan must be for the same model.
+    /// Creates a follower at the start of a plan, with a tick of `period` seconds; `ramp` is the time (s) of the rate from 0 to 100 %. The plan must
+    /// be for the same model.
     ///
     /// # Errors
-    /// A period less than a microsecond, of a quarter of a second or more, or as long as the plan or longer; a ramp that is negative, not finite or longer than 1000 s, or shorter than the
-    /// plan's own [`least_ramp`](Plan::least_ramp), if that is finite; one whose acceleration is beyond what single precision, or in fixed point a factor, holds.
+    /// A period less than a microsecond, at least a quarter of a second, or at least the length of the plan; a ramp that is negative, not finite,
+    /// longer than 1000 s, or shorter than the plan's [`least_ramp`](Plan::least_ramp), if that is finite; a ramp whose acceleration exceeds single
+    /// precision, or in fixed point the range of a factor.
     pub fn new(
         plan: Plan<'a, N>,
         period: f32,
@@ -137,10 +143,10 @@ impl<'a, N: Number> Follower<'a, N> {
         let keeps = ramp >= least || least.is_infinite();
         let range = "at least the shortest ramp with which the plan keeps the torque of its drive (Plan::least_ramp)";
         within("the ramp of the rate", ramp, keeps, range)?;
-        // Of no ramp all at once.
+        // Without a ramp, the whole change at once.
         let change = ((period / ramp).min(1.0) * WHOLE) as u64;
         let bits = 64 - change.leading_zeros().cast_signed();
-        // A speed of one unit and a change of 2³¹, a tick.
+        // The acceleration of a speed of one unit and a change of 2³¹ per tick.
         let per_count = plan.speed_unit() * power_of_two(bits - 56) / period;
         let factor = Factor::of_count(per_count / model.scale().acceleration());
         Ok(Self {
@@ -162,11 +168,11 @@ impl<'a, N: Number> Follower<'a, N> {
         })
     }
 
-    /// The same, again and again without a pause, in cycles of its length. If the plan goes on by whole turns, [`turns`](Planned::turns) jumps back to those of its
-    /// start at each repeat; the phase, the speed and the acceleration go on.
+    /// The same, repeated without end or pause. If the plan advances by whole turns, [`turns`](Planned::turns) jumps back to that of its start at
+    /// each repeat; phase, speed and acceleration continue.
     ///
     /// # Errors
-    /// [`PlanError::Open`]: its end is not its start, or whole turns from it, or has another speed.
+    /// [`PlanError::Open`]: the end is not at the start or whole turns from it, or has another speed.
     pub fn repeating(mut self) -> Result<Self, PlanError> {
         if !self.plan.closes() {
             return Err(PlanError::Open);
@@ -181,13 +187,13 @@ impl<'a, N: Number> Follower<'a, N> {
         &self.plan
     }
 
-    /// Begins with the next tick, at the rate that is commanded then; after the end once more from the start.
+    /// Starts with the next tick, at the rate commanded then; after the end, again from the start.
     pub const fn start(&mut self) {
         self.reset();
         self.started = true;
     }
 
-    /// Back to the start, where it waits.
+    /// Returns to the start and waits there.
     pub const fn reset(&mut self) {
         self.time = 0;
         self.rest = 0;
@@ -195,7 +201,7 @@ impl<'a, N: Number> Follower<'a, N> {
         self.started = false;
     }
 
-    /// The set-point now; a tick later it is further on. While it waits the rate is that which is commanded.
+    /// The set-point of this tick; advances the plan by one tick. Until the first movement the rate is the commanded one, without a ramp.
     #[inline]
     pub fn next(&mut self, commanded: Rate) -> Planned<N> {
         let Rate(wanted) = commanded;
@@ -209,7 +215,7 @@ impl<'a, N: Number> Follower<'a, N> {
         let end = self.plan.end();
         let ended = self.time >= end;
         let mut state = self.plan.state(self.time);
-        // Of the plan at a rate of 100 %: the speed that the change of the rate gains in a tick.
+        // Speed that the change of the rate gains in a tick, with the plan's speed at 100 %.
         let moves = self.started && !ended;
         let gain = if moves {
             let changed = after.wrapping_sub(before).cast_signed();
@@ -234,7 +240,7 @@ impl<'a, N: Number> Follower<'a, N> {
         if moves {
             self.rate = after;
             self.fresh = self.fresh && after == 0;
-            // The mean of both rates in units of 2⁻³²: no more than 2³², and 38 bits of the tick.
+            // Twice the mean of both rates, at most 2³² in units of 2⁻³²; the tick has 38 bits.
             let sum = rate + next;
             let low = (self.step & u64::from(u32::MAX)) * sum + u64::from(self.rest);
             self.rest = low as u32;

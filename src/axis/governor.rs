@@ -1,4 +1,4 @@
-//! A commanded speed, followed as far as all limits allow.
+//! Follows a commanded speed as far as all limits allow.
 
 use super::limits::{Bounded, Limit, finite};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
@@ -6,18 +6,18 @@ use crate::Model;
 use crate::curve::{Format, Set};
 use crate::number::{Number, Quantity as _, Sliding};
 
-/// Follows a commanded speed with a motion that the drive can make, and slows down ahead of where it could not.
+/// Follows a commanded speed with a motion that the drive can make, and slows down before places where the drive could not follow.
 ///
-/// Each tick it chooses the acceleration that reaches the commanded speed at the end of the tick, within what is
-/// [feasible](super::Limits::feasible) now, and within what a [`LookAhead`] allows:
+/// Each tick it chooses the acceleration that reaches the commanded speed at the end of the tick, within the [feasible](super::Limits::feasible)
+/// range, and within the limit of a [`LookAhead`]:
 ///
 /// ```text
 /// α ≤ ½·d(ω_max²)/dφ + (ω_max² − ω²)/(2·ω_top·τ)
 /// ```
 ///
 /// The speed is continuous. Along a limit the second term is 0 and the first is the acceleration of the limit itself, so that the command does not
-/// switch between braking and driving (test `the_governor_does_not_chatter`). The limit is approached without overshoot, at the top speed within a
-/// tick and more slowly at less.
+/// switch between braking and driving (test `the_governor_does_not_chatter`). The limit is approached without overshoot: within a tick at the top
+/// speed, more slowly below it.
 ///
 /// ```
 /// use jred::axis::{Braking, Direction, Envelope, Governor, Limits, LookAhead, Motion, Period};
@@ -57,7 +57,7 @@ pub struct Governor<'a, N, const NODES: usize> {
     backward: Option<&'a LookAhead<N, NODES>>,
 }
 
-/// The acceleration of a tick, and what kept it from what was commanded.
+/// The acceleration of a tick, and the limit that kept it from the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Governed<N: Number> {
@@ -65,16 +65,17 @@ pub struct Governed<N: Number> {
     pub alpha: N::Acceleration,
     /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
     pub by: Option<Limit>,
-    /// As [`Feasible::unkept`](super::Feasible::unkept); [`Limit::Ahead`]: the speed is beyond that from which all that lies ahead can be kept;
-    /// [`Limit::Speed`] of a command that is no number.
+    /// As [`Feasible::unkept`](super::Feasible::unkept); [`Limit::Ahead`]: too fast to satisfy all limits ahead; [`Limit::Speed`]: also for a command
+    /// that is NaN.
     pub unkept: Option<Limit>,
-    /// What friction opposes: the speed, and at rest the motion that begins, with the least speed that way. [`Model::torque_with`] then gives a torque that the drive has; where friction holds the
-    /// machine at rest, of which a torque knows nothing, [`TorqueLimits`](super::TorqueLimits) sees to that.
+    /// The motion that friction opposes: the speed, or at rest the beginning motion with the least speed in its direction. [`Model::torque_with`]
+    /// then gives a torque that the drive has. Where friction keeps the machine at rest, which a torque does not consider,
+    /// [`TorqueLimits`](super::TorqueLimits) ensures that.
     pub sliding: Sliding<N>,
 }
 
 impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
-    /// For motions one way: commands the other way stop the machine.
+    /// For motions in one direction: a command in the other stops the machine.
     #[must_use]
     pub const fn one_way(ahead: &'a LookAhead<N, NODES>) -> Self {
         let [forward, backward] = match ahead.direction() {
@@ -84,10 +85,10 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         Self { forward, backward }
     }
 
-    /// For motions both ways, with the look-ahead of each.
+    /// For motions in both directions, with the look-ahead of each.
     ///
     /// # Errors
-    /// [`AxisError::Directions`]: the first is not for motions forward, or the second not for those backward.
+    /// [`AxisError::Directions`]: the first is not for forward motion, or the second not for backward motion.
     pub fn both_ways(
         forward: &'a LookAhead<N, NODES>,
         backward: &'a LookAhead<N, NODES>,
@@ -103,8 +104,9 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         })
     }
 
-    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. A command that is NaN asks for no acceleration: 0, or the nearest that is possible, and `by` says
-    /// what binds; `unkept` says that it was none. Of a motion whose speed is NaN the acceleration is 0, and `unkept` says so, too.
+    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. A command that is NaN requests zero
+    /// acceleration: the result is 0 or the nearest possible one, with the binding limit in `by`, and `unkept` reports it. If the motion's speed is
+    /// NaN, the acceleration is 0, and `unkept` reports that, too.
     #[inline]
     pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
         &self,
@@ -117,7 +119,7 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         let omega = motion.omega;
         let period = limits.period();
         let feasible = limits.feasible(model, motion.phase, omega);
-        // At most to rest, and not back: there is no end behind which the other way begins.
+        // To rest at most, not into the other direction: there is no limit beyond which that begins.
         let stopped = period.needed(omega.negated()).value;
         let bounded = |alpha| {
             let by = Limit::Ahead;

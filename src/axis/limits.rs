@@ -7,7 +7,7 @@ use crate::curve::{Format, Set};
 use crate::number::{Number, Quantity, Sliding};
 use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
 
-/// What limits an acceleration.
+/// The limit of an acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Limit {
@@ -17,23 +17,23 @@ pub enum Limit {
     Acceleration,
     /// The greatest speed, which would be exceeded at the end of the tick.
     Speed,
-    /// What lies ahead: a [`LookAhead`](super::LookAhead).
+    /// Limits ahead, found by a [`LookAhead`](super::LookAhead).
     Ahead,
     /// The range of fixed-point numbers: the drive could do more than the acceleration base.
     Range,
 }
 
-/// An acceleration, and what limits it.
+/// An acceleration, and its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bounded<N: Number> {
     /// α, in machine units.
     pub alpha: N::Acceleration,
-    /// Why it is not more, or less.
+    /// The limit that binds.
     pub by: Limit,
 }
 
-/// The accelerations that are possible in a tick: never none, because a drive's torque always includes 0.
+/// The accelerations that are possible in a tick: never empty, because a drive's torque always includes 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Feasible<N: Number> {
@@ -41,22 +41,22 @@ pub struct Feasible<N: Number> {
     pub least: Bounded<N>,
     /// The greatest.
     pub greatest: Bounded<N>,
-    /// What cannot be kept: the load takes the machine beyond it, or the speed is beyond it already. The torque always is.
+    /// The limit that is violated: the load drives the machine beyond it, or the speed is beyond it already. The torque is never violated.
     pub unkept: Option<Limit>,
 }
 
-/// The limits of a motion: those of the drive, and those that the machine is to keep.
+/// Limits of a motion: those of the drive, and the greatest speed and acceleration of the machine.
 ///
-/// Of a tick's state it tells the possible accelerations:
+/// They give the possible accelerations for the state of a tick:
 ///
 /// ```text
 /// α ∈ [(T_least − w)/J, (T_greatest − w)/J],   w = ½·J′·ω² − load + b·ω + c·sgn ω
 /// |α| ≤ α_max,   |ω + α·τ| ≤ ω_max
 /// ```
 ///
-/// At rest friction holds the machine until a torque exceeds it: α is 0 there while |T + load| ≤ c.
+/// At rest friction keeps the machine in place until a torque exceeds it: α is 0 there while |T + load| ≤ c.
 ///
-/// What cannot be kept all at once is kept in this order: torque, acceleration, speed.
+/// Limits that cannot all be satisfied are satisfied in this order: torque, acceleration, speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits<N: Number, const POINTS: usize> {
@@ -67,11 +67,11 @@ pub struct Limits<N: Number, const POINTS: usize> {
 }
 
 impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
-    /// Of a drive's torque, and the greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²) of the drive link either way; `period` is that of the tick.
-    /// The greatest speed is not beyond the last point of the torque curve: there the torque would come and go with it.
+    /// Limits from a drive's torque, and the greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²) of the drive link in both directions,
+    /// for a tick of this `period`. The greatest speed is reduced to the last point of the torque curve: beyond it there is no torque.
     ///
     /// # Errors
-    /// A limit that is not positive and finite, or in fixed point is beyond its base or less than the least number.
+    /// A limit that is not positive and finite, or in fixed point beyond its base or less than the smallest number.
     pub fn new(
         envelope: Envelope<N, POINTS>,
         speed: f32,
@@ -112,7 +112,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         &self.period
     }
 
-    /// The accelerations that are possible in this state. At a speed that is NaN they are 0, at an infinite one finite; `unkept` says so of both.
+    /// The accelerations that are possible in this state: 0 at a speed that is NaN, finite at an infinite one; `unkept` reports both.
     #[inline]
     pub fn feasible<F: Format<Number = N>, const SET: Set>(
         &self,
@@ -122,7 +122,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
     ) -> Feasible<N> {
         let torques = self.envelope.torques(omega);
         let given = |sliding| model.acceleration_range_with(phase, omega, sliding, torques);
-        // At rest against a motion that begins forward, and then against one backward: of a speed against which friction acts only the sign counts.
+        // At rest, once against friction of a forward motion and once of a backward one: only the sign of the speed counts.
         let [back, forth] = self.acceleration.map(|alpha| N::Speed::of(alpha.number()));
         let rests = omega == N::Speed::default();
         let mut range = given(Sliding::Against(if rests { forth } else { omega }));
@@ -153,7 +153,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         }
     }
 
-    /// The acceleration that reaches a speed at the end of the tick, within those that are allowed.
+    /// The acceleration that reaches a speed at the end of the tick, within the greatest acceleration.
     #[inline]
     fn up_to(&self, speed: N::Speed, omega: N::Speed) -> Bounded<N> {
         let needed = self.period.needed(speed.minus(omega).value).value;
@@ -168,7 +168,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
 }
 
 impl<N: Number> Bounded<N> {
-    /// Within others.
+    /// Limited to a range.
     #[inline]
     pub(super) fn within(self, [least, greatest]: [Self; 2]) -> Self {
         if self.alpha <= least.alpha {
@@ -181,12 +181,12 @@ impl<N: Number> Bounded<N> {
     }
 }
 
-/// Either way.
+/// The greatest value, in both directions.
 fn both<Q: Quantity>(greatest: Q) -> [Q; 2] {
     [greatest.negated(), greatest]
 }
 
-/// At rest: the acceleration with friction against moving forward, or with friction against moving backward, or none.
+/// At rest: the acceleration if friction opposes forward motion, or if it opposes backward motion, or 0.
 #[inline]
 fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
     let rest = A::default();
@@ -199,7 +199,7 @@ fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
     }
 }
 
-/// 0 of what is no number; an infinite one is no more than a number can say.
+/// NaN becomes 0, infinity the largest finite number.
 #[inline]
 pub(super) fn finite<N: Number>(alpha: N::Acceleration) -> N::Acceleration {
     alpha.within([f32::MIN, f32::MAX].map(|end| N::Acceleration::of(N::per_unit(end, 1.0).value)))

@@ -1,4 +1,4 @@
-//! How fast the drive link may be here, so that the drive can keep all limits that lie ahead, and where it would stop.
+//! The greatest speed at each place with which the drive can satisfy all limits ahead, and the place where it would stop.
 
 use core::marker::PhantomData;
 
@@ -10,7 +10,7 @@ use crate::curve::{Format, Set};
 use crate::number::{Factor, Number, Quantity as _};
 use crate::{Model, Phase};
 
-/// Which way a drive link moves.
+/// Direction of motion of a drive link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Direction {
@@ -20,57 +20,61 @@ pub enum Direction {
     Backward,
 }
 
-/// The greatest speed at every phase from which the drive can keep all limits of speed ahead, and the work of its brake: for motion in one direction.
+/// The greatest speed at every phase from which the drive can satisfy all limits of speed ahead, and the work of its brake, for motion in one
+/// direction.
 ///
-/// Made once, when the firmware starts, of the model's own table. Between two nodes ω² is a straight line, which is a constant acceleration. The squares are found
-/// from the end backwards: the work of the brake from node to node takes the machine from each to the next,
+/// Created once, when the firmware starts, from the model's own table. Between two nodes ω² is linear, which is a constant acceleration. The squares
+/// are computed from the end backwards: the work of the brake between two nodes takes the machine from one to the next,
 ///
 /// ```text
 /// ½·J·ω² ≤ ½·J·ω² there + ∫ (T_brake + c − load) dφ
 /// ```
 ///
-/// Within an interval the straight line needs more than the braking torque by what that torque, and J, change in it: give the look-ahead some percent
-/// less torque than the drive has. Of the greatest deceleration it leaves out by itself what a tick needs ([`Braking::deceleration`]), so that a
-/// [`Governor`](super::Governor) with the same one in its [`Limits`](super::Limits) keeps below the greatest speed (test `the_deceleration_of_the_limits_gives_no_false_alarm`). With the same work it tells where the machine would stop, if no viscous friction stopped it earlier:
+/// Within an interval the straight line needs more than the braking torque, by the change of that torque and of J in the interval: give the
+/// look-ahead a few per cent less torque than the drive has. It reserves a share of the greatest deceleration for the tick
+/// ([`Braking::deceleration`]), so that a [`Governor`](super::Governor) with the same deceleration in its [`Limits`](super::Limits) keeps below the
+/// greatest speed (test `the_deceleration_of_the_limits_gives_no_false_alarm`). The same work gives the place where the machine would stop,
+/// neglecting viscous friction:
 ///
 /// ```text
 /// ½·J·ω² = ∫ (T_brake + c − load) dφ
 /// ```
 ///
-/// The table is looked at in the nodes and halfway between them: a peak of the load must be wider than an interval.
+/// The table is evaluated at the nodes and halfway between them: a peak of the load must be wider than an interval.
 ///
-/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 16 bytes a node, and as much again, and 12 more, on the stack while it is made.
+/// A tick needs no model for it, and computes with integers only, for every number type of the model. Memory: 16 bytes per node; while it is created,
+/// as much again and 12 bytes per node more on the stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookAhead<N, const NODES: usize> {
     way: Way,
     /// ω² at each node, in units of 2⁻³⁰ of the square of the greatest speed.
     squares: [u32; NODES],
-    /// The work of the brake from the start to each node, in units of 2⁻³² of that over the range.
+    /// The work of the brake from the start to each node, in units of 2⁻³² of the work over the range.
     works: [u32; NODES],
-    /// The inverse of the work from each node to the next, shifted so that it has 31 bits: a tick divides by nothing.
+    /// The inverse of the work from each node to the next, shifted to 31 bits, so that a tick does not divide.
     inverses: [u32; NODES],
-    /// ½·J at each node: the square times it is that work, shifted.
+    /// ½·J at each node, scaled so that its product with the square is a work, shifted.
     inertias: [u32; NODES],
     shift: u32,
-    /// Speeds to units of 2⁻³⁰ of the greatest.
+    /// Factor from speeds to units of 2⁻³⁰ of the greatest.
     speed: Factor,
-    /// Differences of squares from node to node to accelerations.
+    /// Factor from differences of squares between nodes to accelerations.
     alpha: Factor,
-    /// Ticks that an interval takes at the greatest speed, in units of 2⁻⁸.
+    /// Ticks for an interval at the greatest speed, in units of 2⁻⁸.
     ticks: u32,
     number: PhantomData<N>,
 }
 
-/// Where a machine stops.
+/// The place where a machine stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Stop {
-    /// Whole turns before; 0 on a stroke.
+    /// Whole turns before it; 0 on a stroke.
     pub turns: u32,
-    /// Where; the end of a stroke that is too short.
+    /// Phase of the stop; the end of a stroke that is too short.
     pub phase: Phase,
-    /// It is not known: the stroke ends before, the drive link moves the other way, or faster than twice the greatest speed, or
-    /// with a speed that is no number.
+    /// The place is not known: the stroke ends before it, the drive link moves the other way or faster than twice the greatest speed, or its speed is
+    /// NaN.
     pub beyond: bool,
 }
 
@@ -78,14 +82,15 @@ const SPEED: &str = "the greatest speed";
 const NODE_COUNT: &str = "the number of nodes";
 
 impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
-    /// Of a model, for motions this way. `limit` is the greatest speed (rad/s, or m/s; positive either way) at a phase. It is asked at the nodes and
-    /// halfway between them: a slower part that is longer than half an interval is seen, and the machine is slow in it from end to end, and up to an interval before and
-    /// behind it. At the end of a stroke the machine stops. `period` is that of the tick.
+    /// Creates a look-ahead for a model and motions in this direction. `limit` is the greatest speed (rad/s, or m/s; positive in both directions) at
+    /// a phase. It is evaluated at the nodes and halfway between them: a slower part longer than half an interval is found, and the machine is slow
+    /// in all of it and up to an interval before and after it. At the end of a stroke the machine stops. `period` is the tick's.
     ///
     /// # Errors
     /// [`AxisError::Overpowered`]: somewhere the load drives the machine with more than the braking torque. Otherwise a torque, deceleration or speed
-    /// that is not positive (and finite), or a speed beyond its base; too few nodes for this machine (fewer than 4, or J changes by half from
-    /// one to the next), or too many (more than 4096, or at the greatest speed an interval takes less than a tick; nor more than 2²²).
+    /// that is not positive and finite (the deceleration may be infinite), or a speed beyond its base; too few nodes for this machine (fewer than 4,
+    /// or J changes by half between two), or too many (more than 4096, or an interval takes less than one tick, or more than 2²², at the greatest
+    /// speed).
     pub fn new<F: Format<Number = N>, const SET: Set>(
         model: &Model<'_, F, SET>,
         direction: Direction,
@@ -102,7 +107,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         )?;
         let course = Course::<NODES>::new(model, direction, braking)?;
         let way = course.way;
-        // From one node to the next: so no straight line at a node exceeds what the intervals beside it allow.
+        // The limit counts from the node before to the node after, so that no straight line at a node exceeds the limits in the intervals next to it.
         let all = 2 * way.intervals;
         let beside = |k: u32| {
             [0, 1, 2, 3, 4].map(|to: u32| {
@@ -169,13 +174,13 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         })
     }
 
-    /// Which way the motions are that it is for.
+    /// Direction of the motions that it is for.
     #[must_use]
     pub const fn direction(&self) -> Direction {
         self.way.direction
     }
 
-    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all, NaN if that is NaN: for plots and tests, not for the tick.
+    /// The greatest speed at a phase (rad/s, or m/s), if `top` is the greatest of all; NaN if `top` is NaN. For plots and tests, not for the tick.
     #[must_use]
     pub fn speed_at(&self, phase: Phase, top: f32) -> f32 {
         let (k, part) = self.way.cell(phase);
@@ -184,9 +189,9 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         top * crate::number::Real::sqrt(square)
     }
 
-    /// The acceleration of a motion this way that keeps it below the greatest speed, within those that are possible: that of the limit itself, and of what is left
-    /// to it as much as makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest. And whether the speed is beyond
-    /// the limit, by more than about a sixtieth of it and of the greatest.
+    /// The acceleration that keeps a motion in this direction below the greatest speed, within the possible ones: that of the limit itself plus the
+    /// remaining margin, closed within one tick at the greatest speed and more slowly below it. For a motion in the other direction: the acceleration
+    /// from rest. Also whether the speed exceeds the limit by more than about 1/64 of it and, for a limit near 0, of the greatest speed.
     #[inline]
     pub(super) fn greatest(
         &self,
@@ -213,9 +218,9 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         (alpha, left < -i64::from((limit >> 5) + (1 << 18)))
     }
 
-    /// Where the machine stops from this state with the full braking torque: not later, but for what the table is off by, and because the work is taken to grow evenly between
-    /// two nodes: that errs by up to an eighth of an interval, times the share by which the braking torque changes in it, both where it is and where it
-    /// stops (test `it_stops_where_it_was_said`).
+    /// The place where the machine stops from this state with the full braking torque. It does not stop later, except for the table's error and the
+    /// assumption that the work grows linearly between two nodes: at the start and at the stop that errs by up to an eighth of an interval, times the
+    /// relative change of the braking torque in it (test `it_stops_where_it_was_said`).
     #[inline]
     pub fn stop(&self, phase: Phase, omega: N::Speed) -> Stop {
         let square = self.square(omega);
@@ -244,7 +249,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
     }
 
-    /// Whether it is at rest or a motion this way: of no number it is not.
+    /// Whether the speed is zero or in this direction; false for NaN.
     #[inline]
     fn is_along(&self, omega: N::Speed) -> bool {
         match self.way.direction {
@@ -253,7 +258,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
     }
 
-    /// The square of a speed, in units of 2⁻³⁰ of that of the greatest; limited to four of it.
+    /// The square of a speed, in units of 2⁻³⁰ of the greatest speed's square; limited to four times that.
     #[inline]
     fn square(&self, omega: N::Speed) -> u32 {
         let count = omega.number().to_count(&self.speed).unsigned_abs();
@@ -264,7 +269,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
     }
 
-    /// Where so much work is done, in units of 2⁻³² of the range.
+    /// The place where this work is done, in units of 2⁻³² of the range.
     #[inline]
     fn place(&self, work: u32) -> u32 {
         let mut k = 0;
@@ -296,13 +301,13 @@ fn around(nodes: &[u32], k: u32) -> [u32; 2] {
     [nodes.get(k).copied().unwrap_or(first), next]
 }
 
-/// A share of a whole, in units of 2⁻³².
+/// A product with a share in units of 2⁻³².
 #[inline]
 fn share(whole: u32, part: u32) -> u32 {
     ((u64::from(whole) * u64::from(part)) >> 32) as u32
 }
 
-/// Straight from one value to another.
+/// Linear interpolation.
 #[inline]
 fn along(from: u32, to: u32, part: u32) -> u32 {
     if to >= from {

@@ -1,4 +1,4 @@
-//! From an encoder's count to the torque command of a motor, piece by piece: a program pays for those that it uses.
+//! From an encoder count to the torque command of a motor, in separate parts: a program pays only for those that it uses.
 //!
 //! ```text
 //! register ─► Counter ─► count ─► Encoder ─► phase ─► Tracker ─► φ, ω, α
@@ -12,8 +12,8 @@
 //!                                                TorqueLimits ─► command, what was clipped
 //! ```
 //!
-//! A drive link that has a stroke takes a [`StrokeEncoder`] in place of the [`Encoder`]; a set-point comes from a program's own motion, a [`Plan`] that a [`Follower`]
-//! follows, or a [`Governor`], which makes of a commanded speed the motion that the drive can make:
+//! A drive link with a stroke takes a [`StrokeEncoder`] instead of the [`Encoder`]. The set-point comes from the program's own motion, from a
+//! [`Plan`] followed by a [`Follower`], or from a [`Governor`], which turns a commanded speed into a motion that the drive can make:
 //!
 //! ```text
 //! Envelope: torque against speed ─► Limits ─► feasible α of this tick ─┐
@@ -21,14 +21,14 @@
 //! LookAhead: greatest speed at each φ, where it stops ─────────────────┘
 //! ```
 //!
-//! An [`ImageSlot`] exchanges the table while the machine runs. `docs/axis.md` of the project explains each step, `examples/07_axis.rs`, `08_governor.rs` and `09_plan.rs` put them together, and
-//! `examples/template` is a firmware to start from.
+//! An [`ImageSlot`] exchanges the table while the machine runs. `docs/axis.md` of the project explains each step; `examples/07_axis.rs`,
+//! `08_governor.rs` and `09_plan.rs` combine them; `examples/template` is a firmware to start from.
 //!
-//! # Numbers that are none
+//! # NaN and infinity
 //!
-//! In fixed point a result that leaves the range is limited, and flagged in its [`Outcome`](crate::Outcome). In floating point nothing is flagged on the way: NaN and infinity stay in the motion until
-//! [`FeedForward`] finds them, as any other motion that the table was not made for, and says so in its [`Status`]. Each function says what becomes of NaN in it; what is made once refuses it with an [`AxisError`]
-//! (test `no_function_takes_what_is_no_number_in_silence`).
+//! In fixed point a result outside the range is limited and flagged in its [`Outcome`](crate::Outcome). In floating point nothing is flagged on the
+//! way: NaN and infinity stay in the motion until [`FeedForward`] reports them in its [`Status`], like any motion outside the validity of the table.
+//! Each function documents its result for NaN; constructors refuse it with an [`AxisError`] (test `no_function_takes_what_is_no_number_in_silence`).
 
 mod braking;
 mod counter;

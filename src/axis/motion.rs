@@ -1,4 +1,4 @@
-//! Motions in machine units, and what a period of time does to them.
+//! Motions in machine units, and their changes over a period of time.
 
 use core::marker::PhantomData;
 
@@ -7,7 +7,7 @@ use super::{AxisError, Tracked};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
 use crate::{Domain, MachineUnits, Outcome, Phase};
 
-/// Where a drive link is and how it moves, in the machine units of a model.
+/// Position, speed and acceleration of a drive link, in the machine units of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Motion<N: Number> {
@@ -19,22 +19,22 @@ pub struct Motion<N: Number> {
     pub alpha: N::Acceleration,
 }
 
-/// A period of time, such as that of the tick or a lead time, for motions in the machine units of one model.
+/// A period of time, such as the tick or a lead time, for motions in the machine units of one model.
 ///
-/// Fixed-point results that leave the number range are limited and flagged. Its factors have single precision: 2⁻²³ of a result, and six units of
-/// 2⁻³¹, in `Q15` one of 2⁻¹⁵.
+/// Fixed-point results outside the number range are limited and flagged. Accuracy: 2⁻²³ of a result (its factors have single precision), plus six
+/// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Period<N> {
-    /// Of counts a period to speeds, and back.
+    /// Factors from counts per period to speeds, and back.
     speed: Factor,
     moved: Factor,
-    /// Of counts a period squared to accelerations.
+    /// Factor from counts per period squared to accelerations.
     acceleration: Factor,
-    /// Of accelerations to what a speed gains, and back.
+    /// Factors from accelerations to gained speeds, and back.
     gained: Factor,
     needed: Factor,
-    /// Phases do not wrap.
+    /// On a stroke phases do not wrap.
     stroke: bool,
     number: PhantomData<N>,
 }
@@ -43,18 +43,18 @@ pub struct Period<N> {
 const UNIT: f32 = 1.0 / 4_294_967_296.0;
 
 impl<N: Number> Period<N> {
-    /// So many seconds, for a model with its range and machine units.
+    /// A period of `seconds`, for a model with its range and machine units.
     ///
     /// # Errors
-    /// [`AxisError::NotPositive`], [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: so short or long that single precision does not hold its
-    /// factors, or in fixed point so long that the speed base is a quarter of the range a period.
+    /// [`AxisError::NotPositive`], [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: so short or long that its factors exceed single precision, or
+    /// in fixed point so long that the speed base exceeds a quarter of the range per period.
     pub fn new(seconds: f32, model: &impl MachineUnits<Number = N>) -> Result<Self, AxisError> {
         positive("the period", seconds)?;
         let (domain, scale) = (model.domain(), model.scale());
         let span = domain.span().to_f32();
         let (speed, acceleration) = (scale.speed(), scale.acceleration());
         if N::FIXED {
-            // The number 1 must be a speed at which the shorter way round is the way.
+            // At the number 1 the shorter way round must be the true one.
             let holds = speed * seconds <= 0.25 * span;
             let range = "short enough for a quarter of the range at the speed base";
             within("the period", seconds, holds, range)?;
@@ -82,13 +82,13 @@ impl<N: Number> Period<N> {
         })
     }
 
-    /// The speed of what a [`Tracker`](super::Tracker) found in this period.
+    /// The speed that a [`Tracker`](super::Tracker) found in this period.
     #[inline]
     pub fn omega(&self, tracked: Tracked) -> Outcome<N::Speed> {
         N::of_count(tracked.speed, &self.speed).map(N::Speed::of)
     }
 
-    /// The acceleration of what a [`Tracker`](super::Tracker) found in this period. Flagged, too, if it was limited there.
+    /// The acceleration that a [`Tracker`](super::Tracker) found in this period. Flagged, too, if the tracker limited it.
     #[inline]
     pub fn alpha(&self, tracked: Tracked) -> Outcome<N::Acceleration> {
         let Outcome { value, saturated } =
@@ -99,29 +99,31 @@ impl<N: Number> Period<N> {
         }
     }
 
-    /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to six units of 2⁻³² of the range, and 2⁻²³ of the way.
-    /// Limited to half of the range; 0 at NaN.
+    /// The distance in the period at this speed, to be added to a phase; limited to half of the range, 0 at NaN. Accuracy in fixed point: six units
+    /// of 2⁻³² of the range, and 2⁻²³ of the distance.
     #[inline]
     pub fn moved(&self, omega: N::Speed) -> Phase {
         Phase::from_bits(omega.number().to_count(&self.moved).cast_unsigned())
     }
 
-    /// The speed that it gains in the period at this acceleration; NaN of NaN.
+    /// The speed gained in the period at this acceleration; NaN stays NaN.
     #[inline]
     pub fn gained(&self, alpha: N::Acceleration) -> Outcome<N::Speed> {
         alpha.times(&self.gained)
     }
 
-    /// The acceleration that it needs to gain this speed in the period; NaN of NaN.
+    /// The acceleration needed to gain this speed in the period; NaN stays NaN.
     #[inline]
     pub fn needed(&self, gain: N::Speed) -> Outcome<N::Acceleration> {
         gain.times(&self.needed)
     }
 
-    /// The motion a period later, if the acceleration stays: φ + ω·τ + ½·α·τ², ω + α·τ. On a stroke limited to its ends. Flagged, if the speed was limited.
+    /// The motion a period later, at constant acceleration: φ + ω·τ + ½·α·τ², ω + α·τ. On a stroke limited to its ends. Flagged if the speed was
+    /// limited.
     ///
-    /// With a lead time as the period it makes up for the dead time of a drive: the torque is that of the time when it acts. The drive link
-    /// must move less than half of its range in it. NaN and infinity stay in the speed, where the status of [`FeedForward`](super::FeedForward) finds them; of NaN the way is 0.
+    /// With a lead time as the period it compensates the dead time of a drive: the torque is that of the time when it acts. The drive link must move
+    /// less than half of its range in the period. NaN and infinity stay in the speed, where the status of [`FeedForward`](super::FeedForward) reports
+    /// them; at NaN the distance is 0.
     #[inline]
     pub fn later(&self, motion: Motion<N>) -> Outcome<Motion<N>> {
         let gained = self.gained(motion.alpha);
@@ -138,11 +140,12 @@ impl<N: Number> Period<N> {
         }
     }
 
-    /// The motion in the middle of the period, of the speeds at its beginning and at its end: its torque, constant for the period, takes the machine
-    /// from the one speed to the other. On a stroke limited to its ends. Flagged, if the acceleration was limited.
+    /// The motion in the middle of the period, from the speeds at its start and end: its torque, constant for the period, takes the machine from one
+    /// speed to the other. On a stroke limited to its ends. Flagged if the acceleration was limited.
     ///
-    /// For firmware whose reference is a speed each tick, without an acceleration. The speed that is reached errs by the third power of the
-    /// period; with the acceleration at the beginning and the curves there, by the second (test `the_middle_of_a_tick_is_one_order_better`). NaN and infinity stay in speed and acceleration.
+    /// For firmware whose reference is a speed per tick, without an acceleration. The error of the reached speed is of third order in the period;
+    /// with acceleration and curves at the start of the period, of second order (test `the_middle_of_a_tick_is_one_order_better`). NaN and infinity
+    /// stay in speed and acceleration.
     #[inline]
     pub fn between(&self, phase: Phase, from: N::Speed, to: N::Speed) -> Outcome<Motion<N>> {
         let gain = to.minus(from);
@@ -159,7 +162,7 @@ impl<N: Number> Period<N> {
         }
     }
 
-    /// The phase so many units of 2⁻³² farther on.
+    /// The phase advanced by `by` units of 2⁻³².
     #[inline]
     fn advanced(&self, phase: Phase, by: i32) -> Phase {
         Phase::from_bits(if self.stroke {

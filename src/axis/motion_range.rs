@@ -1,34 +1,34 @@
-//! The motions that a table was made for, and the status of one that it was not made for.
+//! The motions that a table is valid for, and the status of other motions.
 
 use super::Motion;
 use crate::number::{Number, Quantity as _, Sliding};
 use crate::{Scale, Validity};
 
-/// Of the validity.
+/// Factor on the validity.
 const MARGIN: f32 = 1.01;
-/// Of a base: less than the largest number of 16 bits.
+/// Limit in terms of a base: less than the largest 16-bit number.
 const BELOW_BASE: f32 = 0.9999;
 
-/// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
+/// Which of speed and acceleration lie outside the table's validity. NaN counts as outside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status {
-    /// The speed is; or that of the set-point, or that which friction is against; or its share is no number from −1 to 1.
+    /// The speed, the set-point's speed or the speed in [`Sliding`] is outside, or the share in it is not from −1 to 1.
     pub speed_beyond: bool,
-    /// The acceleration is.
+    /// The acceleration is outside.
     pub acceleration_beyond: bool,
 }
 
 impl Status {
-    /// The motion is one that the table was made for.
+    /// The table is valid for the motion.
     #[must_use]
     pub const fn is_valid(self) -> bool {
         !(self.speed_beyond || self.acceleration_beyond)
     }
 }
 
-/// The speeds and accelerations that a table was made for, in its machine units, and a hundredth more: so that the motion that a table was made for
-/// is valid when it is measured, too. The error of the torque grows by a fiftieth at most there.
+/// The greatest speed and acceleration of a table's validity, in its machine units, plus one hundredth, so that a measured motion at the limit is
+/// still valid. The error of the torque grows by at most one fiftieth there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MotionRange<N: Number> {
@@ -37,8 +37,8 @@ pub struct MotionRange<N: Number> {
 }
 
 impl<N: Number> MotionRange<N> {
-    /// Of what an image says ([`Image::validity`](crate::Image::validity)), in its machine units. In fixed point what was limited to the range of its numbers
-    /// is beyond, wherever the range ends. A validity that is NaN allows rest alone.
+    /// The range of an image's validity ([`Image::validity`](crate::Image::validity)), in its machine units. In fixed point a value that was limited
+    /// to the number range is outside in any case. A validity that is NaN allows only rest.
     #[must_use]
     pub fn new(validity: Validity, scale: &Scale) -> Self {
         let within = |most: f32, base: f32| {
@@ -72,7 +72,7 @@ impl<N: Number> MotionRange<N> {
         self.alpha
     }
 
-    /// Whether the table was made for these: |ω| and |α| within the range. NaN and infinity are not.
+    /// Whether the table is valid for this motion: |ω| and |α| within the range. NaN and infinity are not.
     #[inline]
     pub fn status(&self, omega: N::Speed, alpha: N::Acceleration) -> Status {
         Status {
@@ -81,7 +81,7 @@ impl<N: Number> MotionRange<N> {
         }
     }
 
-    /// Whether friction is against a speed, or a share, that it was not made for.
+    /// Whether the speed or share in `sliding` is outside the range.
     #[inline]
     pub(super) fn is_beyond(&self, sliding: Sliding<N>) -> bool {
         match sliding {
@@ -90,7 +90,7 @@ impl<N: Number> MotionRange<N> {
         }
     }
 
-    /// The nearest motion and friction that the table was made for; of what is no number, rest and no friction.
+    /// The nearest valid motion and friction; NaN becomes rest, and no friction.
     #[cold]
     #[inline]
     pub fn nearest(&self, motion: Motion<N>, sliding: Sliding<N>) -> (Motion<N>, Sliding<N>) {

@@ -5,11 +5,11 @@ use crate::Validity;
 use crate::curve::{Format, Set};
 use crate::tick::{HEADER_WORDS, ImageError, Progress};
 
-/// Memory for an image, and the feed-forward over it: to exchange the table while the machine runs.
+/// Memory for an image and its feed-forward, to exchange the table while the machine runs.
 ///
-/// It takes the image in pieces as a link brings them, checks it in slices, and then has a [`FeedForward`] until it is cleared. A program has two. The
-/// tick owns the one that it reads, the background the other; to exchange them is to exchange two `&'static mut`, so that no tick ever sees
-/// half a table, and the compiler sees to it that nobody writes into the one in use:
+/// It takes the image in pieces as they arrive over a link, checks it in slices, and then provides a [`FeedForward`] until it is cleared. A program
+/// has two slots. The tick owns the one that it reads, the background the other. They are exchanged by swapping two `&'static mut`, so that no tick
+/// ever sees half a table, and the compiler ensures that nobody writes into the one in use:
 ///
 /// ```compile_fail,E0502
 /// # use jred::axis::ImageSlot;
@@ -21,7 +21,8 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 /// }
 /// ```
 ///
-/// The bits of a tick are those of a model in flash (test `a_slot_ticks_as_the_image_itself`); `examples/template` of the repository is a firmware that does it.
+/// The bits of a tick are those of a model in flash (test `a_slot_ticks_as_the_image_itself`); `examples/template` of the repository is a firmware
+/// that does this.
 ///
 /// ```
 /// use jred::axis::{FeedForward, ImageSlot};
@@ -45,19 +46,19 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 #[derive(Debug)]
 pub struct ImageSlot<'m, F: Format, const SET: Set> {
     words: &'m mut [u32],
-    /// Bytes that were received.
+    /// Received bytes.
     received: usize,
     progress: Progress,
-    /// Of the machine that images must be of; any, if there is none.
+    /// Identifier of the machine that images must match; `None` accepts any.
     machine: Option<u32>,
     verdict: Option<Verdict<F, SET>>,
 }
 
-/// What was found: the feed-forward, without the words, and what it was made for; or why there is none.
+/// The feed-forward without its words, and its validity; or why the image was refused.
 type Verdict<F, const SET: Set> = Result<(FeedForward<'static, F, SET>, Validity), ImageError>;
 
 impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
-    /// Empty, with memory for images of up to so many words.
+    /// An empty slot, with memory for images of up to `memory.len()` words.
     #[must_use]
     pub const fn new(memory: &'m mut [u32]) -> Self {
         Self {
@@ -69,7 +70,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
         }
     }
 
-    /// The same, for images of the machine with this identifier alone: that of another may have the same type and the same curves.
+    /// The same, only for images of the machine with this identifier: another machine may have the same types and curves.
     #[must_use]
     pub const fn for_machine(mut self, machine: u32) -> Self {
         self.machine = Some(machine);
@@ -83,10 +84,10 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
         self.verdict = None;
     }
 
-    /// Takes the next bytes of the image, any number of them; after a check they are the first of another.
+    /// Takes the next bytes of the image, any number of them; after a check they begin the next image.
     ///
     /// # Errors
-    /// [`ImageError::TooLong`]: more than the slot holds. Nothing of these bytes is kept.
+    /// [`ImageError::TooLong`]: more than the slot's memory. None of these bytes is stored.
     pub fn receive(&mut self, bytes: &[u8]) -> Result<(), ImageError> {
         if bytes.is_empty() {
             return Ok(());
@@ -106,11 +107,12 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
         Ok(())
     }
 
-    /// Checks what was received: takes at most `words` more words into the CRC, and at the end looks at every cell. The verdict, or `None` if something is
-    /// left to do: of no words always. After the verdict it is repeated.
+    /// Checks the received image: adds at most `words` more words to the CRC, and at the end checks every cell. Returns the verdict, repeatedly once
+    /// there is one, or `None` if work is left; with `words` = 0 always `None`.
     ///
-    /// Cost: a slice takes the same for each of its words. The last one makes the model, which takes far longer and grows with the number of
-    /// cells, of a slider-crank with the places at which its inertia must be looked at (docs/performance.md): call this in the background, where the tick interrupts it.
+    /// Cost: every word of a slice costs the same. The last slice creates the model, which takes far longer. Its cost grows with the number of cells,
+    /// and for a slider-crank with the places at which its inertia is checked (docs/performance.md): call this in the background, where the tick
+    /// interrupts it.
     ///
     /// # Errors
     /// As [`Image::new`](crate::Image::new), [`Image::of_machine`](crate::Image::of_machine) and [`Image::model`](crate::Image::model).
@@ -137,9 +139,9 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
             .map(|verdict| verdict.as_ref().map(|_| ()).map_err(|error| *error))
     }
 
-    /// Feed-forward over the image; `None` if there is none, or it was not checked or refused.
+    /// Feed-forward over the image; `None` if there is no image, or it was not checked or was refused.
     ///
-    /// Cost: nothing is checked again, so a tick can ask for it every time: 18 instructions on an M4F (docs/performance.md).
+    /// Cost: nothing is checked again, so a tick can call it every time: 18 instructions on an M4F (docs/performance.md).
     #[inline]
     #[must_use]
     pub fn feed_forward(&self) -> Option<FeedForward<'_, F, SET>> {
@@ -151,7 +153,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
         Some(found.moved(bytemuck::try_cast_slice(rows).ok()?))
     }
 
-    /// What the table was made for and how exact it is; `None` as [`feed_forward`](Self::feed_forward).
+    /// Validity and accuracy of the table; `None` in the same cases as [`feed_forward`](Self::feed_forward).
     #[must_use]
     pub fn validity(&self) -> Option<Validity> {
         let Some(Ok((_, validity))) = &self.verdict else {

@@ -1,4 +1,4 @@
-//! From an encoder's count to the phase of a drive link that has a stroke.
+//! From an encoder count to the phase of a drive link that has a stroke.
 
 use super::AxisError;
 use super::error::within;
@@ -6,7 +6,7 @@ use crate::math;
 use crate::number::Real;
 use crate::{Domain, Outcome, Phase};
 
-/// A scale or encoder along a stroke, and how it is mounted.
+/// A scale or encoder along a stroke, and its mounting.
 ///
 /// ```text
 /// s = at_home + (count − home)·resolution
@@ -15,8 +15,7 @@ use crate::{Domain, Outcome, Phase};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
 pub struct Scaled {
-    /// How far a count moves the drive link (m, or rad for one that swings); negative if the encoder counts down while the position
-    /// grows.
+    /// Movement of the drive link per count (m, or rad for one that swings); negative if the encoder counts down while the position grows.
     pub resolution: f64,
     /// The count at the position `at_home`.
     pub home: i64,
@@ -24,7 +23,7 @@ pub struct Scaled {
     pub at_home: f64,
 }
 
-/// An encoder of a drive link that has a stroke: the phase of any count, limited to the ends of the stroke, and whether it was.
+/// Converts any count of an encoder to the phase of a drive link that has a stroke, limited to its ends and flagged there.
 ///
 /// ```
 /// use jred::Domain;
@@ -40,39 +39,39 @@ pub struct Scaled {
 /// # Ok::<(), jred::axis::AxisError>(())
 /// ```
 ///
-/// A register of 32 bits may overflow within the stroke, whether the program takes it as signed or as unsigned: [`phase`](Self::phase) takes the count that is nearest to the middle of the
-/// stroke (test `a_register_may_overflow_within_the_stroke`). A register of fewer bits goes through a [`Counter`](super::Counter) first.
+/// A 32-bit register may overflow within the stroke, read as signed or as unsigned: [`phase`](Self::phase) uses the count nearest to the middle of
+/// the stroke (test `a_register_may_overflow_within_the_stroke`). A register of fewer bits needs a [`Counter`](super::Counter) first.
 ///
-/// Accuracy: less than a unit of 2⁻³² of the stroke off, for every count; half of one for strokes of up to a million counts (tests `the_phase_along_a_stroke_is_within_a_unit`,
-/// `strokes_of_many_counts_are_within_a_unit`).
+/// Accuracy: less than a unit of 2⁻³² of the stroke for every count; half a unit for strokes of up to a million counts (tests
+/// `the_phase_along_a_stroke_is_within_a_unit`, `strokes_of_many_counts_are_within_a_unit`).
 ///
-/// In memory it is a `jred_stroke_encoder` of C.
+/// In memory it is the `jred_stroke_encoder` of C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
 pub struct StrokeEncoder {
-    /// A count as a part of the stroke, in units of 2⁻⁶⁴, to the nearest.
+    /// A count as a share of the stroke, rounded to units of 2⁻⁶⁴.
     step: i64,
-    /// The phase of the count `middle`, and half a unit, in units of 2⁻³²; for counts of 32 bits, far beyond the stroke if they do not suffice for it.
+    /// The phase of the count `middle` plus half a unit, in units of 2⁻³²; for 32-bit counts far beyond the stroke, if they do not suffice for it.
     start: i64,
     start_narrow: i64,
     /// The count next to the middle of the stroke.
     middle: i64,
-    /// Counts of the stroke and one more: farther from the middle there is nothing.
+    /// The stroke's counts plus one: limit of a count's distance from the middle.
     reach: i64,
-    /// The rest of `start`, in units of 2⁻⁶⁴.
+    /// The remainder of `start`, in units of 2⁻⁶⁴.
     part: u32,
-    /// The rest of `step`, in units of 2⁻⁹⁶.
+    /// The remainder of `step`, in units of 2⁻⁹⁶.
     rest: i32,
 }
 
 /// 2³²
 const UNITS: f64 = 4_294_967_296.0;
-/// Beyond the stroke whatever count of 32 bits is added.
+/// Beyond the stroke for every 32-bit count.
 const FAR: i64 = 1 << 61;
 
 impl StrokeEncoder {
-    /// Of no stroke: every count is flagged. For a place that waits for its encoder.
+    /// An encoder without a stroke, which flags every count: a placeholder.
     pub const NOWHERE: Self = Self {
         step: 0,
         start: FAR,
@@ -83,7 +82,7 @@ impl StrokeEncoder {
         rest: 0,
     };
 
-    /// Of an encoder mounted like this, on a drive link with this stroke.
+    /// Creates an encoder with this mounting, on a drive link with this stroke.
     ///
     /// # Errors
     /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2⁵³ counts (a turn has no stroke), a
@@ -106,7 +105,7 @@ impl StrokeEncoder {
                 return Err(AxisError::NotFinite(what));
             }
         }
-        // A stroke from its upper to its lower end is none.
+        // A reversed stroke is refused.
         let step = resolution / span.max(0.0);
         let counts = 1.0 / math::abs(step);
         let holds = (16.0..=9_007_199_254_740_992.0).contains(&counts);
@@ -124,7 +123,7 @@ impl StrokeEncoder {
             holds,
             "from -100000 to 100000",
         )?;
-        // From home to the middle; the whole counts of it, and what is left.
+        // Counts from home to the middle: the whole counts, and the fraction.
         let way = (0.5 - at_home) / step;
         let whole = math::rint(way);
         let middle = i128::from(home) + whole as i128;
@@ -151,8 +150,8 @@ impl StrokeEncoder {
         })
     }
 
-    /// The phase at a count of 32 bits, as it is in a register that overflows; limited to the stroke, and flagged there. A stroke of more than 2³² counts needs
-    /// [`phase_wide`](Self::phase_wide): here every count of it is flagged.
+    /// The phase at a 32-bit count, as read from a register that overflows; limited to the stroke, and flagged there. A stroke of more than 2³²
+    /// counts needs [`phase_wide`](Self::phase_wide): here all its counts are flagged.
     #[must_use]
     #[inline(always)]
     pub const fn phase(&self, count: i32) -> Outcome<Phase> {
@@ -162,7 +161,7 @@ impl StrokeEncoder {
         limited(count * (self.step >> 32) + lower + self.start_narrow)
     }
 
-    /// The phase at a count of 64 bits; limited to the stroke, and flagged there.
+    /// The phase at a 64-bit count; limited to the stroke, and flagged there.
     #[must_use]
     #[inline]
     pub const fn phase_wide(&self, count: i64) -> Outcome<Phase> {
@@ -174,10 +173,10 @@ impl StrokeEncoder {
         } else {
             count
         };
-        // |count·step| is less than 2⁶⁶, so that none of the terms is more than 2³⁴.
+        // |count·step| is less than 2⁶⁶, so that no term exceeds 2³⁴.
         let (upper, lower) = (count >> 32, count as u32 as u64);
         let low = lower * (self.step as u32 as u64);
-        // In units of 2⁻⁶², so that the sum has room.
+        // In units of 2⁻⁶², so that the sum does not overflow.
         let rest = upper * self.rest as i64 + ((lower as i64 * self.rest as i64) >> 32);
         let rests = (rest >> 2) + (self.part >> 2) as i64;
         let parts = ((low >> 2) as i64 + rests) >> 30;
@@ -185,7 +184,7 @@ impl StrokeEncoder {
     }
 }
 
-/// The phase of a place in units of 2⁻³² of the stroke.
+/// The phase of a place in units of 2⁻³² of the stroke, limited.
 #[inline(always)]
 const fn limited(place: i64) -> Outcome<Phase> {
     let end = 1 << 32;

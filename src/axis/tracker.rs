@@ -4,10 +4,10 @@ use super::AxisError;
 use super::error::{positive, within};
 use crate::Phase;
 
-/// A tracking filter: phase, speed and acceleration of a drive link, of the phases that an encoder gives, one each period.
+/// A tracking filter: phase, speed and acceleration of a drive link, from one encoder phase per period.
 ///
-/// The fading-memory filter of the second degree (α-β-γ filter; N. Morrison, *Introduction to Sequential Smoothing and Prediction*, 1969): it
-/// fits a parabola to all phases so far, the one n periods ago weighted θⁿ. With the residual r = φ − φ_predicted:
+/// The fading-memory filter of second degree (α-β-γ filter; N. Morrison, *Introduction to Sequential Smoothing and Prediction*, 1969): it fits a
+/// parabola to all phases so far, with weight θⁿ for the phase n periods ago. With the residual r = φ − φ_predicted:
 ///
 /// ```text
 /// φ ← φ_predicted + (1 − θ³)·r
@@ -15,52 +15,53 @@ use crate::Phase;
 /// α ← α_predicted + (1 − θ)³·r/T²
 /// ```
 ///
-/// Its three poles are at θ: critically damped. It follows a constant acceleration without a lag; a step of the acceleration is followed
-/// to 1 % after about 8.4/(1 − θ) periods. Where many counts pass in a period, the quantisation of the encoder, δ a count,
-/// leaves a standard deviation of the speed at the end of the period and of the acceleration of
+/// Its three poles are at θ: critically damped. It follows a constant acceleration without lag, and a step of the acceleration to within 1 % after
+/// about 8.4/(1 − θ) periods. Where many counts pass in a period, the quantisation δ of the encoder (one count) causes these standard deviations of
+/// the speed at the end of the period, and of the acceleration:
 ///
 /// ```text
 /// σ_ω = δ/T·√((1 − θ)³·(49 + 50·θ + 13·θ²)/(24·(1 + θ)⁵))
 /// σ_α = δ/T²·√((1 − θ)⁵/(2·(1 + θ)⁵))
 /// ```
 ///
-/// (test `the_filter_settles_and_smooths_as_stated`): with θ = 0.9 one of 0.013·δ/T and 0.0004·δ/T².
+/// (test `the_filter_settles_and_smooths_as_stated`). For θ = 0.9 these are 0.013·δ/T and 0.0004·δ/T².
 ///
-/// Integers of 64 bits throughout: the same bits on every processor, no error that grows with the number of turns. Over a turn phases wrap, and the
-/// residual must stay less than half a turn: from rest a speed of less than 1.3·(1 − θ), and of a sixth of a turn, and an acceleration of less than
-/// 1.6·(1 − θ)² turns a period (squared). A speed of a quarter of the range a period or more is none: speed and acceleration begin at 0 anew.
-/// So wrong counts, however many, are forgotten like any other change (test `wrong_counts_are_forgotten`), and at the end of a stroke the speed comes to
+/// It computes with 64-bit integers: the same bits on every processor, and no error that grows with the number of turns. Over a turn phases wrap, and
+/// the residual must stay below half a turn: from rest a speed below 1.3·(1 − θ) and below a sixth of a turn per period, and an acceleration below
+/// 1.6·(1 − θ)² turns per period squared. A speed of a quarter of the range per period or more is impossible: speed and acceleration restart at 0. So
+/// wrong counts, however many, are forgotten like any other change (test `wrong_counts_are_forgotten`), and at the end of a stroke the speed comes to
 /// rest (test `at_the_end_of_a_stroke_the_speed_comes_to_rest`).
 ///
-/// What a reading is off the prediction is reported, the `residual`, and `jumped` if it is more than the [largest step](Self::with_largest_step): a count that jumps, a broken wire, or an encoder that was set
-/// anew. The filter takes it as it takes every reading; whether to trust the motion until it has settled is the program's decision. At constant acceleration the residual is what the encoder's counts are off; a sudden change of the acceleration by Δα leaves
-/// up to 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on (test `a_change_of_the_acceleration_is_no_jump`).
+/// The `residual` reports the difference between reading and prediction, and `jumped` a residual above the [largest step](Self::with_largest_step): a
+/// count that jumps, a broken wire, or an encoder that was set to a new value. The filter uses such a reading like any other; the program decides
+/// whether to trust the motion until it has settled. At constant acceleration the residual is the error of the encoder's counts; a sudden change of
+/// the acceleration by Δα leaves up to 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on (test `a_change_of_the_acceleration_is_no_jump`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tracker {
-    /// Units of 2⁻⁶⁴ of the range; the same a period, and a period squared.
+    /// Units of 2⁻⁶⁴ of the range; the same per period, and per period squared.
     phase: i64,
     speed: i64,
     acceleration: i64,
     /// Shares of the residual, in units of 2⁻³².
     gains: [u32; 3],
-    /// The largest residual that is no jump, in units of 2⁻³² of the range.
+    /// The largest residual that is not a jump, in units of 2⁻³² of the range.
     largest: u32,
 }
 
-/// Where a drive link is and how it moves, as a [`Tracker`] found it, in periods.
+/// Position, speed and acceleration of a drive link, as a [`Tracker`] found them, per period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tracked {
     /// The phase, filtered.
     pub phase: Phase,
-    /// The speed, in units of 2⁻³² of the range a period.
+    /// The speed, in units of 2⁻³² of the range per period.
     pub speed: i32,
-    /// The acceleration, in units of 2⁻⁴⁰ of the range a period squared; limited to 32 bits, which [`Period::alpha`](super::Period::alpha) flags.
+    /// The acceleration, in units of 2⁻⁴⁰ of the range per period squared; limited to 32 bits, which [`Period::alpha`](super::Period::alpha) flags.
     pub acceleration: i32,
-    /// What the reading was off the prediction, in units of 2⁻³² of the range; on a stroke limited to half of it.
+    /// Reading minus prediction, in units of 2⁻³² of the range; on a stroke limited to half of it.
     pub residual: i32,
-    /// That is more than the largest step, or speed and acceleration began at 0 anew: not a motion of this machine.
+    /// The residual exceeds the largest step, or speed and acceleration restarted at 0: not a motion of this machine.
     pub jumped: bool,
 }
 
@@ -68,7 +69,7 @@ pub struct Tracked {
 const QUARTER: u32 = 1 << 30;
 
 impl Tracker {
-    /// A filter with the memory θ, 0 to 0.99: 0 differentiates three phases without smoothing, 0.9 averages over some ten.
+    /// A filter with the memory θ, 0 to 0.99: 0 differentiates three phases without smoothing, 0.9 averages over about ten.
     ///
     /// # Errors
     /// [`AxisError::OutOfRange`]: θ outside 0 to 0.99.
@@ -91,8 +92,8 @@ impl Tracker {
         })
     }
 
-    /// The same, with the largest step that the machine can make in a period, either way: that of its greatest speed, `tick.moved(most)`, is one. A reading that is farther off the
-    /// prediction has [`jumped`](Tracked::jumped). Without it, a quarter of the range.
+    /// The same, with the largest step of the machine in a period, in either direction, such as `tick.moved(most)` for its greatest speed. A reading
+    /// farther from the prediction has [`jumped`](Tracked::jumped). The default is a quarter of the range.
     #[must_use]
     pub const fn with_largest_step(self, step: Phase) -> Self {
         Self {
@@ -102,7 +103,7 @@ impl Tracker {
     }
 
     /// A filter with the poles of three first-order lags with the corner frequency `bandwidth` (Hz), called every `period` (s): θ = 1/(1 +
-    /// 2π·bandwidth·period), as a first-order lag is usually programmed.
+    /// 2π·bandwidth·period), the usual discrete form of a first-order lag.
     ///
     /// # Errors
     /// A number that is not positive and finite, or a memory outside 0 to 0.99.
@@ -112,7 +113,7 @@ impl Tracker {
         Self::new(1.0 / (1.0 + core::f32::consts::TAU * bandwidth * period))
     }
 
-    /// The same at rest at this phase: where it starts, or after the encoder was set.
+    /// The same at rest at this phase: for the start, or after the encoder was set.
     #[must_use]
     pub const fn at(self, phase: Phase) -> Self {
         Self {
@@ -123,7 +124,7 @@ impl Tracker {
         }
     }
 
-    /// One period later, with the phase that the encoder gives now: of a turn.
+    /// Advances one period, with the encoder's phase now, on a turn.
     #[inline]
     pub const fn update(&mut self, measured: Phase) -> Tracked {
         let phase = self
@@ -137,14 +138,14 @@ impl Tracker {
         self.tracked(residual, lost)
     }
 
-    /// As [`update`](Self::update), of a stroke: at its ends phases do not wrap, but stay.
+    /// As [`update`](Self::update), on a stroke: at its ends phases do not wrap, but stay.
     #[inline]
     pub const fn update_stroke(&mut self, measured: Phase) -> Tracked {
-        // The prediction may lie beyond an end: limited to it there would be no residual, and a speed at an end would never end.
+        // The prediction may lie beyond an end. Limiting it would remove the residual, and a speed at an end would persist.
         let phase =
             self.phase as u64 as i128 + self.speed as i128 + (self.acceleration >> 1) as i128;
         let residual = measured.to_bits() as i64 - (phase >> 32) as i64;
-        // Half of the stroke is as wrong as any more.
+        // A residual beyond half of the stroke is limited to half.
         let residual = if residual > i32::MAX as i64 {
             i32::MAX
         } else if residual < i32::MIN as i64 {
@@ -162,7 +163,7 @@ impl Tracker {
         self.tracked(residual, lost)
     }
 
-    /// Takes a residual into speed and acceleration, and returns what the phase takes of it, and whether the motion was none.
+    /// Corrects speed and acceleration by a residual. Returns the correction of the phase, and whether the motion was impossible.
     #[inline]
     const fn correct(&mut self, residual: i32) -> (i64, bool) {
         let residual = residual as i64;
@@ -175,7 +176,7 @@ impl Tracker {
         self.acceleration = self
             .acceleration
             .wrapping_add((residual * of_acceleration as i64) << 1);
-        // No motion: without this it could follow a wrong one for ever, because differences of phases wrap.
+        // Impossible motion: without this test the filter could follow a wrong one endlessly, because differences of phases wrap.
         let lost = (self.speed ^ self.speed << 1) < 0;
         if lost {
             self.speed = 0;

@@ -1,4 +1,4 @@
-//! The motor's side of a gearbox.
+//! Torques on the motor's side of a gearbox.
 
 use core::marker::PhantomData;
 
@@ -14,20 +14,20 @@ use crate::{MachineUnits, Outcome};
 /// T_M = i·J_M·α + T·η/i        the machine drives the motor
 /// ```
 ///
-/// The rotor is *not* part of the machine's reduced inertia then: its torque does not go through the gearbox.
+/// Then the rotor is *not* part of the machine's reduced inertia: its torque does not go through the gearbox.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gearbox {
-    /// i: turns of the motor a turn of the drive link (for a stroke rad/m).
+    /// i: turns of the motor per turn of the drive link (for a stroke rad/m).
     pub ratio: f32,
     /// η, 0 to 1.
     pub efficiency: f32,
-    /// J_M of the rotor and all that turns with it (kg·m²).
+    /// J_M of the rotor and everything that turns with it (kg·m²).
     pub rotor: f32,
 }
 
 impl Gearbox {
-    /// The same, if it can be.
+    /// The same, if its values are in range.
     pub(super) fn checked(self) -> Result<Self, AxisError> {
         positive("the ratio of the gearbox", self.ratio)?;
         let holds = (0.01..=1.0).contains(&self.efficiency);
@@ -48,10 +48,10 @@ impl Gearbox {
     }
 }
 
-/// A [`Gearbox`] in the machine units of a model: the torque on the motor's shaft of that on the drive link.
+/// A [`Gearbox`] in the machine units of a model: converts torques on the drive link to torques on the motor's shaft.
 ///
-/// Motor torques are in N·m where the model's are, and per unit in fixed point: 1 is [`base`](Self::base), T_b/(i·η). So there a
-/// [`MotorTorque`](crate::MotorTorque) is no [`Torque`](crate::Torque).
+/// Motor torques are in N·m where the model's are. In fixed point they are per unit: 1 is [`base`](Self::base), T_b/(i·η), so that a
+/// [`MotorTorque`](crate::MotorTorque) is not a [`Torque`](crate::Torque).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Transmission<N> {
@@ -63,10 +63,11 @@ pub struct Transmission<N> {
 }
 
 impl<N: Number> Transmission<N> {
-    /// Of a gearbox, for a model in its machine units.
+    /// Creates the transmission of a gearbox, for a model in its machine units.
     ///
     /// # Errors
-    /// A ratio that is not positive, an efficiency outside 0.01 to 1, a negative inertia, or one that single precision does not hold in machine units.
+    /// A ratio that is not positive, an efficiency outside 0.01 to 1, a negative inertia, or an inertia that exceeds single precision in machine
+    /// units.
     pub fn new(gearbox: Gearbox, model: &impl MachineUnits<Number = N>) -> Result<Self, AxisError> {
         let Gearbox {
             ratio,
@@ -99,24 +100,26 @@ impl<N: Number> Transmission<N> {
         })
     }
 
-    /// Torque of the motor that the number 1 means (N·m).
+    /// Motor torque of the number 1 (N·m).
     #[must_use]
     pub const fn base(&self) -> f32 {
         self.base
     }
 
-    /// A torque on the motor's shaft (N·m) in its machine units. In fixed point limited and flagged, 0 and flagged of NaN; in floating point it is what it is.
+    /// A torque on the motor's shaft (N·m) in its machine units. In fixed point limited and flagged, NaN becomes 0 and is flagged; in floating point
+    /// unchanged.
     pub fn to_torque(&self, torque: f32) -> Outcome<N::MotorTorque> {
         N::MotorTorque::from_si(torque, self.base)
     }
 
-    /// A torque on the motor's shaft in its machine units, in N·m.
+    /// A torque on the motor's shaft, from its machine units to N·m.
     pub fn torque_si(&self, torque: N::MotorTorque) -> f32 {
         torque.to_si(self.base)
     }
 
-    /// The torque on the motor's shaft for `torque` on the drive link, which accelerates with `alpha` and moves (or is to move) with `omega`. At rest the
-    /// motor is taken to drive, and at a speed that is NaN. A torque or acceleration that is NaN gives NaN, which [`TorqueLimits`](super::TorqueLimits) makes 0.
+    /// The motor torque for `torque` on the drive link, which accelerates with `alpha` and moves (or is to move) with `omega`. At rest, and at a
+    /// speed that is NaN, the motor is assumed to drive. A torque or acceleration that is NaN gives NaN, which [`TorqueLimits`](super::TorqueLimits)
+    /// makes 0.
     #[inline]
     pub fn motor(
         &self,

@@ -1,7 +1,7 @@
-//! Which curves a table has in addition to the reduced inertia, as a bit set.
+//! The curves of a table in addition to the reduced inertia, as a bit set.
 //!
-//! The set is part of a [`Model`](crate::Model)'s type: curves that a machine does not have cost neither memory nor instructions.
-//! A friction is a curve or a constant, not both.
+//! The set is part of a [`Model`](crate::Model)'s type: absent curves cost neither memory nor instructions. A friction is a curve or a constant, not
+//! both.
 
 use crate::number::Role;
 
@@ -14,12 +14,12 @@ pub const INERTIA: Set = 0;
 pub const LOAD: Set = 1;
 /// b in −b·ω.
 pub const VISCOUS: Set = 2;
-/// c in −c·sgn ω. The tick takes the curve's magnitude, so that a friction force F on a link with velocity v is stored as
-/// F·v′, which is smooth where |v′| has a kink.
+/// c in −c·sgn ω. The tick uses the curve's magnitude: a friction force F on a link with velocity v is stored as F·v′, which is smooth where |v′| has
+/// a kink.
 pub const COULOMB: Set = 4;
 /// Every curve that a machine can have.
 pub const ALL: Set = LOAD | VISCOUS | COULOMB;
-/// A seed of 1/J, with which fixed-point forward dynamics does without a division. Fixed point only.
+/// A seed of 1/J, so that fixed-point forward dynamics needs no division. Fixed point only.
 pub const RECIPROCAL: Set = 8;
 /// A constant b: one number instead of a curve.
 pub const CONSTANT_VISCOUS: Set = 16;
@@ -32,12 +32,12 @@ pub const fn width(set: Set) -> usize {
     1 + (set & (ALL | RECIPROCAL)).count_ones() as usize
 }
 
-/// Whether the set has this curve.
+/// Whether the set contains this curve.
 pub(crate) const fn has(set: Set, curve: Set) -> bool {
     set & curve != 0
 }
 
-/// Whether a table of polynomials can have this set: no unknown bit, and no friction twice.
+/// Whether a table of polynomials can have this set: no unknown bit, and no friction as both curve and constant.
 pub(crate) const fn is_known(set: Set) -> bool {
     set <= (ALL | RECIPROCAL | CONSTANT_VISCOUS | CONSTANT_COULOMB)
         && !(has(set, VISCOUS) && has(set, CONSTANT_VISCOUS))
@@ -68,7 +68,7 @@ impl Role {
         }
     }
 
-    /// Position in a row of the set; `None` if the set has no such curve.
+    /// Position in a row of the set; `None` if the set does not contain the curve.
     pub(crate) const fn column(self, set: Set) -> Option<usize> {
         let bit = self.bit();
         if bit == 0 {

@@ -8,21 +8,21 @@ use crate::Phase;
 use crate::number::error::{Curable, error};
 use crate::number::spline::MIN_CELLS;
 
-/// Why words are not a usable table, or a table not a usable model.
+/// Why words do not form a table, or a table does not form a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TableError {
-    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells; or more harmonics than there may be.
+    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells; or too many harmonics.
     Cells(u32),
-    /// Not the number of words that the cells and curves need.
+    /// The number of words does not match the cells and curves.
     Length {
         /// Words needed.
         needed: u32,
         /// Words given.
         given: u32,
     },
-    /// A cell of this curve contains a number that is not finite, or leaves the fixed-point range.
+    /// A cell of this curve contains a number that is not finite or is outside the fixed-point range.
     Range {
         /// Position of the curve in a row.
         curve: u8,
@@ -31,7 +31,7 @@ pub enum TableError {
     },
     /// A curve does not fit the fixed-point range.
     Overflow {
-        /// Which base of the [`Scale`](crate::Scale) is too small.
+        /// The base of the [`Scale`](crate::Scale) that is too small.
         base: &'static str,
         /// Index of the cell.
         cell: u32,
@@ -41,37 +41,35 @@ pub enum TableError {
         /// Index of the cell.
         cell: u32,
     },
-    /// A periodic curve does not close: its last three rows are not its first three.
+    /// A periodic curve does not close: its last three rows differ from its first three.
     NotClosed {
         /// Position of the curve in a row.
         curve: u8,
     },
-    /// The torque ½·J′·ω² leaves the fixed-point range in this cell at the speed base: a larger torque base or a
-    /// smaller speed base is needed.
+    /// At the speed base the torque ½·J′·ω² leaves the fixed-point range in this cell: increase the torque base or decrease the speed base.
     VelocityTorque {
         /// Index of the cell.
         cell: u32,
     },
-    /// In fixed point the speed base must be one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases
-    /// overflow, or make of J·ω² no torque, as a slider-crank needs.
+    /// In fixed point the speed base is not one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases overflow, or J·ω² is
+    /// not in the unit of torque, as a slider-crank needs.
     SpeedBase,
-    /// At full speed and acceleration the torque may leave the fixed-point range in this cell: a larger torque base is
-    /// needed, or a larger inertia base (which makes that of the acceleration smaller).
+    /// At full speed and acceleration the torque may leave the fixed-point range in this cell: increase the torque base, or the inertia base (which
+    /// decreases the acceleration base).
     TorqueRange {
         /// Index of the cell.
         cell: u32,
     },
     /// The constant part of b or c is negative or not finite.
     Constant,
-    /// The pieces of a turn do not start one after another, or one is shorter than 2⁻¹⁶ of a turn.
+    /// The starts of a turn's pieces are not in order, or a piece is shorter than 2⁻¹⁶ of a turn.
     Pieces,
-    /// The models of a turn's pieces do not share their machine units, or the range of one is not the distance from its start to
-    /// the next.
+    /// The models of a turn's pieces have different machine units, or the range of one is not the distance from its start to the next.
     PieceUnits,
-    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, a friction both as a curve and as a
-    /// constant, or a reciprocal for floating point. The set.
+    /// The table has another set of [`curves`] than the model; or the set, given here, has an unknown bit, a friction both as a curve and as a
+    /// constant, or a reciprocal for floating point.
     Curves(Set),
-    /// The curve of the reciprocal inertia is not that of the inertia in this cell.
+    /// The curve of the reciprocal inertia does not match the inertia in this cell.
     Reciprocal {
         /// Index of the cell.
         cell: u32,
@@ -81,28 +79,27 @@ pub enum TableError {
         /// The phase of the drive link.
         phase: Phase,
     },
-    /// At every place looked at the reduced inertia of harmonics is positive, but so little that between two of them its
-    /// curvature may take it to zero.
+    /// The reduced inertia of harmonics is positive at every place checked, but so small that its curvature may make it zero between two of them.
     InertiaNotShown {
-        /// Where it is least.
+        /// Place of the smallest inertia.
         phase: Phase,
     },
     /// Harmonics, or a slider-crank, of a drive link that has a stroke.
     Stroke,
-    /// Harmonics are not filled at so many places: `harmonic::fit` finds them.
+    /// Harmonics cannot be filled from samples: use `harmonic::fit`.
     Harmonics,
-    /// A slider-crank is not filled at places: `slider_crank::form` makes it.
+    /// A slider-crank cannot be filled from samples: use `slider_crank::form`.
     SliderCrank,
-    /// The rod of a slider-crank in closed form is shorter than (r + |e|)/0.95, or its lengths are no numbers.
+    /// The rod of a slider-crank in closed form is shorter than (r + |e|)/0.95, or a length is NaN.
     ShortRod,
-    /// The velocity torque in this cell, which a table of 16-bit rows holds, is not that of the slope of its inertia.
+    /// In this cell of a table of 16-bit rows, the stored velocity torque does not match the slope of the inertia.
     Slope {
         /// Index of the cell.
         cell: u32,
     },
 }
 
-/// The curves of a set, as their constants are called.
+/// The curves of a set, named as their constants.
 const NAMES: [(Set, &str); 6] = [
     (curves::LOAD, "LOAD"),
     (curves::VISCOUS, "VISCOUS"),
@@ -227,7 +224,7 @@ impl Curable for TableError {
     }
 }
 
-/// A phase in degrees, rounded down to hundredths, by integers.
+/// A phase in degrees, rounded down to hundredths, in integers.
 struct Degrees(Phase);
 
 impl fmt::Display for Degrees {

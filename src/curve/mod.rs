@@ -1,7 +1,6 @@
-//! The curves of the reduced machine as words in RAM or in flash: what a word is, and how curves are made, checked and evaluated.
+//! The curves of the reduced machine as words in RAM or in flash: their meaning, and how they are created, checked and evaluated.
 //!
-//! A [`Table`] is a run of words and their [`Shape`]; its [`Format`] says how they are evaluated, its set of [`curves`] which
-//! curves they hold.
+//! A [`Table`] is a run of words and their [`Shape`]; its [`Format`] defines the evaluation, its set of [`curves`] the contents.
 
 pub mod curves;
 mod error;

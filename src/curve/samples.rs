@@ -1,4 +1,4 @@
-//! What tables are made from: the curves of a machine at any place of its range.
+//! The source of tables: the curves of a machine at any place of its range.
 
 use super::curves::Set;
 use crate::{Domain, Scale};
@@ -28,7 +28,7 @@ pub struct Samples<F> {
 }
 
 impl<F> Samples<F> {
-    /// The curves at this place in cells from the start.
+    /// The curves at a place, in cells from the start.
     pub(crate) fn at_cell<E>(&self, cell: f64) -> Result<Sample, E>
     where
         F: Fn(f64) -> Result<Sample, E>,
@@ -36,7 +36,7 @@ impl<F> Samples<F> {
         (self.at)(cell / f64::from(self.cells))
     }
 
-    /// Whether the curves repeat with the range.
+    /// Whether the curves are periodic over the range.
     pub(crate) fn periodic(&self) -> bool {
         matches!(self.domain, Domain::Turn)
     }

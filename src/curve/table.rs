@@ -5,10 +5,10 @@ use super::{Format, TableError};
 use crate::number::Number;
 use crate::{Domain, Phase, Scale};
 
-/// Most cells of a table: an index has 16 bits.
+/// Greatest number of cells of a table: an index has 16 bits.
 pub const MAX_CELLS: u32 = 65_535;
 
-/// Words of a table of `cells` cells: for buffers whose length is known when the program is compiled.
+/// Words of a table of `cells` cells, for buffers whose length is known at compile time.
 #[must_use]
 pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
     F::SIZE.words(cells as usize, set)
@@ -36,7 +36,7 @@ pub struct Table<'a, F: Format> {
     shape: Shape<F>,
 }
 
-/// All curves at one phase; zero where the machine has none.
+/// All curves at one phase; 0 for absent curves.
 ///
 /// In double precision: for checks, not for the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,14 +55,14 @@ pub struct CurveValues {
     pub coulomb: f64,
 }
 
-/// The curves of one cell as polynomials in SI units, each Σ cₖ·(u − centre)ᵏ of the place u in the cell, 0 to 1: what the words of
-/// the table mean when they are read without a rounding. Zero where the machine has no such curve.
+/// The curves of one cell as polynomials in SI units, each Σ cₖ·(u − centre)ᵏ of the place u in the cell, 0 to 1: the exact values of the table's
+/// words. 0 for absent curves.
 ///
-/// In double precision, whose roundings are below 1e-14 of the largest coefficient: for proofs on a host, not for the tick.
+/// In double precision, with roundings below 1e-14 of the largest coefficient: for proofs on a host, not for the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct CellCurves {
-    /// The place in the cell that they are about.
+    /// The centre of the polynomials, in the cell.
     pub centre: f64,
     /// J_red
     pub inertia: [f64; 4],
@@ -72,17 +72,17 @@ pub struct CellCurves {
     pub load: [f64; 4],
     /// b
     pub viscous: [f64; 4],
-    /// c with the sign that the table has; the tick takes its magnitude.
+    /// c with its sign in the table; the tick uses its magnitude.
     pub coulomb: [f64; 4],
-    /// What the table adds to every J, stored apart.
+    /// Constant added to every J, stored separately.
     pub offset: f64,
 }
 
 impl<'a, F: Format> Table<'a, F> {
-    /// Checks `words`, as [`tabulate`](crate::tabulate) makes them.
+    /// Checks `words` made by [`tabulate`](crate::tabulate).
     ///
     /// # Errors
-    /// What [`TableError`] lists. A table that passes can be read at any phase.
+    /// As [`TableError`] lists. A table that passes can be read at any phase.
     pub fn new(words: &'a [F::Word], shape: Shape<F>) -> Result<Self, TableError> {
         if !F::accepts(shape.set) {
             return Err(TableError::Curves(shape.set));
@@ -103,7 +103,7 @@ impl<'a, F: Format> Table<'a, F> {
         Ok(table)
     }
 
-    /// The same table over the same words, borrowed anew or in another place.
+    /// The same table over the same words, borrowed again or moved.
     #[inline(always)]
     pub(crate) const fn moved<'b>(&self, words: &'b [F::Word]) -> Table<'b, F> {
         Table {
@@ -137,28 +137,28 @@ impl<'a, F: Format> Table<'a, F> {
         &self.shape.scale
     }
 
-    /// Its constants, in addition to its rows.
+    /// Its constants.
     pub const fn constants(&self) -> &F::Constants {
         &self.shape.constants
     }
 
-    /// The rows, as they are stored.
+    /// The stored rows.
     pub const fn words(&self) -> &'a [F::Word] {
         self.words
     }
 
-    /// All curves at `phase` in machine units, in the arithmetic of the tick; the slope is that by rad (or m).
+    /// All curves at `phase` in machine units, in the arithmetic of the tick; the slope is per rad (or m).
     pub fn at(&self, phase: Phase) -> CurveValues {
         F::read(self, phase)
     }
 
-    /// All curves at `phase` in SI units. `domain` is the range in double precision; a table has it only in its own precision.
+    /// All curves at `phase` in SI units. `domain` is the range in double precision; the table itself has it only in its own precision.
     pub fn si(&self, phase: Phase, domain: Domain) -> CurveValues {
         F::si(self, phase, f64::from(self.cells()) / domain.span())
     }
 
-    /// The curves of one cell as polynomials, for proofs on a host. `domain` is the range in double precision, as for [`si`](Self::si).
-    /// `None` of a format without cells, and beyond the last cell.
+    /// The curves of one cell as polynomials, for proofs on a host. `domain` is the range in double precision, as for [`si`](Self::si). `None` for a
+    /// format without cells, and beyond the last cell.
     pub fn cell_curves(&self, cell: u32, domain: Domain) -> Option<CellCurves> {
         let cells_per_position = f64::from(self.cells()) / domain.span();
         (cell < self.cells()).then(|| F::cell_curves(self, cell, cells_per_position))?
@@ -169,11 +169,11 @@ impl<'a, F: Format> Table<'a, F> {
         curves::has(self.set(), curves::RECIPROCAL).then(|| F::reciprocal(self, phase))?
     }
 
-    /// How far forward and inverse dynamics disagree, as a share of the acceleration: the remaining error of the curve of 1/J. 0 without
+    /// The difference between forward and inverse dynamics, as a share of the acceleration: the error of the curve of 1/J. 0 without
     /// [`curves::RECIPROCAL`], where forward dynamics divides.
     ///
-    /// Accuracy: of [`Rows16`](crate::Rows16) a bound, by Bézier points; else the largest found at four places of every cell, between which
-    /// it may be half as much again, and roundings (test `the_inconsistency_is_what_is_stated`).
+    /// Accuracy: for [`Rows16`](crate::Rows16) a bound, by Bézier points; otherwise the largest error at four places of every cell. Between them it
+    /// may be half as much again, plus roundings (test `the_inconsistency_is_what_is_stated`).
     pub fn reciprocal_error(&self) -> f32 {
         if curves::has(self.set(), curves::RECIPROCAL) {
             F::reciprocal_error(self)

@@ -1,14 +1,14 @@
-//! Signs for a magnitude: |v′| has a kink where v′ changes its sign, and v′ has none.
+//! Signs for a magnitude: |v′| has a kink where v′ changes its sign; v′ does not.
 
 use crate::math;
 
-/// Gives samples of a magnitude the signs of the smoothest curve that has this magnitude: each takes the sign that the cubic
-/// through the four before it predicts, so that a sign can be wrong only where the sample is as small as the error of the
-/// fit. On a turn the signs must meet; if not, the samples stay as they are.
+/// Gives samples of a magnitude the signs of the smoothest curve with this magnitude: each sample takes the sign predicted by the cubic through the
+/// four before it. So a sign can be wrong only where the sample is as small as the error of the fit. On a turn the signs must close; otherwise the
+/// samples stay unchanged.
 pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
     let count = samples.len();
     let magnitude = |samples: &[f64], k: usize| samples.get(k).map_or(0.0, |s| math::abs(*s));
-    // Where the magnitude is greatest the sign is sure, and round about.
+    // The sign is certain at and near the largest magnitude.
     let start = (0..count)
         .max_by(|a, b| magnitude(samples, *a).total_cmp(&magnitude(samples, *b)))
         .unwrap_or(0);
@@ -29,7 +29,7 @@ pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
     if periodic {
         let at = |k: usize| (start + count + k - 3) % count;
         let before = [0, 1, 2, 3].map(|k| magnitude(samples, at(k)));
-        // One turn and the first sample again, first only to see whether the signs meet.
+        // A first pass over one turn plus one sample checks whether the signs close.
         let end = (4..count + 4).fold(before, |before, k| next(before, magnitude(samples, at(k))));
         if end.iter().any(|sample| *sample < 0.0) {
             return;
@@ -44,7 +44,7 @@ pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
         return;
     }
     for step in [1isize, -1] {
-        // At an end of the stroke the largest value replaces those beyond it.
+        // At an end of the stroke the largest value replaces the samples beyond it.
         let mut before = [3isize, 2, 1, 0].map(|back| {
             let neighbour = start.checked_add_signed(-step * back);
             magnitude(samples, neighbour.filter(|k| *k < count).unwrap_or(start))

@@ -1,9 +1,9 @@
-//! How much of its number range a table uses.
+//! Used share of a table's number range.
 
 use super::{Format, Table, TableError};
 
-/// How much of the number range each quantity uses at most, over all phases and at full speed and acceleration: 1 is all of it
-/// in fixed point. In floating point it is the quantity itself, in machine units.
+/// Largest used share of the number range for each quantity, over all phases and at full speed and acceleration: 1 is all of it in fixed point. In
+/// floating point it is the quantity itself, in machine units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -18,20 +18,20 @@ pub struct Usage {
     pub viscous: f32,
     /// c
     pub coulomb: f32,
-    /// The sum of all of them: the torque.
+    /// The sum of all: the torque.
     pub torque: f32,
 }
 
 impl Usage {
-    /// Of a table.
+    /// Usage of a table.
     ///
     /// # Errors
-    /// The first cell in which something does not fit: as [`Model::new`](crate::Model::new).
+    /// The first cell in which a quantity does not fit, as for [`Model::new`](crate::Model::new).
     pub fn of<F: Format>(table: &Table<'_, F>) -> Result<Self, TableError> {
         F::usage(table)
     }
 
-    /// The largest of each.
+    /// The larger of each.
     pub(crate) fn or(self, other: Self) -> Self {
         Self {
             inertia: self.inertia.max(other.inertia),

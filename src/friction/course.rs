@@ -1,4 +1,4 @@
-//! Quantities that vary: a ratio that is shifted in time, a slip that grows with the load.
+//! Quantities that vary: a ratio shifted over time, a slip that grows with the load.
 
 use crate::number::error::RangeError;
 use core::f64::consts::TAU;
@@ -10,15 +10,15 @@ use crate::math;
 use crate::number::error::{finite, positive};
 use crate::number::spline::CubicSpline;
 
-/// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
+/// The arguments of a course: time, angle and load of one friction stage, with derivatives with respect to the three.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OperatingPoint {
     /// Time t (s).
     pub t: Dual<3>,
     /// Angle of the stage's first shaft (rad).
     pub phi: Dual<3>,
-    /// Load: contact torque on the stage's second shaft (N·m), positive where power flows the way that the stage's
-    /// [`Flow`](super::Flow) says, negative where it flows back.
+    /// Load: contact torque on the stage's second shaft (N·m), positive where power flows in the direction of the stage's [`Flow`](super::Flow),
+    /// negative where it flows back.
     pub load: Dual<3>,
 }
 
@@ -51,7 +51,7 @@ impl OperatingPoint {
         }
     }
 
-    /// One of the three.
+    /// One of the three arguments.
     #[must_use]
     pub const fn of(&self, variable: Variable) -> Dual<3> {
         match variable {
@@ -62,7 +62,7 @@ impl OperatingPoint {
     }
 }
 
-/// The variable that a ready-made course runs over.
+/// The argument of a predefined course.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Variable {
@@ -75,7 +75,7 @@ pub enum Variable {
     Load,
 }
 
-/// How a ratio or a slip varies. Closures on [`OperatingPoint`] are courses as well:
+/// The variation of a ratio or a slip. Closures on [`OperatingPoint`] are courses as well:
 ///
 /// ```
 /// use jred::friction::{Course, Dual, OperatingPoint};
@@ -86,7 +86,7 @@ pub enum Variable {
 /// # let _: Dual<3> = found;
 /// ```
 pub trait Course {
-    /// Value with its derivatives by time, angle and load.
+    /// Value with its derivatives with respect to time, angle and load.
     fn at(&self, at: OperatingPoint) -> Dual<3>;
 }
 
@@ -96,7 +96,7 @@ impl<F: Fn(OperatingPoint) -> Dual<3>> Course for F {
     }
 }
 
-/// A ratio or a slip: a number, or a course.
+/// A ratio or a slip: a number or a course.
 #[derive(Clone, Copy)]
 pub enum Coefficient<'a> {
     /// Always the same.
@@ -137,19 +137,19 @@ impl<'a, C: Course> From<&'a C> for Coefficient<'a> {
     }
 }
 
-/// From where to where a ramp goes.
+/// Range and values of a ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RampShape {
-    /// The variable where it begins.
+    /// Start in the variable.
     pub start: f64,
-    /// How far the variable goes meanwhile, > 0.
+    /// Length in the variable, > 0.
     pub length: f64,
     /// Value before and value after.
     pub values: [f64; 2],
 }
 
-/// A passage from one value to another by a motion law; before and after it the end values.
+/// A transition from one value to another by a motion law; outside it the end values.
 ///
 /// [`Law::Polynomial345`] shifts without a jump of acceleration. [`Ramp::linear`] is the straight line with limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,7 +165,7 @@ impl Ramp {
     /// A ramp of this shape over a variable, by a motion law.
     ///
     /// # Errors
-    /// A length that is not positive, a value that is not finite, or a law that is not valid.
+    /// A length that is not positive, a value that is not finite, or an invalid law.
     pub fn new(over: Variable, shape: RampShape, law: Law) -> Result<Self, RangeError> {
         law.check()?;
         Ok(Self {
@@ -174,8 +174,8 @@ impl Ramp {
         })
     }
 
-    /// The same as a straight line. Its slope jumps at both ends, where the equation of motion asks for a jump of torque;
-    /// there the slope is that of the line.
+    /// The same as a straight line. Its slope jumps at both ends, where the equation of motion requires a jump of torque; there it has the slope of
+    /// the line.
     ///
     /// # Errors
     /// A length that is not positive, or a value that is not finite.
@@ -215,17 +215,17 @@ impl Course for Ramp {
     }
 }
 
-/// The numbers of a sine.
+/// The parameters of a sine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SineShape {
-    /// Value in the middle.
+    /// Mean value.
     pub mean: f64,
     /// Largest distance from it.
     pub amplitude: f64,
     /// In rad per unit of x (rad/s over time).
     pub frequency: f64,
-    /// At x = 0 (rad).
+    /// Phase at x = 0 (rad).
     pub phase: f64,
 }
 
@@ -269,7 +269,7 @@ pub struct Curve<C> {
 }
 
 impl<C: AsRef<[f64]>> Curve<C> {
-    /// A curve over x from `start` to `start + length`, with the end values outside. The control points are made by
+    /// A curve over x from `start` to `start + length`, with the end values outside. Compute the control points by
     /// [`fit_bounded`](crate::number::spline::fit_bounded).
     ///
     /// # Errors
@@ -289,7 +289,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
         })
     }
 
-    /// A curve over one turn of the stage's first shaft, repeated. The control points are made by
+    /// A curve over one turn of the stage's first shaft, repeated. Compute the control points by
     /// [`fit_periodic`](crate::number::spline::fit_periodic).
     #[must_use]
     pub const fn turn(spline: CubicSpline<C>) -> Self {
@@ -314,11 +314,10 @@ impl<C: AsRef<[f64]>> Course for Curve<C> {
     }
 }
 
-/// Creep: slip in proportion to the load, ε = s·load/limit. Where power flows back the slip is negative, so the contact
-/// never gives power.
+/// Creep: slip in proportion to the load, ε = s·load/limit. Where power flows back the slip is negative, so that the contact never supplies power.
 ///
-/// Valid for |load| ≤ limit, the torque that the contact can carry; beyond it slides, and
-/// [`Drive`](super::Drive) refuses slips above one. [`CreepContact`](super::CreepContact) goes on.
+/// Valid for |load| ≤ limit, the capacity of the contact; beyond it slides, and [`Drive`](super::Drive) refuses slips above one.
+/// [`CreepContact`](super::CreepContact) also covers sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Creep(CreepLimit);
 

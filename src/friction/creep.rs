@@ -5,13 +5,13 @@ use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::positive;
 
-/// Where a contact begins to slide.
+/// The limit where a contact begins to slide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CreepLimit {
-    /// The slip there.
+    /// Slip at the limit.
     pub slip: f64,
-    /// The torque there, on the second shaft (N·m).
+    /// Torque at the limit, on the second shaft (N·m).
     pub torque: f64,
 }
 
@@ -31,17 +31,15 @@ impl CreepLimit {
 /// J₂·ω̇₂ = L + M₂          J₁·ω̇₁ = M₁ − i·L          loss = L·(i·ω₁ − ω₂) ≥ 0
 /// ```
 ///
-/// Both speeds are states: the machine has one freedom more, and nothing is constrained. Where shaft 1 drives, s is the ε
-/// of [`Flow::FirstDrives`](super::Flow::FirstDrives); where shaft 2 drives, −s is that of (III.12) as printed. So the
-/// contact changes from one to the other by itself when power turns round, and it never gives power. Beyond the limit it
-/// slides with constant torque.
+/// Both speeds are states: the machine has one more degree of freedom, without a constraint. Where shaft 1 drives, s is the ε of
+/// [`Flow::FirstDrives`](super::Flow::FirstDrives); where shaft 2 drives, −s is the ε of (III.12) as printed. So the contact changes over by itself
+/// when power reverses, and it never supplies power. Beyond the limit it slides with constant torque.
 ///
-/// At standstill s is not defined: below [`SLOW`](Self::SLOW) the speed difference itself is taken, which is a viscous
-/// contact.
+/// At standstill s is undefined: below [`SLOW`](Self::SLOW) the speed difference itself is used, which is a viscous contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CreepContact(CreepLimit);
 
-/// What a contact does at one instant.
+/// State of a contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -68,22 +66,21 @@ impl CreepContact {
         Ok(Self(limit))
     }
 
-    /// Where it begins to slide.
+    /// The limit where it begins to slide.
     #[must_use]
     pub const fn limit(&self) -> CreepLimit {
         self.0
     }
 
-    /// The torque at the speed i·ω₁ of the first surface and ω₂ of the second, both as angular speeds of the second shaft
-    /// (rad/s).
+    /// The torque at the speed i·ω₁ of the first surface and ω₂ of the second, both as angular speeds of the second shaft (rad/s).
     #[must_use]
     pub fn traction(&self, first: f64, second: f64) -> Traction {
         let CreepLimit { slip, torque } = self.0;
         Self::traction_by(first, second, |s| torque * (s / slip).clamp(-1.0, 1.0))
     }
 
-    /// The same of a contact whose torque L (N·m) is another function of its slip s: a measured curve. To lose power and not to give
-    /// it, L has the sign of s.
+    /// The same for a contact whose torque L (N·m) is another function of its slip s, such as a measured curve. L must have the sign of s, so that
+    /// the contact loses power and never supplies it.
     #[must_use]
     pub fn traction_by(first: f64, second: f64, torque: impl FnOnce(f64) -> f64) -> Traction {
         let fastest = math::abs(first).max(math::abs(second)).max(Self::SLOW);

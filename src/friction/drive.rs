@@ -1,7 +1,7 @@
 //! A friction drive: stages in a chain or in a fan, and its equation of motion.
 //!
-//! Shaft 1 drives; every shaft k has the speed ω_k = j_k·ω (III.12), (III.19). Newton for each shaft, with L the torque of
-//! the contact on its second shaft and f·L that on its first, gives without the contact torques
+//! Shaft 1 drives; every shaft k has the speed ω_k = j_k·ω (III.12), (III.19). With L the torque of the contact on its second shaft and f·L on its
+//! first, Newton's law for each shaft gives, without the contact torques,
 //!
 //! ```text
 //! Σ h_k·J_k·(j_k·ω̇ + j̇_k·ω) = Σ h_k·M_k          h_k: product of the f from shaft 1 to shaft k
@@ -9,10 +9,10 @@
 //! real slip,     f = i:   (J₁ + i·j·J₂)·ω̇ + i·j̇·J₂·ω = T₁ − i·T₂,   loss = L·(i − j)·ω    for two shafts
 //! ```
 //!
-//! The factor ½ is that of the power balance d(½Jω²)/dt = T·ω. With a ratio that is shifted in time the constraint cannot
-//! be integrated ([`Drive::integrability`]), and Lagrange's equation for the reduced kinetic energy would
-//! give a factor 1 and a free run with ω·J constant; the machine keeps ω·√J. The literature treats the shifted variator
-//! as non-holonomic, too: M. Čavić, M. Penčić, M. Zlokolica, *Thermal Science* 20 (2016) S525-S536.
+//! The factor ½ comes from the power balance d(½Jω²)/dt = T·ω. With a ratio shifted over time the constraint cannot be integrated
+//! ([`Drive::integrability`]); Lagrange's equation for the reduced kinetic energy would give a factor 1 and constant ω·J in a free run, while the
+//! machine keeps ω·√J constant. The literature also treats the shifted variator as non-holonomic: M. Čavić, M. Penčić, M. Zlokolica, *Thermal
+//! Science* 20 (2016) S525-S536.
 
 use super::course::OperatingPoint;
 use super::error::FrictionError;
@@ -23,13 +23,13 @@ use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::finite;
 
-/// The most shafts.
+/// Greatest number of shafts.
 pub const MAX_SHAFTS: usize = MAX_STAGES + 1;
 
-/// How often load and slip are adjusted to each other at most.
+/// Greatest number of iterations of load and slip.
 const ROUNDS: usize = 100;
 
-/// How the stages are arranged.
+/// Arrangement of the stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Arrangement {
@@ -40,14 +40,14 @@ pub enum Arrangement {
     Fan,
 }
 
-/// What slip does to the torque.
+/// Effect of slip on the torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Contact {
-    /// Nothing is lost: torques are in the ratio j of the speeds.
+    /// No loss: torques have the ratio j of the speeds.
     #[default]
     Ideal,
-    /// Torques are in the ratio i of the radii while speeds are in the ratio j: the power F·v_slip is lost.
+    /// Torques have the ratio i of the radii, speeds the ratio j: the power F·v_slip is lost.
     Slipping,
 }
 
@@ -59,12 +59,12 @@ pub struct Drive<'a> {
     stages: heapless::Vec<Stage<'a>, MAX_STAGES>,
 }
 
-/// What is sought.
+/// The given quantity.
 #[derive(Clone, Copy)]
 enum Given {
-    /// The acceleration is known, the drive's torque is not.
+    /// The acceleration is given, the drive's torque unknown.
     Alpha(f64),
-    /// All torques are known.
+    /// All torques are given.
     Torques,
 }
 
@@ -109,7 +109,7 @@ impl<'a> Drive<'a> {
         })
     }
 
-    /// How the stages are arranged.
+    /// Arrangement of the stages.
     pub const fn arrangement(&self) -> Arrangement {
         self.arrangement
     }
@@ -128,27 +128,27 @@ impl<'a> Drive<'a> {
         }
     }
 
-    /// The acceleration under given torques.
+    /// The acceleration under the given torques.
     ///
-    /// Where a ratio or slip depends on the load, load and slip are solved together, to rounding. The rate at which the
-    /// load changes is left out of dj/dt: this is the quasi-static form, good while the load changes slowly against
-    /// J·s·ω/limit (s: slip at the limit). [`CreepContact`](super::CreepContact) makes no such assumption.
+    /// Where a ratio or slip depends on the load, load and slip are solved together, to rounding. dj/dt ignores the rate of change of the load: this
+    /// is the quasi-static form, valid while the load changes slowly compared with J·s·ω/limit (s: slip at the limit).
+    /// [`CreepContact`](super::CreepContact) makes no such assumption.
     ///
-    /// Accuracy: energy of a free run with a shifted ratio 1e-10 (test `free_run_keeps_the_energy`); against two shafts
-    /// with an explicit contact force 1e-9 (test `two_discs_with_a_contact_force`).
+    /// Accuracy: energy of a free run with a shifted ratio 1e-10 (test `free_run_keeps_the_energy`); against two shafts with an explicit contact
+    /// force 1e-9 (test `two_discs_with_a_contact_force`).
     ///
     /// # Errors
-    /// Numbers of angles or shafts that do not fit; a course that leaves its range; no inertia; load and slip that do not
-    /// settle, because the slip grows too fast with the load.
+    /// Numbers of angles or shafts that do not match; a course outside its range; no inertia; load and slip that do not converge, because the slip
+    /// grows too fast with the load.
     pub fn forward(&self, state: State, shafts: &[Shaft]) -> Result<Motion, FrictionError> {
         self.solve(state, shafts, Given::Torques)
     }
 
-    /// The drive's torque on shaft 1, [`Motion::drive`], that the acceleration `alpha` of shaft 1 (rad/s²) needs. Load and
-    /// slip as in [`forward`](Self::forward).
+    /// The drive's torque on shaft 1, [`Motion::drive`], for the acceleration `alpha` of shaft 1 (rad/s²). Load and slip as in
+    /// [`forward`](Self::forward).
     ///
     /// # Errors
-    /// Those of [`forward`](Self::forward), or an acceleration that is not finite.
+    /// As [`forward`](Self::forward), or an acceleration that is not finite.
     pub fn inverse(
         &self,
         state: State,
@@ -191,7 +191,7 @@ impl<'a> Drive<'a> {
         Err(FrictionError::NotSettled)
     }
 
-    /// Puts the loads found into `loads`; whether they are those that the coefficients were made with.
+    /// Updates `loads`; returns whether they are those used for the coefficients.
     fn settled(
         &self,
         kinematics: &Kinematics,
@@ -204,7 +204,7 @@ impl<'a> Drive<'a> {
                 continue;
             };
             let first = motion.shafts.get(self.first_shaft(k));
-            // From rest, the flow is that of the motion to come.
+            // From rest, the flow of the motion to come.
             let turning = first.map_or(0.0, |s| if s.omega == 0.0 { s.alpha } else { s.omega });
             let along = match stage.flow() {
                 Flow::FirstDrives => 1.0,
@@ -229,7 +229,7 @@ impl<'a> Drive<'a> {
     ) -> Result<Kinematics, FrictionError> {
         let mut shafts = heapless::Vec::new();
         let mut stages = heapless::Vec::new();
-        // Pushes cannot fail: the capacities are those of the stages, and one more.
+        // Pushes cannot fail: the capacities are the number of stages, and one more.
         let input = Coupled {
             speed: 1.0,
             rate: 0.0,
@@ -302,7 +302,7 @@ impl<'a> Drive<'a> {
         Ok(motion)
     }
 
-    /// Contact torques from the last stage to the first: L = J·ω̇_k + ½·J′·ω_k² − M + what the shaft passes on.
+    /// Contact torques from the last stage to the first: L = J·ω̇_k + ½·J′·ω_k² − M + the torque that the shaft passes on.
     fn add_contacts(&self, shafts: &[Shaft], kinematics: &Kinematics, motion: &mut Motion) {
         let mut passed_on = 0.0;
         let mut torques = [0.0; MAX_STAGES];

@@ -1,23 +1,23 @@
-//! Numbers that carry their gradient.
+//! Numbers with their gradient.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::math;
 
-/// A number with its partial derivatives by N variables: forward-mode differentiation.
+/// A number with its partial derivatives with respect to N variables: forward-mode differentiation.
 ///
-/// Arithmetic follows the rules of differentiation, so a formula written once gives its gradient to rounding; no finite
-/// differences. Start with [`variable`](Self::variable) for each of the variables.
+/// Arithmetic follows the rules of differentiation: a formula written once gives its gradient to rounding, without finite differences. Start with
+/// [`variable`](Self::variable) for each variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.
     pub value: f64,
-    /// Its partial derivatives, one a variable.
+    /// Its partial derivatives, one per variable.
     pub slope: [f64; N],
 }
 
 impl<const N: usize> Dual<N> {
-    /// A number that does not depend on any variable.
+    /// A number independent of all variables.
     #[must_use]
     pub const fn constant(value: f64) -> Self {
         Self {
@@ -26,7 +26,7 @@ impl<const N: usize> Dual<N> {
         }
     }
 
-    /// Variable number `index` at `value`; beyond the last one, a constant.
+    /// Variable number `index` at `value`; a constant if there is no such variable.
     #[must_use]
     pub fn variable(value: f64, index: usize) -> Self {
         let mut variable = Self::constant(value);
@@ -70,13 +70,13 @@ impl<const N: usize> Dual<N> {
         self.through(root, 0.5 / root)
     }
 
-    /// Whether value and derivatives are neither NaN nor infinite.
+    /// Whether value and derivatives are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.value.is_finite() && self.slope.iter().all(|s| s.is_finite())
     }
 
-    /// `value`, and slopes a·self′ + b·other′.
+    /// `value`, with the slopes a·self′ + b·other′.
     fn combine(self, other: Self, value: f64, [a, b]: [f64; 2]) -> Self {
         let mut slope = self.slope;
         for (s, o) in slope.iter_mut().zip(other.slope) {

@@ -1,22 +1,22 @@
-//! Why a friction drive cannot be built or moved.
+//! Why a friction drive cannot be created or moved.
 
 use core::fmt;
 
 use crate::number::error::{Curable, RangeError, error};
 
-/// Why a friction drive cannot be built or moved.
+/// Why a friction drive cannot be created or moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum FrictionError {
     /// A quantity outside its range.
     Range(RangeError),
-    /// A friction stage whose ratio or slip is not a number, where only numbers make sense.
+    /// A friction stage with a varying ratio or slip, where only constant ones are possible.
     VaryingRatio {
         /// Index of the stage.
         stage: usize,
     },
-    /// Load and slip, which depend on each other, did not come to rest.
+    /// Load and slip, which depend on each other, did not converge.
     NotSettled,
 }
 

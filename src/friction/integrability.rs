@@ -1,4 +1,4 @@
-//! Can the constraint of a stage be written as a relation between angles?
+//! Whether the constraint of a stage is a relation between angles.
 //!
 //! A constraint Σ C_i·q̇_i + C = 0 (III.4), or as a form over the variables x = (q₁ … q_r, t)
 //!
@@ -8,9 +8,9 @@
 //! θ ∧ dθ = 0: θ is one after multiplication by an integrating factor      Frobenius, necessary and sufficient
 //! ```
 //!
-//! (III.6) as printed speaks of sufficient conditions and leaves the integrating factor open; Frobenius' theorem closes
-//! that gap (H. Flanders, *Differential Forms*, chapter VII). A stage is θ = dα_b − j(t, α_a)·dα_a, for which
-//! θ ∧ dθ = −(∂j/∂t)·dα_b ∧ dt ∧ dα_a: it is holonomic exactly where j does not depend on time.
+//! (III.6) as printed gives sufficient conditions and leaves the integrating factor open; Frobenius' theorem closes that gap (H. Flanders,
+//! *Differential Forms*, chapter VII). A stage is θ = dα_b − j(t, α_a)·dα_a, with θ ∧ dθ = −(∂j/∂t)·dα_b ∧ dt ∧ dα_a: it is holonomic exactly where j
+//! is independent of time.
 
 use crate::number::error::RangeError;
 use core::fmt;
@@ -20,7 +20,7 @@ use crate::machine::MAX_STAGES;
 use crate::math;
 use crate::number::error::finite;
 
-/// What one stage is.
+/// The kind of constraint of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StageConstraint {
@@ -31,16 +31,16 @@ pub enum StageConstraint {
     },
     /// Holonomic: α_b − ∫ j(α_a) dα_a = const, by [`Stage::angle`].
     Integral,
-    /// Non-holonomic: j changes in time. θ ∧ dθ = −rate·dα_b ∧ dt ∧ dα_a, where it is largest.
+    /// Non-holonomic: j changes over time. θ ∧ dθ = −rate·dα_b ∧ dt ∧ dα_a, at its largest.
     NonHolonomic {
         /// ∂j/∂t (1/s).
         rate: f64,
-        /// When (s).
+        /// Time (s).
         t: f64,
         /// Angle α_a (rad).
         phi: f64,
     },
-    /// No constraint at all: j depends on the load, so angles and speeds alone do not tell ω_b.
+    /// Not a constraint: j depends on the load, so that angles and speeds alone do not determine ω_b.
     Constitutive,
 }
 
@@ -76,21 +76,19 @@ impl fmt::Display for StageConstraint {
     }
 }
 
-/// Places a variable is tested at.
+/// Number of test places per variable.
 const SAMPLES: u32 = 129;
 
-/// A change below this share of j is rounding.
+/// A relative change of j below this is rounding.
 const ROUNDING: f64 = 1e-13;
 
 impl Drive<'_> {
-    /// What the constraint of every stage is, for times in `t` = [from, to] (s) and angles of its first shaft in
-    /// `phi` = [from, to] (rad).
+    /// The kind of constraint of every stage, for times in `t` = [from, to] (s) and angles of its first shaft in `phi` = [from, to] (rad).
     ///
-    /// Tested on a grid of 129 × 129 places, both by the derivatives of j there and by its changes between them, so that
-    /// a short shift is not missed.
+    /// Tested on a grid of 129 × 129 places, by the derivatives of j there and by its changes between them, so that a short shift is not missed.
     ///
     /// # Errors
-    /// Those of [`Stage::at`], or a range that is not finite.
+    /// As [`Stage::at`], or a range that is not finite.
     pub fn integrability(
         &self,
         t: [f64; 2],
@@ -138,7 +136,7 @@ fn constraint(
                 return Ok(StageConstraint::Constitutive);
             }
             let size = math::abs(speed.value);
-            // By the mean value theorem a change is a rate somewhere on the way.
+            // By the mean value theorem a change proves that rate somewhere on the way.
             let mean = before.map_or(0.0, |(at, was)| {
                 let changed = math::abs(speed.value - was) > ROUNDING * size && t - at > 0.0;
                 if changed {
@@ -164,5 +162,5 @@ fn constraint(
     })
 }
 
-/// A load (N·m) that, compared with none, reveals a slip that depends on the load.
+/// A load (N·m) that, compared with zero load, reveals a slip that depends on the load.
 const LOAD: f64 = 1e-3;

@@ -12,14 +12,13 @@ use crate::number::transfer::Transfer;
 
 /// A chain or a fan of friction stages as a mechanism: its links are the shafts, shaft 1 is the drive link.
 ///
-/// Only constant ratios and slips give angles that are functions of the drive angle; everything else is the matter of
-/// [`friction::Drive`](crate::friction::Drive). The contacts are ideal here: slip changes the ratio and loses nothing, as
-/// (6.2), (6.4) with j say. Its loss belongs to the drive's equation with
+/// Only constant ratios and slips make the angles functions of the drive angle; for all others use [`friction::Drive`](crate::friction::Drive). The
+/// contacts are ideal here: slip changes the ratio without a loss, as in (6.2), (6.4) with j. For the loss use the drive's equation with
 /// [`Contact::Slipping`](crate::friction::Contact::Slipping).
 ///
-/// Each shaft's frame is at [0, 0] with the angle ψ_k = j_k·φ: a friction drive has ratios and no geometry.
+/// Each shaft's frame is at [0, 0] with the angle ψ_k = j_k·φ: a friction drive has ratios, but no geometry.
 ///
-/// Accuracy: 1e-13 of a gear train of the same ratios (test `constant_ratios_are_a_train`).
+/// Accuracy: 1e-13 against a gear train of the same ratios (test `constant_ratios_are_a_train`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionDrive {
     arrangement: Arrangement,
@@ -32,8 +31,7 @@ impl FrictionDrive {
     /// Stages in order from shaft 1, and the inertia of every shaft (kg·m²), one more than stages.
     ///
     /// # Errors
-    /// No stage or too many, a stage that varies, a number of inertias that does not fit, or an inertia that is negative
-    /// or not finite.
+    /// No stage or too many, a varying stage, a number of inertias that does not match, or an inertia that is negative or not finite.
     pub fn new(
         arrangement: Arrangement,
         stages: &[Stage],
@@ -72,7 +70,7 @@ impl FrictionDrive {
         })
     }
 
-    /// How the stages are arranged.
+    /// Arrangement of the stages.
     pub const fn arrangement(&self) -> Arrangement {
         self.arrangement
     }
@@ -98,8 +96,7 @@ impl FrictionDrive {
 }
 
 impl Jointed for FrictionDrive {
-    /// The bearing of every shaft, then the contact of every stage: a moment on either shaft, and the ground takes the
-    /// difference.
+    /// The bearing of every shaft, then the contact of every stage: a moment on each shaft, and the ground takes the difference.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);

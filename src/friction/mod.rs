@@ -1,11 +1,10 @@
 //! Friction drives and variators: ratios and slips that may vary, and the constraint that follows.
 //!
-//! Beside the mechanisms on the way of the data: [`FrictionDrive`] with constant ratio and slip is one of them; a [`Drive`] whose
-//! ratio or slip varies is moved by itself.
+//! Next to the mechanisms in the data flow: [`FrictionDrive`], with constant ratio and slip, is a mechanism; a [`Drive`] with varying ratio or slip
+//! has its own equation of motion.
 //!
-//! A stage couples two shafts by a geometric ratio i and a slip ε, each a number or a [`Course`] over time, angle or load.
-//! Its velocity coefficient is j = i/(1 − ε) as (III.12), (III.19) are printed, or i·(1 − ε) where the first shaft drives
-//! ([`Flow`]). Stages form a [`Drive`], a chain or a fan.
+//! A stage couples two shafts by a geometric ratio i and a slip ε, each a number or a [`Course`] over time, angle or load. Its velocity coefficient
+//! is j = i/(1 − ε) as in (III.12), (III.19), or i·(1 − ε) where the first shaft drives ([`Flow`]). Stages form a [`Drive`], a chain or a fan.
 //!
 //! | question | answer |
 //! |---|---|
@@ -13,8 +12,8 @@
 //! | slip that grows with the load, as a separate degree of freedom | [`CreepContact`] |
 //! | can the constraint be written between angles? | [`Drive::integrability`] |
 //!
-//! Equations (III.1)-(III.19): the chapter on holonomic and non-holonomic constraints of friction drives. In the sense of
-//! its figure, shaft 1 is the drive shaft.
+//! Equations (III.1)-(III.19): the chapter on holonomic and non-holonomic constraints of friction drives. As in its figure, shaft 1 is the drive
+//! shaft.
 
 mod course;
 mod creep;

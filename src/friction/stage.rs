@@ -6,21 +6,20 @@ use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive};
 
-/// Which way power flows through the contact, and so which shaft slip makes slower.
+/// Direction of power through the contact, which determines the shaft that slip slows down.
 ///
-/// The same ε has two meanings: a belt that slips by 2 % turns the driven shaft 2 % slower, and either shaft may be the driven one.
+/// The same ε has two meanings: a belt with 2 % slip makes the driven shaft 2 % slower, and either shaft may be the driven one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Flow {
-    /// (III.12) as printed, ω₁·i = ω₂·(1 − ε), j = i/(1 − ε): the second shaft drives, and the first is slower than
-    /// without slip.
+    /// (III.12) as printed, ω₁·i = ω₂·(1 − ε), j = i/(1 − ε): the second shaft drives, and the first is slower than without slip.
     #[default]
     SecondDrives,
     /// ω₂ = ω₁·i·(1 − ε), j = i·(1 − ε): the first shaft drives, and the second is slower than without slip.
     FirstDrives,
 }
 
-/// What a stage does at one place.
+/// Coefficients of a stage at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ratios {
@@ -34,8 +33,8 @@ pub struct Ratios {
 
 /// A friction stage: geometric ratio i = ω₂/ω₁ without slip (negative where the direction reverses), and slip ε.
 ///
-/// Note that for friction drives i is second over first, as in the lecture notes, while [`mechanism::Stage`](crate::mechanism::Stage)
-/// has first over second.
+/// Note that for friction drives i is second over first, as in the lecture notes, while [`mechanism::Stage`](crate::mechanism::Stage) uses first over
+/// second.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
     ratio: Coefficient<'a>,
@@ -60,10 +59,10 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The same stage with slip; what it means is the matter of `flow`.
+    /// The same stage with slip, whose meaning depends on `flow`.
     ///
     /// # Errors
-    /// A constant slip outside [0, 1): with ε = 1 nothing is coupled.
+    /// A constant slip outside [0, 1): ε = 1 couples nothing.
     pub fn with_slip(
         self,
         slip: impl Into<Coefficient<'a>>,
@@ -76,12 +75,12 @@ impl<'a> Stage<'a> {
         Ok(Self { slip, flow, ..self })
     }
 
-    /// Which way power flows.
+    /// Direction of power.
     pub const fn flow(&self) -> Flow {
         self.flow
     }
 
-    /// The velocity coefficient j, if ratio and slip are numbers.
+    /// The velocity coefficient j, if ratio and slip are constant.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
         match (self.ratio, self.slip) {
@@ -93,7 +92,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Ratio, slip and velocity coefficient with their derivatives by time, angle and load.
+    /// Ratio, slip and velocity coefficient with their derivatives with respect to time, angle and load.
     ///
     /// # Errors
     /// A course that is not finite there, a ratio of zero, or a slip outside (−1, 1).
@@ -126,13 +125,13 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Angle of the second shaft while the first turns from `from` to `to` (rad) at the time `t`, unloaded: ∫ j dφ, the
-    /// finite relation of a stage whose ratio depends on the angle alone.
+    /// Angle of the second shaft while the first turns from `from` to `to` (rad) at the time `t`, unloaded: ∫ j dφ, the finite relation of a stage
+    /// whose ratio depends only on the angle.
     ///
-    /// Gauss-Legendre rule of five points on 64 cells (error of order 10).
+    /// Five-point Gauss-Legendre rule on 64 cells (error of order 10).
     ///
     /// # Errors
-    /// Those of [`at`](Self::at).
+    /// As [`at`](Self::at).
     pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, RangeError> {
         crate::number::quadrature::integrate(from, to, 64, |phi| {
             Ok(self

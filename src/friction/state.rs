@@ -5,10 +5,10 @@ use crate::machine::MAX_STAGES;
 use crate::machine::reduction::Reduction;
 use crate::math;
 
-/// What turns with a shaft, and what acts on it.
+/// Inertia and torques of a shaft.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shaft {
-    /// Inertia J (kg·m²) and its derivative by the shaft's angle (kg·m²/rad).
+    /// Inertia J (kg·m²) and its derivative with respect to the shaft's angle (kg·m²/rad).
     pub inertia: [f64; 2],
     /// Torque in the positive direction (N·m): a motor's is positive, a brake's negative.
     pub torque: f64,
@@ -30,20 +30,20 @@ impl Shaft {
         }
     }
 
-    /// The same with an inertia (kg·m²) more.
+    /// The same with an additional inertia (kg·m²).
     #[must_use]
     pub fn with_inertia(mut self, more: f64) -> Self {
         self.inertia[0] += more;
         self
     }
 
-    /// Torque at the shaft's speed, without what its inertia asks for.
+    /// Torque at the shaft's speed, without the torque of its inertia.
     pub(super) fn external(&self, omega: f64) -> f64 {
         self.torque - self.viscous * omega - self.coulomb * math::sign(omega)
     }
 }
 
-/// The drive link of a machine, at the position where it was reduced: any mechanism behind a friction drive.
+/// The drive link of a machine at the position of the reduction: any mechanism behind a friction drive.
 impl From<Reduction> for Shaft {
     fn from(reduction: Reduction) -> Self {
         Self {
@@ -55,10 +55,9 @@ impl From<Reduction> for Shaft {
     }
 }
 
-/// When and where the drive is: time (s), angle of every shaft (rad), and speed ω of shaft 1 (rad/s).
+/// State of the drive: time (s), angle of every shaft (rad), and speed ω of shaft 1 (rad/s).
 ///
-/// Angles are states of their own: with a ratio that varies in time there is no function α_k(α₁). Their rates are the
-/// shafts' speeds in [`Motion`].
+/// Angles are separate states: with a ratio that varies over time there is no function α_k(α₁). Their rates are the shafts' speeds in [`Motion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<'a> {
     /// t (s)
@@ -80,7 +79,7 @@ pub struct ShaftMotion {
     pub omega: f64,
     /// Acceleration j_k·ω̇ + j̇_k·ω (rad/s²).
     pub alpha: f64,
-    /// External torque (N·m), on shaft 1 the drive's included.
+    /// External torque (N·m), on shaft 1 including the drive's.
     pub torque: f64,
 }
 
@@ -93,8 +92,8 @@ pub struct ContactMotion {
     pub torque: f64,
     /// Slip ε.
     pub slip: f64,
-    /// Power lost (W), L·(f − j)·ω of the first shaft. Negative where power flows against the stage's
-    /// [`Flow`](super::Flow): then a slip that does not turn with the load gives power, which no contact does.
+    /// Power lost (W), L·(f − j)·ω of the first shaft. Negative where power flows against the stage's [`Flow`](super::Flow): a slip that does not
+    /// reverse with the load would then supply power, which no real contact does.
     pub loss: f64,
 }
 
@@ -104,7 +103,7 @@ pub struct ContactMotion {
 pub struct Motion {
     /// Acceleration of shaft 1 (rad/s²).
     pub alpha: f64,
-    /// Torque of the drive on shaft 1, in addition to the one in its [`Shaft`] (N·m).
+    /// Torque of the drive on shaft 1, in addition to the torque in its [`Shaft`] (N·m).
     pub drive: f64,
     /// J = Σ J_k·j_k² (kg·m²).
     pub inertia: f64,
@@ -114,12 +113,12 @@ pub struct Motion {
     pub loss: f64,
     /// The shafts.
     pub shafts: heapless::Vec<ShaftMotion, MAX_SHAFTS>,
-    /// The contacts, one a stage.
+    /// The contacts, one per stage.
     pub contacts: heapless::Vec<ContactMotion, MAX_STAGES>,
 }
 
 impl Motion {
-    /// Power of all external torques, the drive's included (W): d(½Jω²)/dt = power − loss.
+    /// Power of all external torques, including the drive's (W): d(½Jω²)/dt = power − loss.
     #[must_use]
     pub fn power(&self) -> f64 {
         self.shafts.iter().map(|s| s.torque * s.omega).sum()

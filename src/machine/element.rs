@@ -13,10 +13,10 @@ use crate::number::error::RangeError;
 use crate::number::error::{finite, not_negative, positive};
 use crate::number::transfer::Transfer;
 
-/// The most force elements of a machine.
+/// Greatest number of force elements of a machine.
 pub const MAX_ELEMENTS: usize = 8;
 
-/// What an element does.
+/// The law of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ElementLaw {
@@ -64,8 +64,7 @@ pub(crate) struct Share {
 }
 
 impl Element {
-    /// A spring of `stiffness` k (N/m) whose `free_length` l₀ (m) is that without force; it pulls when longer and pushes
-    /// when shorter.
+    /// A spring of `stiffness` k (N/m) whose force is zero at the `free_length` l₀ (m); it pulls when longer and pushes when shorter.
     ///
     /// # Errors
     /// A stiffness that is not positive, a free length that is negative, or a marker that is not finite.
@@ -81,11 +80,11 @@ impl Element {
         Self::new(between, law)
     }
 
-    /// A torsion spring of `stiffness` c (N·m/rad), without moment where the second marker's direction has turned
-    /// `free_angle` θ₀ (rad) against the first's.
+    /// A torsion spring of `stiffness` c (N·m/rad) whose moment is zero where the second marker's direction is turned by `free_angle` θ₀ (rad)
+    /// against the first's.
     ///
     /// # Errors
-    /// A stiffness that is not positive, or anything not finite.
+    /// A stiffness that is not positive, or a value that is not finite.
     pub fn torsion_spring(
         between: [Marker; 2],
         stiffness: f64,
@@ -101,7 +100,7 @@ impl Element {
     /// A damper with the `coefficient` d (N·s/m) along the line between its points.
     ///
     /// # Errors
-    /// A coefficient that is negative, or anything not finite.
+    /// A coefficient that is negative, or a value that is not finite.
     pub fn damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("damper coefficient", coefficient)?;
         Self::new(between, ElementLaw::Damper { coefficient })
@@ -110,7 +109,7 @@ impl Element {
     /// A torsion damper with the `coefficient` d (N·m·s/rad).
     ///
     /// # Errors
-    /// A coefficient that is negative, or anything not finite.
+    /// A coefficient that is negative, or a value that is not finite.
     pub fn torsion_damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("torsion damper coefficient", coefficient)?;
         Self::new(between, ElementLaw::TorsionDamper { coefficient })
@@ -122,7 +121,7 @@ impl Element {
         Ok(Self { between, law })
     }
 
-    /// Stiffness (N/m, or N·m/rad) and free length (m), or free angle (rad), of a spring; `None` of a damper.
+    /// Stiffness (N/m, or N·m/rad) and free length (m), or free angle (rad), of a spring; `None` for a damper.
     #[must_use]
     pub const fn spring_rate(&self) -> Option<[f64; 2]> {
         match self.law {
@@ -138,7 +137,7 @@ impl Element {
         }
     }
 
-    /// Whether it acts by the angle between its bodies, not by the distance of its points.
+    /// Whether it acts on the angle between its bodies instead of the distance of its points.
     #[must_use]
     pub const fn is_torsional(&self) -> bool {
         matches!(
@@ -147,7 +146,7 @@ impl Element {
         )
     }
 
-    /// What it does.
+    /// The law.
     pub const fn law(&self) -> ElementLaw {
         self.law
     }
@@ -157,7 +156,7 @@ impl Element {
         self.between
     }
 
-    /// Length l (m) of a spring or damper, angle θ (rad) of one in torsion.
+    /// Length l (m) of a spring or damper, angle θ (rad) of a torsional one.
     #[must_use]
     pub fn length(&self, frames: &[Frame]) -> Transfer {
         let [a, b] = &self.between;
@@ -172,7 +171,7 @@ impl Element {
         }
     }
 
-    /// From the first point to the second.
+    /// The vector from the first point to the second.
     fn line(&self, frames: &[Frame]) -> [Transfer; 2] {
         let ([x_a, y_a], [x_b, y_b]) = (
             self.between[0].position(frames),
@@ -200,7 +199,7 @@ impl Element {
         }
     }
 
-    /// The element's share; `None` where its ends meet, for there it has no direction.
+    /// The element's share; `None` where its ends meet, because its direction is undefined there.
     pub(crate) fn reduce(&self, frames: &[Frame]) -> Option<Share> {
         let length = self.length(frames);
         if !length.d1.is_finite() {
@@ -233,8 +232,7 @@ impl Element {
         })
     }
 
-    /// What the element does to its two bodies at speed ω (rad/s); `None` where its ends meet, for there it has no
-    /// direction.
+    /// The wrenches on its two bodies at speed ω (rad/s); `None` where its ends meet, because its direction is undefined there.
     #[must_use]
     pub fn wrenches(&self, frames: &[Frame], omega: f64) -> Option<[Wrench; 2]> {
         let [a, b] = &self.between;

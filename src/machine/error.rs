@@ -1,4 +1,4 @@
-//! Positions that a mechanism cannot take, and parts that do not make a machine.
+//! Positions that a mechanism cannot take, and parts that do not form a machine.
 
 use core::fmt;
 
@@ -22,9 +22,9 @@ pub enum PoseError {
     CannotAssemble {
         /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
-        /// Index of the joint that stays open widest.
+        /// Index of the joint with the largest gap.
         joint: usize,
-        /// How far it stays open (m, or rad).
+        /// The gap (m, or rad).
         gap: f64,
     },
     /// The mechanism jumped to another branch between two positions.
@@ -34,22 +34,22 @@ pub enum PoseError {
         /// Index of the joint at which the branches meet.
         joint: usize,
     },
-    /// The linkage lies flat at a change point: it goes on, but the forces in its joints are not determined there.
+    /// The linkage is at a change point: it moves on, but the forces in its joints are indeterminate there.
     ChangePoint {
         /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
     },
-    /// The ends of a spring or a damper meet: its direction is not known there.
+    /// The ends of a spring or a damper meet: its direction is undefined there.
     EndsMeet {
         /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
     },
-    /// The reduced inertia is not positive: nothing with mass moves there.
+    /// The reduced inertia is not positive: no mass moves there.
     NoInertia {
         /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
     },
-    /// Inertia or load are not the same one turn of the drive link later.
+    /// Inertia or load differs one turn of the drive link later.
     NotPeriodic {
         /// Angle of the drive link (rad).
         phi: f64,
@@ -123,34 +123,34 @@ impl Curable for PoseError {
     }
 }
 
-/// Parts that do not make a machine, or an instant whose forces cannot be found.
+/// Parts that do not form a machine, or an instant whose forces cannot be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum MachineError {
     /// A quantity outside its range.
     Range(RangeError),
-    /// A position that cannot be taken.
+    /// An impossible position.
     Pose(PoseError),
-    /// The joints do not leave the links exactly one freedom.
+    /// The joints do not leave the links exactly one degree of freedom.
     Mobility {
         /// Number of moving links.
         links: usize,
-        /// Number of freedoms that the joints take.
+        /// Number of degrees of freedom that the joints remove.
         constraints: usize,
     },
-    /// The mechanism has no joint of this number, or one of a kind that does not fit.
+    /// The mechanism has no joint with this index, or its kind does not fit.
     NoSuchJoint {
-        /// The index asked for, from 0.
+        /// The requested index, from 0.
         joint: usize,
-        /// How many joints there are.
+        /// Number of joints.
         joints: usize,
     },
     /// The load acts on a link that the mechanism does not have.
     NoSuchLink {
-        /// The index asked for, from 0.
+        /// The requested index, from 0.
         link: usize,
-        /// How many links there are.
+        /// Number of links.
         links: usize,
     },
 }
@@ -199,7 +199,7 @@ impl Curable for MachineError {
     }
 }
 
-/// A position of the drive link, which turns or slides.
+/// A position of the drive link, which turns or slides, for a message.
 struct Place(f64);
 
 impl fmt::Display for Place {

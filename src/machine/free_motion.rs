@@ -1,4 +1,4 @@
-//! The motion that given torques produce, in fixed steps that keep the energy.
+//! The motion caused by given torques, in fixed steps that conserve energy.
 
 use crate::machine::error::PoseError;
 use crate::machine::reducible::Reducible;
@@ -8,20 +8,20 @@ use crate::number::error::{RangeError, finite, positive};
 
 /// A machine in free motion under a torque that is constant over each step.
 ///
-/// Its state is the position φ, the direction, and the energy E = ½·J·ω² + U. A step changes E by the work of what is not in U, and the
-/// speed follows from E: without torques and friction E keeps every bit for as many turns as one likes, where a method that
-/// integrates the speed gains or loses a little in each. From one end of a step to the other,
+/// Its state is the position φ, the direction, and the energy E = ½·J·ω² + U. A step changes E by the work of all torques not in U, and the speed
+/// follows from E. Without torques and friction E stays exactly the same for any number of turns; a method that integrates the speed gains or loses a
+/// little each turn. Over a step,
 ///
 /// ```text
 /// ½·J₁·ω₁² + U₁ = ½·J₀·ω₀² + U₀ + Q·(φ₁ − φ₀),   φ₁ − φ₀ = ½·h·(ω₀ + ω₁)
 /// ```
 ///
-/// with the torque Q of motor, process, viscous and Coulomb friction, the mean of both ends. The method is symmetric and of order 2:
-/// half the step, a quarter of the error in position and time (`tests/free_motion.rs`). Friction stops the machine within a step and
-/// holds it as long as it can.
+/// with the mean torque Q of motor, process, viscous and Coulomb friction at both ends. The method is symmetric and of order 2: half the step gives a
+/// quarter of the error in position and time (`tests/free_motion.rs`). Friction stops the machine within a step and keeps it at rest as long as it
+/// can.
 ///
-/// A step costs five to seven evaluations of [`Reducible::reduction`]; it has no place in a tick, but in a simulated
-/// machine behind a controller, on a host or on a core with doubles.
+/// A step costs five to seven evaluations of [`Reducible::reduction`]: it is for a simulated machine behind a controller, on a host or on a core with
+/// doubles, not for a tick.
 ///
 /// ```
 /// use jred::machine::FreeMotion;
@@ -47,27 +47,27 @@ pub struct FreeMotion {
     phi: f64,
     omega: f64,
     energy: f64,
-    /// What the sum of the works has lost by rounding.
+    /// Rounding error of the sum of works.
     rounding: f64,
 }
 
 /// Iterations of Newton's method for the speed at the end of a step.
 const ITERATIONS: u32 = 30;
 
-/// A change of the speed, as a share of it, after which the next one is rounding.
+/// A relative change of the speed after which the next change is rounding.
 const ENOUGH: f64 = 1e-13;
 
-/// A change that roundings of J and U may make.
+/// A change that rounding of J and U may cause.
 const ROUNDING: f64 = 1e-6;
 
-/// Below this way of a step (rad, or m) J and U change by their slopes: differences have no digits.
+/// For a shorter step (rad, or m) J and U change by their slopes: differences have no digits.
 const SHORT: f64 = 1e-5;
 
-/// A machine comes to rest, and starts again, at most so often in a step.
+/// Greatest number of stops and restarts of a machine in a step.
 const RESTS: u32 = 4;
 
 impl FreeMotion {
-    /// From a position (rad, or m) and a speed (rad/s, or m/s).
+    /// A motion from a position (rad, or m) and a speed (rad/s, or m/s).
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
@@ -96,11 +96,11 @@ impl FreeMotion {
         self.energy
     }
 
-    /// A step (s, positive) under a torque of the motor (N·m, or N) at the drive link.
+    /// A step (s, positive) under a torque of the motor (N·m, or N) on the drive link.
     ///
     /// # Errors
-    /// The mechanism cannot be placed where the motion leads; a step that is too long for the motion: the machine would turn much of a
-    /// swing within it. The state is then that before the step.
+    /// The mechanism cannot be placed where the motion leads; a step too long for the motion, in which the machine would turn through much of an
+    /// oscillation. The state then stays unchanged.
     pub fn advance(
         &mut self,
         machine: &impl Reducible,
@@ -127,7 +127,7 @@ impl FreeMotion {
                 now = next;
                 break;
             }
-            // Friction turns round with the speed: up to there first. It falls in a straight line so near to rest.
+            // Friction reverses with the speed: first the part up to rest, near which the speed falls linearly.
             let share = now.omega / (now.omega - next.omega);
             let rest = now.step(machine, &here, [torque, direction], share * left)?;
             now = Self::new(machine, rest.phi, 0.0)?;
@@ -154,7 +154,7 @@ impl FreeMotion {
             let way = 0.5 * step * (self.omega + omega);
             let there = machine.reduction(self.phi + way)?;
             let inertia = 0.5 * (here.inertia + there.inertia);
-            // Slopes of J and U between both places, and how these change with the one at the end.
+            // Slopes of J and U between both places, and their change with the place at the end.
             let short = math::abs(way) < SHORT;
             let [inertia_slope, potential_slope] = if short {
                 [
@@ -191,7 +191,7 @@ impl FreeMotion {
             omega -= change;
             let size = math::abs(omega) + math::abs(self.omega);
             let change = math::abs(change);
-            // Differences of J and U over a short way, far from 0, have few digits: more than these are not to be had.
+            // Differences of J and U over a short way, far from 0, have few digits: no further convergence is possible.
             let stuck = change >= before && change <= ROUNDING * size;
             if change <= ENOUGH * size || stuck {
                 return self.arrived(machine, omega, [step, push]);
@@ -207,7 +207,7 @@ impl FreeMotion {
         .into())
     }
 
-    /// The state at the end of a step, with the speed that its energy gives.
+    /// The state at the end of a step, with the speed from its energy.
     fn arrived(
         &self,
         machine: &impl Reducible,
@@ -217,7 +217,7 @@ impl FreeMotion {
         let way = 0.5 * step * (self.omega + omega);
         let phi = self.phi + way;
         let there = machine.reduction(phi)?;
-        // Compensated, so that many small works add up.
+        // Compensated, so that small works accumulate.
         let work = push * way + self.rounding;
         let energy = self.energy + work;
         let kinetic = energy - there.potential_energy;

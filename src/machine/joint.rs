@@ -1,7 +1,7 @@
-//! Joints: how links are connected, and the forces that a joint can carry.
+//! Joints: connections of links, and their reactions.
 //!
-//! A joint connects two *markers*, each a point with a direction on a link or on the ground. The number of a link's three
-//! freedoms that it takes is the number of its unknown reactions: two forces in a pin, a force and a moment in a guide.
+//! A joint connects two *markers*, each a point with a direction on a link or on the ground. It removes as many of a link's three degrees of freedom
+//! as it has unknown reactions: two forces in a pin, a force and a moment in a guide.
 
 use crate::machine::link::Frame;
 use crate::machine::mechanism::MAX_LINKS;
@@ -10,7 +10,7 @@ use crate::number::error::RangeError;
 use crate::number::error::finite;
 use crate::number::transfer::Transfer;
 
-/// The most joints of a mechanism: every one of the links' freedoms but the drive's may be taken by a joint of its own.
+/// Greatest number of joints of a mechanism: each of the links' degrees of freedom except the drive's may be removed by a separate joint.
 pub const MAX_JOINTS: usize = 2 * MAX_LINKS;
 
 /// The joints of a mechanism.
@@ -27,7 +27,7 @@ pub enum Body {
 }
 
 impl Body {
-    /// Index of the link; the ground has none.
+    /// Index of the link; `None` for the ground.
     #[must_use]
     pub const fn link(self) -> Option<usize> {
         match self {
@@ -36,7 +36,7 @@ impl Body {
         }
     }
 
-    /// Where the body is. A link without a frame counts as ground; mechanisms check their joints when built.
+    /// The frame of the body. A link without a frame counts as ground; mechanisms check their joints when created.
     #[inline]
     #[must_use]
     pub fn frame(self, frames: &[Frame]) -> &Frame {
@@ -50,7 +50,7 @@ impl Body {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Marker {
-    /// The body that it belongs to.
+    /// The body of the marker.
     pub body: Body,
     /// The point [u, v] in the body's frame (m).
     pub at: [f64; 2],
@@ -60,7 +60,7 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// A point of the ground, in global coordinates (m).
+    /// A point on the ground, in global coordinates (m).
     #[must_use]
     pub const fn ground(at: [f64; 2]) -> Self {
         Self {
@@ -99,7 +99,7 @@ impl Marker {
         self.angle
     }
 
-    /// Checks that every number is finite.
+    /// Checks that all numbers are finite.
     ///
     /// # Errors
     /// A coordinate or the direction that is not finite.
@@ -136,13 +136,13 @@ impl Marker {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Wrench {
-    /// The body it acts on.
+    /// The body that the wrench acts on.
     pub body: Body,
     /// Point of application, global (m).
     pub point: [f64; 2],
     /// Force, global components (N).
     pub force: [f64; 2],
-    /// Moment in addition to that of the force (N·m), counter-clockwise positive.
+    /// Moment in addition to the force's (N·m), counter-clockwise positive.
     pub moment: f64,
 }
 
@@ -193,7 +193,7 @@ impl Wrench {
     }
 }
 
-/// A joint between two bodies. Its reaction is what the first body does to the second.
+/// A joint between two bodies. Its reaction acts from the first body on the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Joint {
@@ -207,17 +207,16 @@ pub enum Joint {
     /// The first marker's point, a pin, stays on the line through the second marker, a slot, along its direction.
     /// Reaction: a force across the slot, at the pin, on the slot's body.
     PinInSlot([Marker; 2]),
-    /// A transmission: teeth in mesh, a belt, a cam on its follower, a rope, a screw. The two wrenches are what one unit
-    /// of its effort does to the first and to the second body; what is missing for action = reaction, the ground takes.
+    /// A transmission: teeth in mesh, a belt, a cam on its follower, a rope, a screw. The wrenches of one unit of its effort on the first and on the
+    /// second body; the ground takes the difference to action = reaction.
     Transmission([Wrench; 2]),
 }
 
-/// The unknown reactions of one joint, each as what one unit of it does to the first and to the second body.
+/// The unknown reactions of one joint: for each, the wrenches of one unit on the first and on the second body.
 pub type UnitReactions = heapless::Vec<[Wrench; 2], 3>;
 
 impl Joint {
-    /// Two surfaces that touch at `point` (m): a unit of effort pushes the second body along `normal`, the first against
-    /// it.
+    /// Two surfaces in contact at `point` (m): a unit of effort pushes the second body along `normal`, and the first in the opposite direction.
     #[must_use]
     pub fn contact(bodies: [Body; 2], point: [f64; 2], normal: [f64; 2]) -> Self {
         let on_second = Wrench::force(bodies[1], point, normal);
@@ -236,7 +235,7 @@ impl Joint {
         }
     }
 
-    /// How many freedoms the joint takes.
+    /// Number of degrees of freedom that the joint removes.
     #[must_use]
     pub const fn constraints(&self) -> usize {
         match self {
@@ -246,8 +245,7 @@ impl Joint {
         }
     }
 
-    /// The joint's free coordinate: the angle (rad) or displacement (m) of the second marker against the first; for the
-    /// other kinds zero.
+    /// The joint's free coordinate: the angle (rad) or displacement (m) of the second marker against the first; zero for the other kinds.
     #[inline]
     #[must_use]
     pub fn coordinate(&self, frames: &[Frame]) -> Transfer {
@@ -262,8 +260,8 @@ impl Joint {
         }
     }
 
-    /// What a unit of drive effort in this joint's free coordinate does to the first and the second body: a moment
-    /// (1 N·m) in a pin, a force (1 N) along a guide.
+    /// The wrenches of a unit of drive effort in this joint's free coordinate on the first and the second body: a moment (1 N·m) in a pin, a force (1
+    /// N) along a guide.
     #[must_use]
     pub fn unit_drive(&self, frames: &[Frame]) -> [Wrench; 2] {
         let [first, second] = self.bodies();
@@ -277,7 +275,7 @@ impl Joint {
         [on_second.times(-1.0).acting_on(first), on_second]
     }
 
-    /// The unknown reactions, unit by unit.
+    /// The unknown reactions, as wrenches of one unit.
     #[must_use]
     pub fn unit_reactions(&self, frames: &[Frame]) -> UnitReactions {
         let [first, second] = self.bodies();
@@ -305,7 +303,7 @@ impl Joint {
     }
 }
 
-/// The unit vector across a marker's direction: the direction turned by +90°.
+/// The unit vector normal to a marker's direction: the direction turned by +90°.
 fn across(marker: &Marker, frames: &[Frame]) -> [f64; 2] {
     let [cos, sin] = marker.axis(frames);
     [-sin.value, cos.value]

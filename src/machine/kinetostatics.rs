@@ -1,14 +1,14 @@
 //! Kinetostatics: the force in every joint, and the drive torque, by d'Alembert's principle.
 //!
-//! Every link is cut free. Its active forces, the reactions of its joints and its inertia force F = −m·a_c with the
-//! moment M = −J_c·ψ̈ (1.1)-(1.8) are in equilibrium (2.2)-(2.5):
+//! Every link is isolated. Its active forces, the reactions of its joints and its inertia force F = −m·a_c with the moment M = −J_c·ψ̈ (1.1)-(1.8)
+//! are in equilibrium (2.2)-(2.5):
 //!
 //! ```text
 //! Σ F + Σ R − m·a_c = 0        Σ M_c − J_c·ψ̈ = 0        three equations a link
 //! ```
 //!
-//! With as many unknowns, the reactions and the drive's effort, this is one linear system. It uses neither J_red nor
-//! J_red′: that its drive torque equals that of the reduced equation (7.12) is a check on both.
+//! The unknowns, reactions and drive effort, are equal in number: one linear system. It uses neither J_red nor J_red′, so that comparing its drive
+//! torque with the reduced equation (7.12) checks both.
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002, chapters 1 and 2.
 
@@ -21,7 +21,7 @@ use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS};
 use crate::number::error::finite;
 use crate::number::linear;
 
-/// Most unknowns: three equations a link.
+/// Greatest number of unknowns: three equations per link.
 const MOST: usize = 3 * MAX_LINKS;
 
 /// The force in one joint, from its first body on its second: a force at a point and the moment about that point.
@@ -32,14 +32,14 @@ const MOST: usize = 3 * MAX_LINKS;
 /// | guide | the second marker, the slider's own point; the moment keeps the slider parallel to the guide |
 /// | rigid joint | the second marker |
 /// | pin in a slot | the pin |
-/// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; of a moment alone the origin |
+/// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; for a moment only, the origin |
 ///
 /// The test `joints_close_and_forces_balance` checks the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Reaction {
-    /// Where the force acts, global (m).
+    /// Point of application, global (m).
     pub point: [f64; 2],
     /// Force, global components (N).
     pub force: [f64; 2],
@@ -64,14 +64,13 @@ pub struct Forces {
 impl<M: Jointed> Machine<M> {
     /// The forces at `phi` (rad) for the motion ω = `omega` (rad/s), α = `alpha` (rad/s²).
     ///
-    /// Loads that oppose the motion have the sign of ω, and none at rest. Needs about 20 kB of stack. Accuracy: 1e-10 of
-    /// a column's largest value against 50-digit golden data (tests `slider_crank_reactions_golden`,
-    /// `four_bar_reactions_golden`), and so its drive torque against the reduced equation (test
-    /// `dalembert_is_the_reduced_equation`).
+    /// Loads that oppose the motion have the sign of ω, and are zero at rest. Needs about 20 kB of stack. Accuracy: 1e-10 of a column's largest
+    /// value, compared with 50-digit golden data (tests `slider_crank_reactions_golden`, `four_bar_reactions_golden`), and the same for the drive
+    /// torque compared with the reduced equation (test `dalembert_is_the_reduced_equation`).
     ///
     /// # Errors
-    /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that leave not exactly one freedom, or are at a
-    /// dead point or a [change point](Jointed::determined).
+    /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that do not leave exactly one degree of freedom, or are at a dead point or
+    /// a [change point](Jointed::determined).
     pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, MachineError> {
         let (omega, alpha) = (finite("speed", omega)?, finite("acceleration", alpha)?);
         let mechanism = self.mechanism();
@@ -83,7 +82,7 @@ impl<M: Jointed> Machine<M> {
         self.forces_in(&frames, &joints, [phi, omega, alpha])
     }
 
-    /// The forces where the links and the joints are known already; the motion is finite.
+    /// The forces for known frames of the links and joints; the motion must be finite.
     pub(crate) fn forces_in(
         &self,
         frames: &Frames,
@@ -112,8 +111,8 @@ impl<M: Jointed> Machine<M> {
             frames,
             column: [0.0; MOST],
         };
-        // The flywheel moves with the coordinate of the driven joint, as a rotor geared to it does: between its two bodies,
-        // in whichever order they are named. So it changes the drive's effort and no reaction.
+        // The flywheel moves with the coordinate of the driven joint, like a rotor geared to it: between its two bodies, in either order. So it
+        // changes the drive's effort, but no reaction.
         let inertia = -self.flywheel() * driven.coordinate(frames).acceleration(omega, alpha);
         let unit_drive = driven.unit_drive(frames);
         for on in &unit_drive {
@@ -159,7 +158,7 @@ impl<M: Jointed> Machine<M> {
         for joint in joints {
             let units = joint.unit_reactions(frames);
             let mut sum = Reaction {
-                // The force comes first; the moment about its point has none.
+                // The force comes first, with no moment about its point.
                 point: units.first().map_or([0.0; 2], |[_, unit]| unit.point),
                 ..Reaction::default()
             };
@@ -169,7 +168,7 @@ impl<M: Jointed> Machine<M> {
                 sum.force[1] += part.force[1];
                 sum.moment += part.moment;
             }
-            // Cannot fail: both hold MAX_JOINTS.
+            // Cannot fail: both have the capacity MAX_JOINTS.
             let _ = reactions.push(sum);
         }
         Ok(Forces {
@@ -215,7 +214,7 @@ struct Balance<'a> {
 }
 
 impl Balance<'_> {
-    /// Adds a wrench to its link; on the ground it does nothing.
+    /// Adds a wrench to its link; wrenches on the ground are ignored.
     fn add(&mut self, wrench: &Wrench) {
         let Some(link) = wrench.body.link() else {
             return;
@@ -231,8 +230,7 @@ impl Balance<'_> {
         }
     }
 
-    /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the
-    /// global origin.
+    /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the global origin.
     fn add_inertia_forces(&mut self, omega: f64, alpha: f64) -> ([f64; 2], f64) {
         let (mut force, mut moment) = ([0.0; 2], 0.0);
         for (k, (link, frame)) in self.links.iter().zip(self.frames).enumerate() {

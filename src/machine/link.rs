@@ -1,4 +1,4 @@
-//! One rigid link: its mass, and how it moves.
+//! One rigid link: its mass and its motion.
 
 use crate::math;
 use crate::number::error::RangeError;
@@ -17,7 +17,7 @@ pub struct MassProperties {
     pub com: [f64; 2],
 }
 
-/// A rigid link: its mass properties, checked.
+/// A rigid link with checked mass properties.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
     mass: f64,
@@ -26,7 +26,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// A link whose mass does not count.
+    /// A link of negligible mass.
     pub const MASSLESS: Self = Self {
         mass: 0.0,
         inertia: 0.0,
@@ -36,7 +36,7 @@ impl Link {
     /// A link with these mass properties.
     ///
     /// # Errors
-    /// Mass or inertia negative, or anything not finite.
+    /// Mass or inertia negative, or a value not finite.
     pub fn new(properties: MassProperties) -> Result<Self, RangeError> {
         let MassProperties { mass, inertia, com } = properties;
         Ok(Self {
@@ -49,7 +49,7 @@ impl Link {
         })
     }
 
-    /// A body that moves like its mass (kg) in the origin of its frame, because it does not turn: a slider, a load on a rope.
+    /// A body that does not turn, with its mass (kg) at the origin of its frame: a slider, a load on a rope.
     ///
     /// # Errors
     /// Mass negative or not finite.
@@ -94,8 +94,7 @@ impl Link {
         self.com.iter().all(|c| math::abs(*c) <= 0.0)
     }
 
-    /// This link's share of the reduced inertia, m·(x′² + y′²) + J·ψ′² as one term of (6.4), with its first and
-    /// second derivative by φ.
+    /// This link's share of the reduced inertia, the term m·(x′² + y′²) + J·ψ′² of (6.4), with its first and second derivative with respect to φ.
     #[must_use]
     pub fn reduced_inertia(&self, frame: &Frame) -> [f64; 3] {
         let [x, y] = frame.point(self.com);
@@ -108,7 +107,7 @@ impl Link {
         sum
     }
 
-    /// Potential energy U = −m·g·r_c in the field `gravity` (m/s²) and its derivative by φ, (3.8), (3.9).
+    /// Potential energy U = −m·g·r_c in the field `gravity` (m/s²) and its derivative with respect to φ, (3.8), (3.9).
     #[must_use]
     pub fn potential_energy(&self, frame: &Frame, gravity: [f64; 2]) -> [f64; 2] {
         let [x, y] = frame.point(self.com);
@@ -119,7 +118,7 @@ impl Link {
     }
 }
 
-/// Where a link's frame is, as functions of φ: origin (x, y) and angle ψ.
+/// The frame of a link as functions of φ: origin (x, y) and angle ψ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Origin of the frame, x (m).
@@ -142,7 +141,7 @@ impl Frame {
         Self::turned(pivot.map(Transfer::constant), psi)
     }
 
-    /// A link that translates without turning.
+    /// A link that translates without rotation.
     #[must_use]
     pub const fn translating(origin: [Transfer; 2]) -> Self {
         Self {
@@ -154,7 +153,7 @@ impl Frame {
         }
     }
 
-    /// A link in general plane motion, its angle given in radians.
+    /// A link in general plane motion, with its angle in radians.
     #[must_use]
     pub fn turned(origin: [Transfer; 2], psi: Transfer) -> Self {
         let (sin, cos) = psi.sin_cos();
@@ -167,7 +166,7 @@ impl Frame {
         }
     }
 
-    /// A link in general plane motion, its angle given by sine and cosine.
+    /// A link in general plane motion, with the sine and cosine of its angle.
     #[must_use]
     pub fn moving(origin: [Transfer; 2], sin: Transfer, cos: Transfer) -> Self {
         Self {
@@ -179,8 +178,8 @@ impl Frame {
         }
     }
 
-    /// The same place with whole turns added to ψ, so that it lies within half a turn of `near` (rad): sine and cosine
-    /// alone leave the turns open, and ψ must not jump while the link moves.
+    /// The same with whole turns added to ψ, so that it lies within half a turn of `near` (rad): sine and cosine leave the turns undetermined, and ψ
+    /// must not jump while the link moves.
     #[must_use]
     pub fn unwrapped(mut self, near: f64) -> Self {
         use core::f64::consts::TAU;
@@ -188,7 +187,7 @@ impl Frame {
         self
     }
 
-    /// The same place with ψ advanced by `turns` (rad), for a link that repeats its motion.
+    /// The same with ψ advanced by `turns` (rad), for a link that repeats its motion.
     #[must_use]
     pub(crate) fn advanced(mut self, turns: f64) -> Self {
         self.psi.value += turns;
@@ -211,9 +210,9 @@ impl Frame {
     }
 }
 
-/// Steps of the solver of a linkage, which finds a link's coordinates order by order.
+/// Steps of a linkage's solver, which finds a link's coordinates order by order.
 impl Frame {
-    /// Sets the first derivative of coordinate 0 = x, 1 = y, 2 = ψ, all else being constant.
+    /// Sets the first derivative of coordinate 0 = x, 1 = y, 2 = ψ, with the others constant.
     pub(crate) fn seed(&mut self, axis: u8, d1: f64) {
         match axis {
             0 => self.x.d1 = d1,
@@ -260,8 +259,7 @@ impl Frame {
         }
     }
 
-    /// Prepares for derivatives of this `order` (1 to 3) of a coordinate: of sine and cosine, the part that lower orders
-    /// of ψ make.
+    /// Prepares for derivatives of this `order` (1 to 3) of a coordinate: sets the part of sine and cosine that depends on lower orders of ψ.
     #[inline]
     pub(crate) fn raise(&mut self, axis: u8, order: usize) {
         if axis != 2 {
@@ -279,7 +277,7 @@ impl Frame {
         }
     }
 
-    /// Sets the derivative of this `order` (1 to 3) of a coordinate, after [`raise`](Self::raise) to it.
+    /// Sets the derivative of this `order` (1 to 3) of a coordinate, after [`raise`](Self::raise) for that order.
     #[inline]
     pub(crate) fn set(&mut self, axis: u8, order: usize, derivative: f64) {
         let of = |t: &mut Transfer, d: f64| match order {

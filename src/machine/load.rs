@@ -1,4 +1,4 @@
-//! Forces and moments that act on the links, other than gravity.
+//! Forces and moments on the links, other than gravity.
 
 use core::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, not_negative, positive};
 
-/// What a load does to its link.
+/// The action of a load on its link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Action {
@@ -18,9 +18,9 @@ pub enum Action {
     Force([f64; 2]),
     /// A moment (N·m), counter-clockwise positive, independent of the direction of motion.
     Moment(f64),
-    /// A force of this size (N) against the velocity of its point: friction, a blank holder, cutting both ways.
+    /// A force of this magnitude (N) against the velocity of its point: friction, a blank holder, cutting in both directions.
     OpposingForce(f64),
-    /// A moment of this size (N·m) against the link's rotation.
+    /// A moment of this magnitude (N·m) against the link's rotation.
     OpposingMoment(f64),
     /// A force c·v (c in N·s/m) against the velocity of its point.
     ViscousForce(f64),
@@ -30,15 +30,15 @@ pub enum Action {
 
 /// The part of the turn, or of the stroke, in which a load acts.
 ///
-/// It rises from nothing at `from` to its full size over `ramp`, and falls to nothing over `ramp` before `to`, each
-/// by the 3-4-5 polynomial, so that the reduced torque keeps two continuous derivatives.
+/// It rises from zero at `from` to its full value over `ramp`, and falls to zero over `ramp` before `to`, each by the 3-4-5 polynomial, so that the
+/// reduced torque has two continuous derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Window {
     from: f64,
     width: f64,
     ramp: f64,
-    /// After how many turns it comes again; 0: never.
+    /// Period in turns; 0 if not periodic.
     turns: u32,
 }
 
@@ -46,14 +46,13 @@ impl Window {
     /// The shortest ramp, as a part of the range: 4000 units of a [`Phase`](crate::Phase).
     pub const SHORTEST_RAMP: f64 = 1e-6;
 
-    /// A window from the first position to the second with edges of width `ramp` (rad, or m), of a drive link with this range.
+    /// A window between two positions, with edges of width `ramp` (rad, or m), for a drive link with this range.
     ///
-    /// On a turn it comes again with every turn, and its end may lie past the turn's. On a stroke it does not, and an end of it
-    /// may lie beyond the stroke.
+    /// On a turn it repeats every turn, and its end may lie beyond the turn. On a stroke it does not repeat, and an end of it may lie beyond the
+    /// stroke.
     ///
     /// # Errors
-    /// A window narrower than its two ramps, or wider than a turn on one; a ramp shorter than
-    /// [`SHORTEST_RAMP`](Self::SHORTEST_RAMP).
+    /// A window narrower than its two ramps, or on a turn wider than the turn; a ramp shorter than [`SHORTEST_RAMP`](Self::SHORTEST_RAMP).
     pub fn new(domain: Domain, ends: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
         let turns = match domain {
             Domain::Turn => 1,
@@ -62,11 +61,11 @@ impl Window {
         Self::coming_again(turns, Self::SHORTEST_RAMP * domain.span(), ends, ramp)
     }
 
-    /// One of a drive link that turns which comes again after some turns, as of an engine in four strokes after two: positions count over
-    /// all of them. Only what follows the drive link from turn to turn may have such a load: no table of one turn contains it.
+    /// A window for a drive link that turns, which repeats after several turns, such as two for a four-stroke engine: positions count over all of
+    /// them. Such a load requires code that follows the drive link from turn to turn: a table of one turn cannot contain it.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new); no turns, or more than [`MAX_TURNS`](Self::MAX_TURNS).
+    /// As [`new`](Self::new); zero turns, or more than [`MAX_TURNS`](Self::MAX_TURNS).
     pub fn over_turns(turns: u32, ends: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
         if !(1..=Self::MAX_TURNS).contains(&turns) {
             return Err(RangeError::OutOfRange {
@@ -79,7 +78,7 @@ impl Window {
         Self::coming_again(turns, Self::SHORTEST_RAMP * TAU, ends, ramp)
     }
 
-    /// The most turns after which a window comes again.
+    /// Greatest period of a window, in turns.
     pub const MAX_TURNS: u32 = 64;
 
     fn coming_again(
@@ -124,34 +123,34 @@ impl Window {
         })
     }
 
-    /// The positions (rad, or m) at which the window opens, is open, begins to close, and is closed.
+    /// The positions (rad, or m) where the window begins to open, is open, begins to close, and is closed.
     #[must_use]
     pub fn edges(&self) -> [f64; 4] {
         let to = self.from + self.width;
         [self.from, self.from + self.ramp, to - self.ramp, to]
     }
 
-    /// Width of each of its edges (rad, or m).
+    /// Width of each edge (rad, or m).
     pub const fn ramp(&self) -> f64 {
         self.ramp
     }
 
-    /// From where it opens to where it is closed (rad, or m).
+    /// Width from opening to closing (rad, or m).
     pub const fn width(&self) -> f64 {
         self.width
     }
 
-    /// Whether it comes again with every turn, or after some.
+    /// Whether it repeats, every turn or every few turns.
     pub const fn repeats(&self) -> bool {
         self.turns > 0
     }
 
-    /// After how many turns it comes again; 0: never.
+    /// Period in turns; 0 if not periodic.
     pub const fn turns(&self) -> u32 {
         self.turns
     }
 
-    /// How much of the load acts at `phi` (rad, or m of a stroke): 0 to 1.
+    /// The share of the load at `phi` (rad, or m of a stroke): 0 to 1.
     #[must_use]
     pub fn factor(&self, phi: f64) -> f64 {
         let into = if self.turns > 0 {
@@ -177,11 +176,10 @@ pub struct Load {
 }
 
 impl Load {
-    /// A load on link number `link` (see the mechanism's list), acting at the origin of the link's frame over the
-    /// whole turn.
+    /// A load on link number `link` (see the mechanism's list), at the origin of the link's frame and over the whole turn.
     ///
     /// # Errors
-    /// A value that is not finite; a motion-opposing or viscous size that is negative.
+    /// A value that is not finite; a motion-opposing or viscous value that is negative.
     pub fn new(link: usize, action: Action) -> Result<Self, RangeError> {
         match action {
             Action::Force([x, y]) => {
@@ -219,24 +217,24 @@ impl Load {
         Ok(Self { at: point, ..self })
     }
 
-    /// The same load in a part of the turn only.
+    /// The same load, only in a part of the turn.
     #[must_use]
     pub const fn within(mut self, window: Window) -> Self {
         self.window = Some(window);
         self
     }
 
-    /// What it does to its link.
+    /// The action on its link.
     pub const fn action(&self) -> Action {
         self.action
     }
 
-    /// Where on its link it acts: `[u, v]` in the link's frame (m).
+    /// Point of action: `[u, v]` in the link's frame (m).
     pub const fn point(&self) -> [f64; 2] {
         self.at
     }
 
-    /// The part of the turn in which it acts, if not the whole.
+    /// The part of the turn in which it acts; `None` for the whole.
     pub const fn window(&self) -> Option<Window> {
         self.window
     }
@@ -251,8 +249,8 @@ impl Load {
         self.link
     }
 
-    /// Force and moment of the load on its link at `phi` (rad) and speed `omega` (rad/s), for its link's `frame`. A load that
-    /// opposes the motion is zero where its point or its link is at rest.
+    /// Force and moment of the load on its link at `phi` (rad) and speed `omega` (rad/s), for its link's `frame`. A load that opposes the motion is
+    /// zero where its point or its link is at rest.
     #[must_use]
     pub fn wrench(&self, frame: &Frame, phi: f64, omega: f64) -> Wrench {
         let part = self.window.map_or(1.0, |w| w.factor(phi));

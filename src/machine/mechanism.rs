@@ -1,14 +1,14 @@
-//! A mechanism as a machine sees it: links, a range of the drive link, and positions with their transfer functions.
+//! The interface of a mechanism: links, a range of the drive link, and positions with their transfer functions.
 
 use super::joint::Joints;
 use super::link::{Frame, Link};
 use crate::Domain;
 use crate::machine::error::PoseError;
 
-/// The most links that a mechanism may have.
+/// Greatest number of links of a mechanism.
 pub const MAX_LINKS: usize = 16;
 
-/// The most stages of a gear train and of a friction drive.
+/// Greatest number of stages of a gear train and of a friction drive.
 pub const MAX_STAGES: usize = 8;
 
 /// The frames of all links at one angle, in the order of [`Mechanism::links`].
@@ -16,7 +16,7 @@ pub type Frames = heapless::Vec<Frame, MAX_LINKS>;
 
 /// A planar mechanism with one degree of freedom.
 ///
-/// Implement it for a mechanism of your own: everything after it (reduction, tables, model) works unchanged.
+/// Implement it for your own mechanism: the rest (reduction, tables, model) works unchanged.
 pub trait Mechanism {
     /// Mass properties of the moving links.
     fn links(&self) -> &[Link];
@@ -27,34 +27,32 @@ pub trait Mechanism {
     /// Position of every link, with transfer functions, at the drive link's angle `phi` (rad).
     ///
     /// # Errors
-    /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
+    /// A dead point or a position that cannot be assembled; a mechanism checked when created returns neither within its domain.
     fn frames(&self, phi: f64) -> Result<Frames, PoseError>;
 
-    /// The `k`-th of the drive link's positions (rad, or m), neighbours one after the other, where its transfer functions are not smooth,
-    /// such as the ends of a cam's segments: there and between them a table is compared with the machine, however close they
-    /// are. None by default.
+    /// The `k`-th of the drive link's positions (rad, or m), in order, where its transfer functions are not smooth, such as the ends of a cam's
+    /// segments: a table is compared with the machine at and between them, however close they are. The default has no such positions.
     fn edge(&self, _k: usize) -> Option<f64> {
         None
     }
 }
 
-/// A mechanism that knows its joints, so that the force in every joint can be calculated
-/// ([`Machine::forces`](crate::Machine::forces)).
+/// A mechanism with known joints, so that the force in every joint can be calculated ([`Machine::forces`](crate::Machine::forces)).
 pub trait Jointed: Mechanism {
-    /// The joints at the drive link's angle `phi` (rad), where the links are at `frames`. Their number and order do not
-    /// depend on `phi`. Together they leave the links one freedom.
+    /// The joints at the drive link's angle `phi` (rad), with the links at `frames`. Their number and order do not depend on `phi`. Together they
+    /// leave the links one degree of freedom.
     ///
     /// # Errors
-    /// Those of [`frames`](Mechanism::frames).
+    /// As [`frames`](Mechanism::frames).
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError>;
 
-    /// Index of the joint that the drive moves: its coordinate is φ up to a constant.
+    /// Index of the driven joint: its coordinate is φ up to a constant.
     fn drive(&self) -> usize {
         0
     }
 
-    /// Whether the joints alone determine the forces in them at `phi` (rad, or m). A linkage that passes a change point lies flat
-    /// there: its motion goes on, but what guides it carries forces as well. True by default.
+    /// Whether the joints alone determine the forces in them at `phi` (rad, or m). At a change point a linkage's motion continues, but its guide
+    /// carries forces as well. True by default.
     fn determined(&self, _phi: f64) -> bool {
         true
     }

@@ -1,8 +1,8 @@
 //! Machines: links and joints, loads on them, and their reduction to the drive link.
 //!
-//! The second step of the way of the data: a [`Mechanism`] says where its links are, their masses and the loads on them make it
-//! a [`Machine`](crate::Machine), and at every angle it has a [`Reduction`](crate::Reduction): J, J′, J″ and the torque of
-//! the loads. [`motion`] has the laws by which a drive link moves: these alone are there without the feature `mechanics`.
+//! The second step of the data flow. A [`Mechanism`] gives the positions of its links; with their masses and loads it is a
+//! [`Machine`](crate::Machine), which has a [`Reduction`](crate::Reduction) at every angle: J, J′, J″ and the torque of the loads. [`motion`] has the
+//! motion laws of a drive link, the only part available without the feature `mechanics`.
 
 #[cfg(feature = "mechanics")]
 pub(crate) mod element;

@@ -1,4 +1,4 @@
-//! What a table can be made of: anything that can be reduced to one link, and whether it repeats with every turn.
+//! The source of a table: anything that can be reduced to one link, and whether it repeats every turn.
 
 use core::f64::consts::TAU;
 
@@ -19,18 +19,18 @@ pub trait Reducible {
     /// The mechanism cannot be placed there, or the reduced inertia is not positive.
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError>;
 
-    /// The `k`-th of the positions (rad, or m), neighbours one after the other, between which the curves are smooth: the edges of loads and
-    /// [those of the mechanism](Mechanism::edge). A search for the largest error of a table looks there and between them
-    /// ([`edge_places`](crate::tabulate::edge_places)), so that it misses no load, however narrow. None by default.
+    /// The `k`-th of the positions (rad, or m), in order, between which the curves are smooth: the edges of loads and [those of the
+    /// mechanism](Mechanism::edge). A search for the largest error of a table checks at and between them
+    /// ([`edge_places`](crate::tabulate::edge_places)), so that it finds every load, however narrow. The default has no such positions.
     fn edge(&self, _k: usize) -> Option<f64> {
         None
     }
 
-    /// Whether a table of one turn represents every turn: inertia and loads are the same a turn later. Used for a drive link
-    /// that turns fully, before a table is made. This default checks three places.
+    /// Checks that a table of one turn represents every turn: inertia and loads are the same a turn later. Used before a table is made for a drive
+    /// link that turns fully. This default checks three places.
     ///
     /// # Errors
-    /// [`PoseError::NotPeriodic`], with a place where they differ; those of [`reduction`](Self::reduction).
+    /// [`PoseError::NotPeriodic`], with a place where they differ; as [`reduction`](Self::reduction).
     fn check_repeats(&self) -> Result<(), PoseError> {
         for phi in SAMPLES {
             let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
@@ -51,10 +51,10 @@ pub trait Reducible {
     }
 }
 
-/// Places to compare with those a turn later.
+/// Places to compare with the same places a turn later.
 const SAMPLES: [f64; 3] = [0.4, 2.9, 5.1];
 
-/// Largest difference between two turns, of the size compared: roundings of φ + 2π, and of the sums.
+/// Largest relative difference between two turns: rounding of φ + 2π, and of the sums.
 const REPEATS: f64 = 1e-6;
 
 impl<M: Mechanism> Reducible for Machine<M> {
@@ -78,9 +78,9 @@ impl<M: Mechanism> Reducible for Machine<M> {
         })
     }
 
-    /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a
-    /// part of the turn only: a force or a weight of fixed direction needs a link that points the same way again, a spring the
-    /// same length. A load that comes again after some turns only does not repeat.
+    /// Depends on the inertia and on the links' positions a turn later, not on the magnitude of the loads, which may act only in a part of the turn.
+    /// A force or a weight of fixed direction requires a link with the same direction again, a spring the same length. A load with a period of
+    /// several turns does not repeat.
     fn check_repeats(&self) -> Result<(), PoseError> {
         let links = self.mechanism().links();
         let mut windows = self.loads().iter().filter_map(Load::window);

@@ -19,7 +19,7 @@ use crate::machine::mechanism::{Frames, MAX_LINKS, Mechanism};
 use crate::math;
 use crate::number::error::{finite, not_negative};
 
-/// The most loads of a machine.
+/// Greatest number of loads of a machine.
 pub const MAX_LOADS: usize = 16;
 
 /// The reduced link at one position.
@@ -46,7 +46,7 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// A link of the inertia [J, J′, J″] and without loads.
+    /// A link with the inertia [J, J′, J″] and without loads.
     #[must_use]
     pub const fn new([inertia, inertia_slope, inertia_curvature]: [f64; 3]) -> Self {
         Self {
@@ -61,13 +61,13 @@ impl Reduction {
         }
     }
 
-    /// [J, J′, J″], as [`new`](Self::new) takes them.
+    /// [J, J′, J″], as for [`new`](Self::new).
     #[must_use]
     pub const fn inertias(&self) -> [f64; 3] {
         [self.inertia, self.inertia_slope, self.inertia_curvature]
     }
 
-    /// With the potential energy [U, U′] (J, N·m).
+    /// Adds the potential energy [U, U′] (J, N·m).
     #[must_use]
     pub const fn with_potential_energy(self, [energy, slope]: [f64; 2]) -> Self {
         Self {
@@ -77,25 +77,25 @@ impl Reduction {
         }
     }
 
-    /// With a process torque (N·m) in +φ direction.
+    /// Adds a process torque (N·m) in +φ direction.
     #[must_use]
     pub const fn with_process(self, process: f64) -> Self {
         Self { process, ..self }
     }
 
-    /// With b in −b·ω (N·m·s/rad).
+    /// Adds b in −b·ω (N·m·s/rad).
     #[must_use]
     pub const fn with_viscous(self, viscous: f64) -> Self {
         Self { viscous, ..self }
     }
 
-    /// With c in −c·sgn ω (N·m).
+    /// Adds c in −c·sgn ω (N·m).
     #[must_use]
     pub const fn with_coulomb(self, coulomb: f64) -> Self {
         Self { coulomb, ..self }
     }
 
-    /// The part of the reduced torque that does not depend on ω: −U′ + process (N·m).
+    /// The part of the reduced torque that is independent of ω: −U′ + process (N·m).
     #[must_use]
     pub fn load_torque(&self) -> f64 {
         self.process - self.potential_slope
@@ -107,7 +107,7 @@ impl Reduction {
         self.load_torque() - self.viscous * omega - self.coulomb * math::sign(omega)
     }
 
-    /// Drive torque that the motion (ω, α) needs, term by term.
+    /// Drive torque for the motion (ω, α), term by term.
     #[must_use]
     pub fn torque(&self, omega: f64, alpha: f64) -> TorqueTerms {
         TorqueTerms {
@@ -120,7 +120,7 @@ impl Reduction {
         }
     }
 
-    /// Acceleration α (rad/s²) that the drive torque `torque` (N·m) gives at speed ω (7.12).
+    /// Acceleration α (rad/s²) by the drive torque `torque` (N·m) at speed ω (7.12).
     #[must_use]
     pub fn acceleration(&self, omega: f64, torque: f64) -> f64 {
         (torque + self.reduced_torque(omega) - 0.5 * self.inertia_slope * omega * omega)
@@ -128,7 +128,7 @@ impl Reduction {
     }
 }
 
-/// The drive torque of a motion, term by term (N·m). Their sum is what the drive must give at the drive link.
+/// The drive torque for a motion, term by term (N·m). Their sum is the torque on the drive link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueTerms {
@@ -199,7 +199,7 @@ impl<M: Mechanism> Machine<M> {
         }
     }
 
-    /// With gravity, as an acceleration vector (m/s²) in the mechanism's coordinates.
+    /// Adds gravity, as an acceleration vector (m/s²) in the mechanism's coordinates.
     ///
     /// # Errors
     /// A component that is not finite.
@@ -211,8 +211,7 @@ impl<M: Mechanism> Machine<M> {
         Ok(self)
     }
 
-    /// With an inertia (kg·m²) that turns with the drive link: a flywheel, or the drive train reduced to the drive
-    /// link. Repeated calls add up.
+    /// Adds an inertia (kg·m²) that turns with the drive link: a flywheel, or the drive train reduced to the drive link. Repeated calls add up.
     ///
     /// # Errors
     /// An inertia negative or not finite.
@@ -221,7 +220,7 @@ impl<M: Mechanism> Machine<M> {
         Ok(self)
     }
 
-    /// With one more load.
+    /// Adds a load.
     ///
     /// # Errors
     /// A link that does not exist, or more than [`MAX_LOADS`] loads.
@@ -234,7 +233,7 @@ impl<M: Mechanism> Machine<M> {
         Ok(self)
     }
 
-    /// With one more spring or damper.
+    /// Adds a spring or damper.
     ///
     /// # Errors
     /// A link that does not exist, or more than [`MAX_ELEMENTS`] elements.
@@ -269,7 +268,7 @@ impl<M: Mechanism> Machine<M> {
         &self.loads
     }
 
-    /// The positions (rad, or m) at which the loads begin, reach their full value, begin to fall and end.
+    /// The positions (rad, or m) where the loads begin, reach their full value, begin to fall and end.
     pub fn load_edges(&self) -> impl Iterator<Item = f64> {
         let windows = self.loads.iter().filter_map(Load::window);
         windows.flat_map(|window| window.edges())
@@ -299,7 +298,7 @@ impl<M: Mechanism> Machine<M> {
         Ok(self.each_link(&frames).collect())
     }
 
-    /// The reduced link at `phi` (rad), with any inertia: if only the slider has mass, it is zero at the dead centres.
+    /// The reduced link at `phi` (rad), for any inertia: if only the slider has mass, it is zero at the dead centres.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.

@@ -6,10 +6,10 @@
 //! x = h·φ/2π        J_red = J₁ + m₂·(h/2π)²        h: lead, the nut's travel a turn
 //! ```
 //!
-//! The screw's axis lies *in* the plane, along x; its link turns by φ in the reduction's sense, as the shafts of a train do.
-//! The nut does not come back after a turn, but J and every force of a constant load repeat, so the drive link's range is a
-//! turn. U grows with every turn when gravity has a component along the screw. A spring on the nut does not repeat: with a
-//! spring, the reduction is right at every φ, but must not be tabulated over a turn.
+//! The screw's axis lies *in* the plane, along x; its link turns by φ in the reduction's sense, like the shafts of a train. The nut does not return
+//! after a turn, but J and every force of a constant load are periodic, so that the drive link's range is a turn. U grows with every turn when
+//! gravity has a component along the screw. A spring on the nut is not periodic: the reduction is then right at every φ, but must not be tabulated
+//! over a turn.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -41,7 +41,7 @@ impl BallScrew {
     /// Index of the nut.
     pub const NUT: usize = 1;
 
-    /// A screw drive with the `lead` h (m a turn; negative: φ > 0 moves the nut along −x) and the links screw, nut.
+    /// A screw drive with the `lead` h (m per turn; negative: φ > 0 moves the nut along −x) and the links screw, nut.
     ///
     /// # Errors
     /// A lead of zero or not finite; a screw whose centre of mass is off its axis.
@@ -51,12 +51,12 @@ impl BallScrew {
         Ok(Self { lead, links })
     }
 
-    /// Lead h (m a turn).
+    /// Lead h (m per turn).
     pub const fn lead(&self) -> f64 {
         self.lead
     }
 
-    /// h/2π: travel of the nut over angle of the screw (m/rad).
+    /// h/2π: travel of the nut per angle of the screw (m/rad).
     #[must_use]
     pub fn transmission(&self) -> f64 {
         self.lead / TAU
@@ -64,9 +64,9 @@ impl BallScrew {
 }
 
 impl Jointed for BallScrew {
-    /// Bearings: ground and screw, which carry the thrust as a force along x; guide: ground and nut, its moment about the
-    /// origin of the nut's frame; thread: the axial force on the nut. The guide also takes the thread's torque F·h/2π about
-    /// the screw's axis, which is not in the plane of the forces.
+    /// Bearings: ground and screw, with the thrust as a force along x; guide: ground and nut, with its moment about the origin of the nut's frame;
+    /// thread: the axial force on the nut. The guide also takes the thread's torque F·h/2π about the screw's axis, which is not in the plane of the
+    /// forces.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let on_nut = Wrench::force(Body::Link(Self::NUT), origin, [1.0, 0.0]);

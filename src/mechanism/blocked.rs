@@ -10,17 +10,17 @@ use crate::number::error::{Curable, error};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Blocked {
-    /// A four-bar whose crank is not free to turn.
+    /// A four-bar whose crank cannot turn freely.
     FourBar {
         /// Lengths of crank, coupler, rocker and ground (m).
         lengths: [f64; 4],
-        /// Crank angles (rad) between which it moves. Where there are two such ranges, mirror images at the line of the
-        /// pivots, the one to the left of it.
+        /// Crank angles (rad) between which it moves. If there are two such ranges, symmetric about the line of the pivots, the one to the left of
+        /// it.
         reach: [f64; 2],
     },
     /// A four-bar with a link as long as the others together.
     Apart {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// Its length (m).
         length: f64,
@@ -34,13 +34,13 @@ pub enum Blocked {
     },
     /// The link to a slider no longer reaches the guide.
     TooShort {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// The first crank angle (rad, from 0) at which it fails.
         phi: f64,
         /// It must be longer than this (m).
         shortest: f64,
-        /// Crank angles (rad) between which it reaches the guide, those around φ = 0 or the first behind; `None`: nowhere.
+        /// Crank angles (rad) between which it reaches the guide: the range around φ = 0, or the first after it; `None`: nowhere.
         reach: Option<[f64; 2]>,
     },
 }

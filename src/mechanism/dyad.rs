@@ -1,14 +1,13 @@
-//! Pairs of links that close a chain (dyads, Assur groups of the second class): the position of two links from the
-//! places of their outer joints.
+//! Pairs of links that close a chain (dyads, Assur groups of the second class): the position of two links from the positions of their outer joints.
 
 use crate::machine::link::Frame;
 use crate::number::transfer::Transfer;
 
-/// On which side of a directed line the pin between two links lies: a pair of links can be put together in two ways.
+/// The side of a directed line on which the pin between two links lies: a pair of links can be assembled in two ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Side {
-    /// To the left, looking along the line.
+    /// To the left, in the direction of the line.
     #[default]
     Left,
     /// To the right.
@@ -16,7 +15,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// +1 for left, −1 for right: the sign of the cross product of the line with the way to the pin.
+    /// +1 for left, −1 for right: the sign of the cross product of the line and the vector to the pin.
     pub(super) const fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,
@@ -53,7 +52,7 @@ pub(super) fn pinned(
     Some(placed([a, c], ([x, y], square), lengths, q))
 }
 
-/// The two links of [`pinned`] where AC with its square f² > 0, and q, of either sign or zero, are known already.
+/// The two links of [`pinned`] with known AC, its square f² > 0, and q, of either sign or zero.
 #[inline(always)]
 pub(super) fn placed(
     [a, c]: [[Transfer; 2]; 2],
@@ -75,9 +74,8 @@ pub(super) fn placed(
     [from_a, Frame::moving(c, sin, cos)]
 }
 
-/// A link from the pin B to a slider whose pin runs on the line y = `guide`: frames of the link (at B, towards the
-/// slider) and of the slider. `sign` is that of the link's cosine: +1 with the slider on the right of B. The link's
-/// angle stays within a quarter turn of 0 or π.
+/// A link from the pin B to a slider whose pin moves on the line y = `guide`: frames of the link (at B, towards the slider) and of the slider. `sign`
+/// is the sign of the link's cosine: +1 with the slider on the right of B. The link's angle stays within a quarter turn of 0 or π.
 ///
 /// `None` if the link is perpendicular to the guide, or does not reach it.
 pub(super) fn sliding(b: [Transfer; 2], length: f64, guide: f64, sign: f64) -> Option<[Frame; 2]> {

@@ -1,4 +1,4 @@
-//! Why dimensions do not make a mechanism.
+//! Why dimensions do not form a mechanism.
 
 use core::fmt;
 
@@ -6,14 +6,14 @@ use super::{Blocked, Misfit};
 use crate::machine::PoseError;
 use crate::number::error::{Curable, RangeError, error};
 
-/// Why a mechanism of the library cannot be built.
+/// Why a mechanism of the library cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum BuildError {
     /// A dimension outside its range.
     Range(RangeError),
-    /// A position within the drive's range that cannot be taken.
+    /// An impossible position within the drive's range.
     Pose(PoseError),
     /// Dimensions that do not fit together.
     Misfit(Misfit),

@@ -13,9 +13,9 @@
 //! The formulas are those of Sclater and Chironis, *Mechanisms and mechanical devices sourcebook*, "Kinematics of
 //! intermittent mechanisms", with m for 1/m.
 //!
-//! **How smooth it is.** At entry and exit ψ′ = 0, and |ψ″| jumps between 0 and tan(π/n). J = J₁ + J₂·ψ′² and
-//! J′ = 2·J₂·ψ′·ψ″ are continuous, J″ = 2·J₂·(ψ″² + ψ′·ψ‴) jumps by 2·J₂·tan²(π/n). The torque on the crank has no
-//! step, the force on the pin has one: its lever arm about C is not zero.
+//! **Smoothness.** At entry and exit ψ′ = 0, and |ψ″| jumps between 0 and tan(π/n). J = J₁ + J₂·ψ′² and J′ = 2·J₂·ψ′·ψ″ are continuous, J″ =
+//! 2·J₂·(ψ″² + ψ′·ψ‴) jumps by 2·J₂·tan²(π/n). The torque on the crank has no step; the force on the pin has one, because its lever arm about C is
+//! not zero.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -31,13 +31,12 @@ use crate::{Domain, math};
 
 /// An external Geneva drive, driven at the crank, which turns fully.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`WHEEL`](Self::WHEEL) (frame at C, u along slot 0; slot k lies at
-/// 2πk/n). Turn k of the crank, from φ = 2πk − π to 2πk + π, engages slot k and advances the wheel by −2π/n: against the
-/// crank. So ψ does not repeat with the crank's turn, but J, and every joint's force, do: the wheel looks the same n
-/// times a turn, provided that its centre of mass lies on its axis.
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`WHEEL`](Self::WHEEL) (frame at C, u along slot 0; slot k lies at 2πk/n). Turn k of the
+/// crank, from φ = 2πk − π to 2πk + π, engages slot k and advances the wheel by −2π/n: against the crank. So ψ is not periodic with the crank's turn,
+/// but J and the force in every joint are, provided that the wheel's centre of mass lies on its axis: the wheel has n-fold symmetry.
 ///
-/// Accuracy: within thirty turns of φ = 0, ψ, ψ′ and ψ″ agree with the formulas above to 1e-12 of the next derivative's largest
-/// value, at least 1 (test `wheel_textbook`).
+/// Accuracy: within thirty turns of φ = 0, ψ, ψ′ and ψ″ agree with the formulas above to 1e-12 of the next derivative's largest value, at least 1
+/// (test `wheel_textbook`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geneva {
     slots: u32,
@@ -51,16 +50,16 @@ impl Geneva {
     pub const CRANK: usize = 0;
     /// Index of the wheel.
     pub const WHEEL: usize = 1;
-    /// Fewest slots: with two, the pin would have to pass the wheel's axis.
+    /// Least number of slots: with two, the pin would have to pass the wheel's axis.
     pub const MIN_SLOTS: u32 = 3;
-    /// Most slots.
+    /// Greatest number of slots.
     pub const MAX_SLOTS: u32 = 24;
 
     /// A Geneva drive with `slots` n, the distance `centres` a of the two axes (m) and the links crank, wheel.
     ///
     /// # Errors
-    /// A number of slots outside 3 to 24; a distance that is not positive; a wheel whose centre of mass is off its axis:
-    /// its weight would repeat only after n turns of the crank.
+    /// A number of slots outside 3 to 24; a distance that is not positive; a wheel whose centre of mass is off its axis, because its weight would
+    /// only be periodic over n turns of the crank.
     pub fn new(slots: u32, centres: f64, links: [Link; 2]) -> Result<Self, BuildError> {
         let [min, max] = [Self::MIN_SLOTS, Self::MAX_SLOTS].map(f64::from);
         within("number of slots", f64::from(slots), [min, max])?;
@@ -90,7 +89,7 @@ impl Geneva {
         self.crank
     }
 
-    /// Angle π − 2π/n (rad) of the crank's turn in which the wheel moves, half of it on either side of φ = 0.
+    /// Angle π − 2π/n (rad) of the crank's turn in which the wheel moves, half of it on each side of φ = 0.
     #[must_use]
     pub fn engagement(&self) -> f64 {
         PI - TAU / f64::from(self.slots)
@@ -114,7 +113,7 @@ impl Geneva {
         m * (1.0 - m * m) * sin / (square * square)
     }
 
-    /// Which turn of the crank, and whether the pin is engaged (`None`) or on which side of the engagement it is (∓1).
+    /// The turn of the crank, and whether the pin is engaged (`None`) or before or after the engagement (∓1).
     fn place(&self, phi: f64) -> (f64, Option<f64>) {
         let turn = math::floor(phi / TAU + 0.5);
         let angle = phi - turn * TAU;
@@ -122,7 +121,7 @@ impl Geneva {
         (turn, dwell)
     }
 
-    /// Angle of the slot (rad) that turn number `turn` of the crank engages, in the wheel's frame.
+    /// Angle of the slot (rad) engaged in turn number `turn` of the crank, in the wheel's frame.
     fn slot(&self, turn: f64) -> f64 {
         let slots = f64::from(self.slots);
         let index = turn - slots * math::floor(turn / slots);
@@ -131,9 +130,9 @@ impl Geneva {
 }
 
 impl Jointed for Geneva {
-    /// O: ground and crank; C: ground and wheel; and the lock of the wheel: the pin in the engaged slot, or in the dwell the
-    /// crank's locking arc, with a moment. The arc is round O, so it takes no moment from the crank; the pair of bearing
-    /// forces that belongs to the wheel's moment depends on where in its play the arc touches, and is left out.
+    /// O: ground and crank; C: ground and wheel; and the lock of the wheel: the pin in the engaged slot, or in the dwell the crank's locking arc,
+    /// with a moment. The arc is concentric with O, so that it takes no moment from the crank. The pair of bearing forces belonging to the wheel's
+    /// moment is omitted: it depends on where the arc touches within its play.
     fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let (turn, dwell) = self.place(finite("crank angle", phi)?);
@@ -168,7 +167,7 @@ impl Mechanism for Geneva {
         Domain::Turn
     }
 
-    /// Where the pin leaves the slot, and where it enters it.
+    /// The places where the pin leaves the slot, and where it enters it.
     fn edge(&self, k: usize) -> Option<f64> {
         let half = self.engagement() / 2.0;
         [half, TAU - half].get(k).copied()

@@ -4,12 +4,10 @@ use core::fmt;
 
 /// The kinds of four-bar linkage by the lengths of their links.
 ///
-/// Let s be the shortest and l the longest of the four lengths, p and q the others. If s + l < p + q (Grashof), the
-/// shortest link turns fully against all others; if s + l > p + q none does; if both are equal the linkage can flatten
-/// into one line, where its motion is not determined.
+/// Let s be the shortest and l the longest of the four lengths, p and q the others. If s + l < p + q (Grashof), the shortest link turns fully against
+/// all others; if s + l > p + q no link does; if both are equal the linkage can flatten into one line, where its motion is not determined.
 ///
-/// F. Grashof, *Theoretische Maschinenlehre*, volume 2 (1883); K. Luck, K.-H. Modler, *Getriebetechnik*, section on
-/// four-bar linkages.
+/// F. Grashof, *Theoretische Maschinenlehre*, volume 2 (1883); K. Luck, K.-H. Modler, *Getriebetechnik*, section on four-bar linkages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Grashof {
@@ -21,9 +19,9 @@ pub enum Grashof {
     RockerCrank,
     /// The coupler is the shortest link: it turns fully, crank and rocker swing.
     DoubleRocker,
-    /// s + l > p + q: nothing turns fully.
+    /// s + l > p + q: no link turns fully.
     TripleRocker,
-    /// s + l = p + q: the linkage can flatten. Parallelogram, antiparallelogram and kite are of this kind.
+    /// s + l = p + q: the linkage can flatten, like parallelogram, antiparallelogram and kite.
     ChangePoint,
 }
 
@@ -31,8 +29,8 @@ pub enum Grashof {
 pub(super) const NAMES: [&str; 4] = ["crank", "coupler", "rocker", "ground"];
 
 impl Grashof {
-    /// The kind of the four-bar with these `lengths` of crank, coupler, rocker and ground (m). Sums that differ by less
-    /// than 1e-12 of themselves count as equal (test `grashof_does_not_depend_on_the_size`).
+    /// The kind of the four-bar with these `lengths` of crank, coupler, rocker and ground (m). Sums with a relative difference below 1e-12 count as
+    /// equal (test `grashof_does_not_depend_on_the_size`).
     #[must_use]
     pub fn of(lengths: [f64; 4]) -> Self {
         let [shortest, _, _, longest] = order(lengths);
@@ -67,10 +65,9 @@ fn order(lengths: [f64; 4]) -> [usize; 4] {
     order
 }
 
-/// Why the crank of the four-bar with these lengths does not turn fully, in words.
+/// Why the crank of the four-bar with these lengths does not turn fully, as text.
 pub(crate) struct Cause(pub(crate) [f64; 4]);
 
-/// What to do about it.
 pub(crate) struct Remedy(pub(crate) [f64; 4]);
 
 impl fmt::Display for Cause {
@@ -95,7 +92,7 @@ impl fmt::Display for Cause {
                 "by Grashof's condition only the shortest link can, the {shortest} of {:.6} m",
                 lengths[s]
             ),
-            // Not a reason; said as it is.
+            // Not a reason, but the message is true.
             Grashof::CrankRocker | Grashof::DoubleCrank => write!(
                 f,
                 "{shortest} + {longest} = {ends:.6} m is within a rounding of {middle} + {other} = {others:.6} m"

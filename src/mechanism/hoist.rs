@@ -1,20 +1,20 @@
 //! The hoist in closed form: a drum (or traction sheave) with a load and, optionally, a counterweight on ropes.
 //!
-//! Drum axis O = (0, 0). The load's rope leaves the drum at (R₁, 0), the counterweight's at (−R₂, 0), and both are vertical, along
-//! y. A load that hangs from n falls of a rope (a tackle) rises by R·φ/n:
+//! Drum axis O = (0, 0). The load's rope leaves the drum at (R₁, 0), the counterweight's at (−R₂, 0); both are vertical, along y. A load on n falls
+//! of a rope (a tackle) rises by R·φ/n:
 //!
 //! ```text
 //! y₁ = R₁·φ/n₁        y₂ = −R₂·φ/n₂
 //! J_red = J₀ + m₁·(R₁/n₁)² + m₂·(R₂/n₂)²        U′ = g·(m₁·R₁/n₁ − m₂·R₂/n₂), the drum balanced, gravity along −y
 //! ```
 //!
-//! The load does not come back after a turn, but J, U′ and every force repeat, so the drive link's range is a turn; U itself
-//! grows with every turn. A spring on the load does not repeat: with a spring, the reduction is right at every φ, but must not
-//! be tabulated over a turn. The ropes are light, inextensible, taut, and always on the same radius: the weight of
-//! long ropes, and the layers of a drum that winds in a spiral, change with the height and are not in this mechanism.
+//! The load does not return after a turn, but J, U′ and every force are periodic, so that the drive link's range is a turn; U itself grows with every
+//! turn. A spring on the load is not periodic: the reduction is then right at every φ, but must not be tabulated over a turn. The ropes are light,
+//! inextensible, taut, and always on the same radius: the weight of long ropes, and the layers of a spirally winding drum, change with the height and
+//! are not modelled.
 //!
-//! Lifting drums with and without a counterweight are worked examples of reduction in any course of machine dynamics,
-//! the belt over pulleys of Nazarenko, *Dynamics of mechanisms* (2002), (5.9)-(5.16) among them.
+//! Lifting drums with and without a counterweight are worked examples of reduction in any course of machine dynamics, such as the belt over pulleys
+//! of Nazarenko, *Dynamics of mechanisms* (2002), (5.9)-(5.16).
 
 use crate::Domain;
 use crate::machine::error::PoseError;
@@ -25,7 +25,7 @@ use crate::number::error::RangeError;
 use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
 
-/// One rope of a hoist: where it runs on the drum, and by how many falls it carries its load.
+/// One rope of a hoist: its radius on the drum, and the number of falls that carry its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rope {
@@ -34,7 +34,7 @@ pub struct Rope {
 }
 
 impl Rope {
-    /// Most falls of a tackle.
+    /// Greatest number of falls of a tackle.
     pub const MAX_FALLS: u32 = 24;
 
     /// A rope at the `radius` R of the drum (m, to the rope's centre line) whose load hangs from `falls` n.
@@ -58,14 +58,14 @@ impl Rope {
         self.falls
     }
 
-    /// R/n: travel of the load over angle of the drum (m/rad).
+    /// R/n: travel of the load per angle of the drum (m/rad).
     #[must_use]
     pub fn transmission(&self) -> f64 {
         self.radius / f64::from(self.falls)
     }
 }
 
-/// What hangs on a rope of a hoist: the load, with hook and lower block, or the counterweight.
+/// The load on a rope of a hoist, with hook and lower block, or the counterweight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Suspended {
     /// The rope.
@@ -76,12 +76,11 @@ pub struct Suspended {
 
 /// A hoist, driven at the drum. φ > 0 lifts the load.
 ///
-/// Links: [`DRUM`](Self::DRUM) (frame at O, u along +x at φ = 0), [`LOAD`](Self::LOAD) (with hook and lower block, frame on
-/// its rope, parallel to the global axes, at y = 0 for φ = 0) and, if there is one, [`COUNTERWEIGHT`](Self::COUNTERWEIGHT)
-/// (likewise).
+/// Links: [`DRUM`](Self::DRUM) (frame at O, u along +x at φ = 0), [`LOAD`](Self::LOAD) (with hook and lower block, frame on its rope, parallel to the
+/// global axes, at y = 0 for φ = 0) and, if there is one, [`COUNTERWEIGHT`](Self::COUNTERWEIGHT) (likewise).
 ///
-/// The inertia of a tackle's sheaves is not in the links: sheave number k from the rope's fixed end, of n − 1, turns by
-/// k·R/(n·r) for each radian of the drum, r its radius; J·(k·R/(n·r))² belongs to the flywheel.
+/// The links do not include the inertia of a tackle's sheaves: sheave number k from the rope's fixed end, of n − 1, turns by k·R/(n·r) for each
+/// radian of the drum, r its radius. Add J·(k·R/(n·r))² to the flywheel.
 ///
 /// Accuracy: 1e-13 (test `hoist_textbook`).
 #[derive(Clone, Debug, PartialEq)]
@@ -121,17 +120,15 @@ impl Hoist {
         &self.ropes
     }
 
-    /// Which side of the drum the rope number `index` runs on: +1 for the load, which φ > 0 lifts, −1 for the
-    /// counterweight.
+    /// The side of the drum with rope number `index`: +1 for the load, which φ > 0 lifts, −1 for the counterweight.
     const fn side(index: usize) -> f64 {
         if index == 0 { 1.0 } else { -1.0 }
     }
 }
 
 impl Jointed for Hoist {
-    /// O: ground and drum; the guide of the load and that of the counterweight; the rope of the load and that of the
-    /// counterweight. A rope's force is that with which it pulls the drum down where it leaves it, so a negative y component
-    /// is a taut rope; its load hangs from n times as much.
+    /// O: ground and drum; the guides of the load and of the counterweight; the ropes of the load and of the counterweight. The force of a rope pulls
+    /// the drum down where the rope leaves it, so that a taut rope has a negative y component; the load hangs from n times as much.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing = Joint::Revolute([
             Marker::ground([0.0, 0.0]),

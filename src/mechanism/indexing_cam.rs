@@ -1,5 +1,4 @@
-//! The indexing cam: a cam shaft that turns fully, and a table that a globoid or parallel cam moves on by one station and then
-//! locks.
+//! The indexing cam: a cam shaft that turns fully, and a table that a globoid or parallel cam advances by one station and then locks.
 //!
 //! ```text
 //! index, φ from 0 to β:     ψ = h·S(φ/β)        ψ′ = h/β·S′        ψ″ = h/β²·S″        ψ‴ = h/β³·S‴
@@ -7,12 +6,12 @@
 //! J_red = J₁ + J₂·ψ′²       J_red′ = 2·J₂·ψ′·ψ″
 //! ```
 //!
-//! h = ±2π/n for n stops, S is the motion law. With C_v, C_a and C_Mdyn of the law, the table has at most the speed C_v·h/β·ω and the
-//! acceleration C_a·h/β²·ω² at the constant speed ω of the cam shaft, and takes at most the torque C_Mdyn·J₂·h²/β³·ω² from it. These are the
-//! figures that makers of indexing drives reckon with.
+//! h = ±2π/n for n stops; S is the motion law. With C_v, C_a and C_Mdyn of the law, at the constant speed ω of the cam shaft the table has at most
+//! the speed C_v·h/β·ω and the acceleration C_a·h/β²·ω², and takes at most the torque C_Mdyn·J₂·h²/β³·ω² from the cam shaft. Makers of indexing
+//! drives use these figures.
 //!
-//! The cam's surface is not needed for that: whether the shafts cross (globoid and barrel cams) or are parallel, the rollers of the
-//! table follow the law. The force on a roller is the table's moment over its pitch radius.
+//! The cam's surface is not needed for that: with crossed shafts (globoid and barrel cams) or parallel ones, the rollers of the table follow the law.
+//! The force on a roller is the table's moment over its pitch radius.
 
 use core::f64::consts::TAU;
 
@@ -28,17 +27,17 @@ use crate::number::error::{finite, within};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
-/// What the cam makes of a turn of its shaft.
+/// Motion of the table over a turn of the cam shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct IndexingCamDimensions {
-    /// Number n of stops in a turn of the table.
+    /// Number n of stops per turn of the table.
     pub stops: u32,
-    /// Index angle β: angle of the cam shaft (rad) in which the table moves on by one stop.
+    /// Index angle β: angle of the cam shaft (rad) in which the table advances by one stop.
     pub index: f64,
-    /// Indexes a turn of the cam shaft; 1 for most cams.
+    /// Indexes per turn of the cam shaft; 1 for most cams.
     pub indexes: u32,
-    /// Whether the table turns against the cam shaft, in the plane that jred draws both in.
+    /// Whether the table turns against the cam shaft, in the plane of the drawing.
     pub reverses: bool,
     /// The motion law.
     pub law: Law,
@@ -46,8 +45,8 @@ pub struct IndexingCamDimensions {
 
 /// An indexing drive: a cam shaft, and a table on followers.
 ///
-/// Links: [`CAM`](Self::CAM), [`TABLE`](Self::TABLE), both frames at the origin: the drive has ratios and no places. An index begins at
-/// φ = 0. The table does not come back after a turn of the cam shaft, so it must be balanced; J and every moment repeat.
+/// Links: [`CAM`](Self::CAM), [`TABLE`](Self::TABLE), both frames at the origin: the drive has ratios, but no positions. An index begins at φ = 0.
+/// The table does not return after a turn of the cam shaft, and must be balanced; J and every moment are periodic.
 ///
 /// Accuracy: within thirty turns of φ = 0, ψ to ψ″ agree with the formulas above to 1e-12 of the next derivative's largest value, at least
 /// 1 (test `table_textbook`).
@@ -63,16 +62,16 @@ impl IndexingCam {
     pub const CAM: usize = 0;
     /// Index of the table.
     pub const TABLE: usize = 1;
-    /// Most stops.
+    /// Greatest number of stops.
     pub const MAX_STOPS: u32 = 360;
-    /// Most indexes a turn of the cam shaft.
+    /// Greatest number of indexes per turn of the cam shaft.
     pub const MAX_INDEXES: u32 = 8;
 
     /// An indexing drive of these `dimensions` with the links cam shaft, table.
     ///
     /// # Errors
-    /// A number of stops outside 1 to 360, of indexes outside 1 to 8; an index angle that is not above 0 and at most 2π over the
-    /// indexes; a law that is not valid; a table whose centre of mass is off its axis.
+    /// A number of stops outside 1 to 360, or of indexes outside 1 to 8; an index angle that is not positive or exceeds 2π over the number of
+    /// indexes; an invalid law; a table whose centre of mass is off its axis.
     pub fn new(dimensions: IndexingCamDimensions, links: [Link; 2]) -> Result<Self, BuildError> {
         let IndexingCamDimensions {
             stops,
@@ -104,7 +103,7 @@ impl IndexingCam {
         self.segment.angle
     }
 
-    /// Angle h (rad) by which the table goes on in an index, negative against the cam shaft.
+    /// Angle h (rad) by which the table advances in an index, negative if against the cam shaft.
     pub const fn step(&self) -> f64 {
         self.segment.rise
     }
@@ -130,8 +129,8 @@ impl IndexingCam {
 }
 
 impl Jointed for IndexingCam {
-    /// The bearings of cam shaft and table, and the cam: the moment on the table, and ψ′ times it back on the cam shaft; in the dwell the
-    /// moment that locks the table.
+    /// The bearings of cam shaft and table, and the cam: the moment on the table, and ψ′ times it on the cam shaft in return; in the dwell the moment
+    /// that locks the table.
     fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let slope = self.table(finite("cam shaft angle", phi)?).d1;
         let bearing =
@@ -156,7 +155,7 @@ impl Mechanism for IndexingCam {
         Domain::Turn
     }
 
-    /// Where an index begins and ends, and where a derivative of its law jumps.
+    /// Start and end of an index, and the jumps of a derivative of its law.
     fn edge(&self, k: usize) -> Option<f64> {
         let breaks = self.segment.breaks();
         let places = || {

@@ -1,19 +1,17 @@
 //! The inverted slider-crank in closed form: crank, block, slotted lever.
 //!
-//! Crank pivot O = (0, 0), crank pin A = r·(cos φ, sin φ) with a block that slides in the slot of a lever; the lever turns
-//! about the fixed point C, which the slot's centre line passes at the distance e. In the lever's frame at C, u along
-//! the slot, A = (s, e):
+//! Crank pivot O = (0, 0), crank pin A = r·(cos φ, sin φ) with a block that slides in the slot of a lever; the lever turns about the fixed point C,
+//! at the distance e from the slot's centre line. In the lever's frame at C, u along the slot, A = (s, e):
 //!
 //! ```text
 //! d = A − C        s = √(|d|² − e²)        cos ψ = (s·d_x + e·d_y)/|d|²        sin ψ = (s·d_y − e·d_x)/|d|²
 //! ```
 //!
-//! The lever rocks for |OC| > r + |e| (crank and slotted lever, the quick-return motion of a shaper) and turns fully
-//! for |OC| < r − |e| (Whitworth's motion). Between the two the slot cannot follow the pin through the whole turn: |d|
-//! falls to |e|, a change point.
+//! The lever rocks for |OC| > r + |e| (crank and slotted lever, the quick-return motion of a shaper) and turns fully for |OC| < r − |e| (Whitworth's
+//! motion). In between, the slot cannot follow the pin through the whole turn: |d| falls to |e|, a change point.
 //!
-//! The inversion of the slider-crank and its time ratio for e = 0 are in any textbook of mechanisms, such as Norton,
-//! *Design of machinery*, chapter 3; the formulas with e are derived at [`InvertedSliderCrank::swing`].
+//! The inversion of the slider-crank and its time ratio for e = 0 are in textbooks of mechanisms, such as Norton, *Design of machinery*, chapter 3;
+//! [`InvertedSliderCrank::swing`] derives the formulas with e.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -28,13 +26,13 @@ use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
-/// How the slotted lever moves.
+/// Motion of the slotted lever.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum LeverMotion {
     /// It rocks: |OC| > r + |e|; over a stroke |OC| ≥ r.
     Rocking,
-    /// It turns fully, once with every turn of the crank: |OC| < r − |e|; over a stroke it turns with it, |OC| < r.
+    /// It turns fully, once per turn of the crank: |OC| < r − |e|; over a stroke it turns with the crank, |OC| < r.
     Turning,
 }
 
@@ -44,8 +42,7 @@ pub enum LeverMotion {
 pub struct InvertedSliderCrankDimensions {
     /// Crank length r > 0.
     pub crank: f64,
-    /// Pivot C = [x, y] of the lever, the crank's being [0, 0]: farther than r + |e| for a lever that rocks, nearer than
-    /// r − |e| for one that turns.
+    /// Pivot C = [x, y] of the lever, with the crank's at [0, 0]: at more than r + |e| for a lever that rocks, less than r − |e| for one that turns.
     pub pivot: [f64; 2],
     /// Offset e of the slot from C, towards the lever's +v.
     pub offset: f64,
@@ -53,11 +50,10 @@ pub struct InvertedSliderCrankDimensions {
 
 /// An inverted slider-crank, driven at the crank, which turns fully or swings over a stroke.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`BLOCK`](Self::BLOCK) (frame at A, u along the slot),
-/// [`LEVER`](Self::LEVER) (frame at C, u along the slot, from C towards the block; the slot lies at v = e). The other
-/// side of the slot's centre line is the same machine with −e.
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`BLOCK`](Self::BLOCK) (frame at A, u along the slot), [`LEVER`](Self::LEVER) (frame at C, u
+/// along the slot, from C towards the block; the slot lies at v = e). The same machine with −e has the slot on the other side.
 ///
-/// ψ of a rocking lever stays within 180° of the direction from C to O, that of a turning lever within 180° of φ.
+/// ψ of a rocking lever stays within 180° of the direction from C to O, ψ of a turning lever within 180° of φ.
 ///
 /// Accuracy: 1e-12 against the half-angle and inverse forms (tests `rocking_lever_textbook`, `turning_lever_textbook`).
 #[derive(Clone, Debug, PartialEq)]
@@ -82,8 +78,8 @@ impl InvertedSliderCrank {
     /// An inverted slider-crank of these dimensions, with the links crank, block, lever.
     ///
     /// # Errors
-    /// A crank that is not positive; a length not finite; a pivot between the two ranges of distance, where the slot
-    /// cannot follow the pin through the whole turn.
+    /// A crank that is not positive; a length not finite; a pivot between the two ranges of distance, where the slot cannot follow the pin through
+    /// the whole turn.
     pub fn new(
         dimensions: InvertedSliderCrankDimensions,
         links: [Link; 3],
@@ -91,7 +87,7 @@ impl InvertedSliderCrank {
         let bare = Self::bare(dimensions, links)?;
         let (crank, centres, width) =
             (dimensions.crank, bare.centres, math::abs(dimensions.offset));
-        // A hair of distance, so that rounding of |d|² − e² makes no angle fail later.
+        // A margin, so that rounding of |d|² − e² cannot make an angle fail later.
         let hair = reach::HAIR * (crank + width);
         let (rocking, turning) = (crank + width, crank - width);
         if centres > rocking + hair || centres < turning - hair {
@@ -105,12 +101,12 @@ impl InvertedSliderCrank {
         .into())
     }
 
-    /// An inverted slider-crank whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose slot follows the crank pin
-    /// all the way. The rest as for [`new`](Self::new).
+    /// An inverted slider-crank whose crank only swings over a `stroke` `[from, to]` (rad): any lengths whose slot follows the crank pin all the way.
+    /// The rest as for [`new`](Self::new).
     ///
     /// # Errors
-    /// A crank that is not positive; a length not finite; a stroke that is empty; a start where the slot does not meet the pin; a dead
-    /// point in the stroke, where the pin is at the distance |e| from C, with its angle.
+    /// A crank that is not positive; a length not finite; an empty stroke; a start where the slot does not meet the pin; a dead point in the stroke,
+    /// where the pin is at the distance |e| from C, with its angle.
     pub fn over_stroke(
         dimensions: InvertedSliderCrankDimensions,
         stroke: [f64; 2],
@@ -123,14 +119,14 @@ impl InvertedSliderCrank {
         let [u, v] = [crank * cos - x, crank * sin - y];
         let size = crank + centres;
         let gap = math::abs(dimensions.offset) - math::sqrt(u * u + v * v);
-        // The pin nearer to C than |e|, kept off by a hair: cos(φ − γ) of the triangle O, A, C.
+        // The pin at the distance |e| from C, plus a margin: cos(φ − γ) of the triangle O, A, C.
         let nearest = math::abs(dimensions.offset) + reach::HAIR * size;
         let cos = (crank * crank + centres * centres - nearest * nearest) / (2.0 * crank * centres);
         let mut dead_points = reach::DeadPoints::new();
         if math::abs(cos) <= 1.0 {
             let towards = bare.towards_crank + PI;
             for phi in [towards - math::acos(cos), towards + math::acos(cos)] {
-                // Cannot fail: four places.
+                // Cannot fail: capacity of four.
                 let _ = dead_points.push(beyond(phi));
             }
         }
@@ -138,8 +134,8 @@ impl InvertedSliderCrank {
         Ok(Self { domain, ..bare })
     }
 
-    /// A lever farther away than the crank is long stays within a quarter turn of the direction from C to O, a nearer one of φ, where both
-    /// can be put together.
+    /// A lever farther away than the crank's length stays within a quarter turn of the direction from C to O, a nearer one within a quarter turn of
+    /// φ, where both can be assembled.
     fn bare(
         dimensions: InvertedSliderCrankDimensions,
         links: [Link; 3],
@@ -178,17 +174,16 @@ impl InvertedSliderCrank {
         self.motion
     }
 
-    /// The angle S (rad) that makes the time ratio:
+    /// The angle S (rad) that determines the time ratio:
     ///
     /// ```text
     /// rocking: S = asin((r + e)/c) + asin((r − e)/c)        turning: S = asin((c + e)/r) + asin((c − e)/r)        c = |OC|
     /// ```
     ///
-    /// A rocking lever swings through S: it stands still where the slot's line touches the crank's circle, that is where O
-    /// lies at v = e ± r of the lever. There the crank is square to the slot, so that it turns by π + S on the way
-    /// through the pin's farthest point, and by π − S on the way back. A turning lever's crank turns by as much
-    /// more or less than π while the lever makes the half turn between its two positions square to OC, by
-    /// φ = ψ + asin((e − c·sin(γ − ψ))/r) with γ the direction from C to O.
+    /// A rocking lever swings through S. It stops where the slot's line touches the crank's circle, with O at v = e ± r of the lever. There the crank
+    /// is perpendicular to the slot, so that it turns by π + S through the pin's farthest point, and by π − S on the way back. A turning lever makes
+    /// the half turn between its two positions perpendicular to OC while the crank turns by π ± S, by φ = ψ + asin((e − c·sin(γ − ψ))/r) with γ the
+    /// direction from C to O.
     #[must_use]
     pub fn swing(&self) -> f64 {
         let (short, long) = match self.motion {
@@ -199,11 +194,11 @@ impl InvertedSliderCrank {
             + math::asin((short - self.dimensions.offset) / long)
     }
 
-    /// Quick-return ratio (π + S)/(π − S) at constant crank speed, time of the slow stroke over time of the quick one,
-    /// with S of [`swing`](Self::swing).
+    /// Quick-return ratio (π + S)/(π − S) at constant crank speed, time of the slow stroke over time of the quick one, with S of
+    /// [`swing`](Self::swing).
     ///
-    /// Of a rocking lever these are its two swings. Of a turning lever they are the strokes of a ram that is driven by
-    /// a long rod from the lever, in line with its slot, along a line through C square to OC.
+    /// For a rocking lever the strokes are its two swings. For a turning lever they are the strokes of a ram driven by a long rod from the lever, in
+    /// line with its slot, along a line through C perpendicular to OC.
     #[must_use]
     pub fn time_ratio(&self) -> f64 {
         let swing = self.swing();
@@ -246,7 +241,7 @@ impl Mechanism for InvertedSliderCrank {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
         let pin = crank.point([self.dimensions.crank, 0.0]);
-        // ψ is counted from a direction that it never leaves by 180°, so that no arctangent jumps.
+        // ψ counts from a direction that it never leaves by 180°, so that no arctangent jumps.
         let reference = match self.motion {
             LeverMotion::Rocking => Transfer::constant(self.towards_crank),
             LeverMotion::Turning => angle,

@@ -6,7 +6,7 @@ use crate::machine::Link;
 use crate::math;
 use crate::number::error::{Curable, error};
 
-/// Why dimensions that are possible one by one do not make a mechanism of the library.
+/// Why dimensions that are possible individually do not form a mechanism of the library.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -17,7 +17,7 @@ pub enum Misfit {
         centres: f64,
         /// The lever rocks if the distance is larger than this (m).
         rocking: f64,
-        /// The lever turns if the distance is smaller than this (m); never if it is not positive.
+        /// The lever turns if the distance is smaller than this (m); never if this is not positive.
         turning: f64,
     },
     /// A four-bar that is to be kept on its branch, but never lies flat.
@@ -27,13 +27,13 @@ pub enum Misfit {
         /// Sum of the other two (m).
         others: f64,
     },
-    /// A four-bar that passes one change point a turn: it comes back after two turns of the crank.
+    /// A four-bar that passes one change point per turn: it returns after two turns of the crank.
     TwoTurns,
-    /// A four-bar with crank and coupler, rocker and ground of the same lengths, on the branch on which the rocker stands still.
+    /// A four-bar with equal lengths of crank and coupler, rocker and ground, on the branch with a stationary rocker.
     RockerStands,
-    /// The centre of mass of the named link is off its axis, and the link does not turn once with the drive link.
+    /// The centre of mass of the named link is off its axis, and the link does not turn once per turn of the drive link.
     OffAxis {
-        /// Which link.
+        /// The link.
         link: &'static str,
         /// Distance of the centre of mass from the axis (m).
         distance: f64,
@@ -42,24 +42,24 @@ pub enum Misfit {
     PlanetTeeth {
         /// Teeth of a planet.
         planet: u32,
-        /// Teeth of the ring less those of the sun.
+        /// Teeth of the ring minus those of the sun.
         gap: u32,
     },
     /// Equally spaced planets do not mesh with sun and ring.
     PlanetSpacing {
-        /// Teeth of the sun and the ring together.
+        /// Teeth of sun plus ring.
         teeth: u32,
         /// Number of planets.
         planets: u32,
     },
-    /// Planets as large as these would overlap.
+    /// Planets of this size would overlap.
     PlanetsOverlap {
         /// Number of planets.
         planets: u32,
-        /// Most planets of this size.
+        /// Greatest number of planets of this size.
         most: u32,
     },
-    /// The named member of a planetary gear is fixed and the input as well.
+    /// The named member of a planetary gear is both fixed and input.
     FixedInput(&'static str),
 }
 

@@ -1,5 +1,4 @@
-//! Parallel shafts: one drive shaft with several driven shafts side by side, the fan in contrast to the chain of a
-//! [`Train`](super::Train).
+//! Parallel shafts: one drive shaft with several driven shafts side by side, a fan in contrast to the chain of a [`Train`](super::Train).
 //!
 //! ```text
 //! ψ_k = φ/i_k        J_red = J₁ + Σ J_k/i_k²
@@ -21,17 +20,16 @@ use crate::{Domain, math};
 /// A driven shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivenShaft {
-    /// Signed ratio i = ω_drive/ω_driven, not zero; negative: it turns against the drive shaft, as with a pair of external
-    /// gears.
+    /// Signed ratio i = ω_drive/ω_driven, not zero; negative if it turns against the drive shaft, as with a pair of external gears.
     pub ratio: f64,
-    /// The shaft with all that turns with it, balanced.
+    /// The shaft with everything that turns with it, balanced.
     pub link: Link,
 }
 
 /// A drive shaft with driven shafts: a line shaft, the rollers of a table, a timing belt round several pulleys.
 ///
-/// Links: [`DRIVE`](Self::DRIVE), then the driven shafts in the order given, from 1 on; every frame at the origin, for the
-/// shafts have ratios and no places. A driven shaft turns by 2π/i a turn of the drive shaft, so it must be balanced.
+/// Links: [`DRIVE`](Self::DRIVE), then the driven shafts in the given order, from 1 on; every frame at the origin, because the shafts have ratios,
+/// but no positions. A driven shaft turns by 2π/i per turn of the drive shaft, and must be balanced.
 ///
 /// Accuracy: 1e-13 (test `fan_textbook`).
 #[derive(Clone, Debug, PartialEq)]
@@ -43,14 +41,14 @@ pub struct ParallelShafts {
 impl ParallelShafts {
     /// Index of the drive shaft.
     pub const DRIVE: usize = 0;
-    /// Most driven shafts.
+    /// Greatest number of driven shafts.
     pub const MAX_DRIVEN: usize = MAX_LINKS - 1;
 
     /// A `drive` shaft with `driven` shafts.
     ///
     /// # Errors
-    /// A ratio of zero or not finite; a driven shaft whose centre of mass is off its axis; none, or more than
-    /// [`MAX_DRIVEN`](Self::MAX_DRIVEN), driven shafts.
+    /// A ratio of zero or not finite; a driven shaft whose centre of mass is off its axis; no driven shaft, or more than
+    /// [`MAX_DRIVEN`](Self::MAX_DRIVEN).
     pub fn new(drive: Link, driven: &[DrivenShaft]) -> Result<Self, BuildError> {
         positive("number of driven shafts", driven.len() as f64)?;
         let mut shafts = Self {
@@ -67,7 +65,7 @@ impl ParallelShafts {
                     what: "driven shafts",
                     capacity: Self::MAX_DRIVEN,
                 })?;
-            // Cannot fail: one place more than ratios.
+            // Cannot fail: the capacity is one more than the number of ratios.
             let _ = shafts.links.push(*link);
         }
         Ok(shafts)
@@ -80,8 +78,7 @@ impl ParallelShafts {
 }
 
 impl Jointed for ParallelShafts {
-    /// The bearing of every shaft, then the transmission to every driven shaft: a moment on either; the ground takes the
-    /// difference.
+    /// The bearing of every shaft, then the transmission to every driven shaft: a moment on each; the ground takes the difference.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);

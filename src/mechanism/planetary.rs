@@ -1,14 +1,13 @@
 //! The simple planetary gear in closed form: sun, planets on a carrier, ring.
 //!
-//! Willis: seen from the carrier it is an ordinary train, from the sun over the planets to the ring:
+//! Willis: relative to the carrier it is an ordinary train, from the sun over the planets to the ring:
 //!
 //! ```text
 //! z_s·(ω_s − ω_c) = −z_p·(ω_p − ω_c) = −z_r·(ω_r − ω_c)        so   ω_s + k·ω_r = (1 + k)·ω_c,   k = z_r/z_s
 //! J_red = J_s·ω_s² + (J_c + N·m_p·a²)·ω_c² + J_r·ω_r² + N·J_p·ω_p²,   every ω for an input of 1
 //! ```
 //!
-//! One member is fixed, another is the input, the third the output. For a fixed ring and the sun as input
-//! ω_c = z_s/(z_s + z_r).
+//! One member is fixed, another is the input, the third the output. For a fixed ring and the sun as input ω_c = z_s/(z_s + z_r).
 //!
 //! R. Willis, *Principles of mechanism* (1841); the energy sum is (6.4) of Nazarenko, *Dynamics of mechanisms* (2002).
 
@@ -38,7 +37,7 @@ pub enum Member {
 }
 
 impl Member {
-    /// Its name in messages.
+    /// Name in messages.
     const fn name(self) -> &'static str {
         match self {
             Self::Sun => "sun",
@@ -57,13 +56,13 @@ impl Member {
     }
 }
 
-/// Teeth and places of a planetary gear.
+/// Teeth and distances of a planetary gear.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlanetaryDimensions {
     /// Teeth z_s of the sun.
     pub sun: u32,
-    /// Teeth z_p of a planet: (z_r − z_s)/2 or, with profile shift, one more or less: the ratios do not depend on them.
+    /// Teeth z_p of a planet: (z_r − z_s)/2 or, with profile shift, one more or less; the ratios do not depend on it.
     pub planet: u32,
     /// Teeth z_r of the ring.
     pub ring: u32,
@@ -73,22 +72,22 @@ pub struct PlanetaryDimensions {
     pub centres: f64,
 }
 
-/// The gears of a planetary gear, checked to fit together.
+/// The gears of a planetary gear, checked for fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanetaryGears(PlanetaryDimensions);
 
 impl PlanetaryGears {
-    /// Fewest teeth of a gear.
+    /// Least number of teeth of a gear.
     pub const MIN_TEETH: u32 = 5;
-    /// Most teeth of a gear.
+    /// Greatest number of teeth of a gear.
     pub const MAX_TEETH: u32 = 100_000;
 
     /// Checks that the gears mesh and fit.
     ///
     /// # Errors
-    /// Fewer than [`MIN_TEETH`](Self::MIN_TEETH) or more than [`MAX_TEETH`](Self::MAX_TEETH) teeth; fewer than two planets,
-    /// which would not balance; a distance that is not positive; planets that do not fill the gap, that cannot be put in
-    /// equally spaced ((z_s + z_r)/N is not whole), or that overlap (sin(π/N) ≤ z_p/(z_s + z_p)).
+    /// Fewer than [`MIN_TEETH`](Self::MIN_TEETH) or more than [`MAX_TEETH`](Self::MAX_TEETH) teeth; fewer than two planets, which would not balance;
+    /// a distance that is not positive; planets that do not fill the gap, that cannot be equally spaced ((z_s + z_r)/N is not an integer), or that
+    /// overlap (sin(π/N) ≤ z_p/(z_s + z_p)).
     pub fn new(dimensions: PlanetaryDimensions) -> Result<Self, BuildError> {
         let PlanetaryDimensions {
             sun,
@@ -123,12 +122,12 @@ impl PlanetaryGears {
         Ok(Self(dimensions))
     }
 
-    /// Teeth of sun, planet and ring, as numbers to compute with.
+    /// Teeth of sun, planet and ring, as floating-point numbers.
     fn teeth(&self) -> [f64; 3] {
         [self.0.sun, self.0.planet, self.0.ring].map(f64::from)
     }
 
-    /// Teeth and places.
+    /// Teeth and distances.
     pub const fn dimensions(&self) -> PlanetaryDimensions {
         self.0
     }
@@ -147,16 +146,15 @@ impl PlanetaryGears {
 
 /// A planetary gear with one member fixed, driven at another.
 ///
-/// Links: [`SUN`](Self::SUN), [`CARRIER`](Self::CARRIER), [`RING`](Self::RING) (frames at the origin),
-/// [`PLANETS`](Self::PLANETS) (frame at the first planet's axis, turning with it). The fixed member is a link at rest, so that
-/// the moment which fixes it is among the reactions.
+/// Links: [`SUN`](Self::SUN), [`CARRIER`](Self::CARRIER), [`RING`](Self::RING) (frames at the origin), [`PLANETS`](Self::PLANETS) (frame at the first
+/// planet's axis, turning with it). The fixed member is a link at rest, so that its holding moment is among the reactions.
 ///
-/// The N planets are alike and balance one another. One link represents all of them, at the place of the first: it has
-/// N·J_p; their mass N·m_p, whose common centre is on the axis, belongs to the carrier, with N·m_p·a² in its inertia.
-/// In [`link_inertias`](crate::Machine::link_inertias) the carrier's share includes the planets' orbital motion.
+/// The N planets are identical and balance each other. One link represents all of them, at the position of the first, with N·J_p. Their mass N·m_p,
+/// with its common centre on the axis, belongs to the carrier, with N·m_p·a² in its inertia. In [`link_inertias`](crate::Machine::link_inertias) the
+/// carrier's share includes the planets' orbital motion.
 ///
-/// Accuracy: 1e-13 against Willis' equation by the tabular method and the energy of N planets one by one (tests
-/// `speeds_by_the_tabular_method`, `inertia_of_planets_one_by_one`).
+/// Accuracy: 1e-13 against Willis' equation by the tabular method and the energy of N separate planets (tests `speeds_by_the_tabular_method`,
+/// `inertia_of_planets_one_by_one`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planetary {
     gears: PlanetaryGears,
@@ -175,8 +173,8 @@ impl Planetary {
     /// Index of the planets.
     pub const PLANETS: usize = 3;
 
-    /// A planetary gear of the `gears`, driven at `input` with the member `fixed` at rest, and the links sun, carrier, ring
-    /// and *one* planet: its mass and its inertia about its own axis.
+    /// A planetary gear of these `gears`, driven at `input` with the member `fixed` at rest, and the links sun, carrier, ring and *one* planet: its
+    /// mass and its inertia about its own axis.
     ///
     /// # Errors
     /// The same member as input and fixed; a link whose centre of mass is off its axis.
@@ -267,14 +265,13 @@ impl Planetary {
 }
 
 impl Jointed for Planetary {
-    /// The bearings of sun, carrier and ring; the bearing of the fixed member carries its moment as well; the planets' pins
-    /// along the carrier's motion and towards the axis; the meshes of sun and ring, on the planets.
+    /// The bearings of sun, carrier and ring (the bearing of the fixed member also carries its moment); the planets' pins along the carrier's motion
+    /// and towards the axis; the meshes of sun and ring, on the planets.
     ///
-    /// Pins and meshes give the sum over all planets, as forces on the first planet in its place: 1/N of it acts on each,
-    /// turned to its place, if the load is shared evenly. On the central members these forces are a pure moment. Mesh
-    /// forces are tangential; the pressure angle's radial forces of a planet's two meshes balance except for profile shift. A
-    /// planet's own inertia forces, m_p·a·ω_c² outwards and m_p·a·α_c, and its weight act on its pin in addition: its mass
-    /// belongs to the carrier here.
+    /// Pins and meshes give the sum over all planets, as forces on the first planet at its position: if the load is shared evenly, 1/N of it acts on
+    /// each, turned to its position. On the central members these forces are a pure moment. Mesh forces are tangential; the radial forces of a
+    /// planet's two meshes, from the pressure angle, balance except for profile shift. A planet's own inertia forces, m_p·a·ω_c² outwards and
+    /// m_p·a·α_c, and its weight act on its pin in addition: here its mass belongs to the carrier.
     fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let bearing = |member: Member| {

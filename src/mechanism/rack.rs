@@ -6,9 +6,9 @@
 //! x = r·φ        J_red = J₁ + m₂·r²        U′ = −m₂·g_x·r, the pinion balanced
 //! ```
 //!
-//! The rack does not come back after a turn, but J, J′ and every force of a constant or position-free load repeat, so the
-//! drive link's range is a turn. U grows with every turn when gravity has a component along the rack. A spring on the rack does
-//! not repeat: with a spring, the reduction is right at every φ, but must not be tabulated over a turn.
+//! The rack does not return after a turn, but J, J′ and every force of a constant or position-independent load are periodic, so that the drive link's
+//! range is a turn. U grows with every turn when gravity has a component along the rack. A spring on the rack is not periodic: the reduction is then
+//! right at every φ, but must not be tabulated over a turn.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -23,9 +23,8 @@ use crate::number::transfer::Transfer;
 
 /// A rack driven by a pinion.
 ///
-/// Links: [`PINION`](Self::PINION) (frame at O, u along +x at φ = 0), [`RACK`](Self::RACK) (frame on the pitch line,
-/// parallel to the global axes, below O at φ = 0). φ > 0 moves the rack along +x. A carriage on a fixed rack with the
-/// pinion on board has the same equation: give its mass to the rack.
+/// Links: [`PINION`](Self::PINION) (frame at O, u along +x at φ = 0), [`RACK`](Self::RACK) (frame on the pitch line, parallel to the global axes,
+/// below O at φ = 0). φ > 0 moves the rack along +x. A carriage with the pinion, on a fixed rack, has the same equation: assign its mass to the rack.
 ///
 /// Accuracy: 1e-13 (test `rack_textbook`).
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +55,7 @@ impl RackAndPinion {
         self.radius
     }
 
-    /// Travel of the rack a turn of the pinion, 2π·r (m).
+    /// Travel of the rack per turn of the pinion, 2π·r (m).
     #[must_use]
     pub fn travel(&self) -> f64 {
         TAU * self.radius
@@ -64,9 +63,9 @@ impl RackAndPinion {
 }
 
 impl Jointed for RackAndPinion {
-    /// O: ground and pinion; guide: ground and rack, its moment about the origin of the rack's frame; mesh: the tangential
-    /// tooth force on the rack, at the pitch point. The force that the pressure angle adds across the rack pushes it away from
-    /// the pinion for both directions of the load; it does no work, and is left to the design of the bearings.
+    /// O: ground and pinion; guide: ground and rack, with its moment about the origin of the rack's frame; mesh: the tangential tooth force on the
+    /// rack, at the pitch point. The pressure angle adds a force across the rack, which pushes it away from the pinion for both directions of the
+    /// load; it does no work, and is left to the design of the bearings.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let pitch_point = [0.0, -self.radius];
         let bodies = [Body::Link(Self::PINION), Body::Link(Self::RACK)];

@@ -1,4 +1,4 @@
-//! Where a drive link that cannot turn fully moves: between dead points, over a stroke that meets none of them.
+//! The range of a drive link that cannot turn fully: between dead points, over a stroke without any of them.
 
 use core::f64::consts::TAU;
 
@@ -7,18 +7,18 @@ use crate::Domain;
 use crate::machine::error::PoseError;
 use crate::mechanism::error::BuildError;
 
-/// Distance kept from a dead point, as a share of the length that reaches it, so that no position within a stroke fails by a rounding.
+/// Margin to a dead point, as a share of the length that reaches it, so that rounding does not make a position within a stroke fail.
 pub(super) const HAIR: f64 = 1e-12;
 
-/// Share of a length by which a joint stays open at the start of a stroke beyond a dead point.
+/// Relative gap of a joint at the start of a stroke, beyond a dead point.
 const OPEN: f64 = 1e-9;
 
-/// Crank angles (rad, 0 to 2π) at which a mechanism is at a dead point.
+/// Crank angles (rad, 0 to 2π) of a mechanism's dead points.
 pub(super) type DeadPoints = heapless::Vec<f64, 4>;
 
 /// The range of a drive link over a stroke [from, to] (rad).
 ///
-/// `gap` is what is missing at its start, as a share of the `joint`'s length; not positive: the mechanism is assembled there.
+/// `gap` is the missing share of the `joint`'s length at its start; if not positive, the mechanism can be assembled there.
 pub(super) fn over(
     [from, to]: [f64; 2],
     joint: usize,
@@ -46,8 +46,8 @@ pub(super) fn over(
     Ok(domain)
 }
 
-/// The range of crank angles (rad) between two dead points: the one around φ = 0 if the mechanism can be assembled there, else the first
-/// one behind it. `None`: it can be assembled nowhere.
+/// The range of crank angles (rad) between two dead points: around φ = 0 if the mechanism can be assembled there, otherwise the first one after it.
+/// `None`: it cannot be assembled anywhere.
 pub(super) fn between(dead_points: &[f64], assembled: bool) -> Option<[f64; 2]> {
     let least = |above: f64| {
         let others = dead_points.iter().copied().filter(|phi| *phi > above);

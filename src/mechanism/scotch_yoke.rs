@@ -7,8 +7,8 @@
 //! x = r·cos φ − r·sin φ·cot β = r·sin(β − φ)/sin β         β = 90°: x = r·cos φ
 //! ```
 //!
-//! which is a harmonic motion of amplitude r/sin β for every β. For β = 90° it is the limit of the slider-crank (4.1) of
-//! Nazarenko, *Dynamics of mechanisms* (2002), for an infinitely long rod.
+//! a harmonic motion of amplitude r/sin β for every β. For β = 90° it is the limit of the slider-crank (4.1) of Nazarenko, *Dynamics of mechanisms*
+//! (2002), for an infinitely long rod.
 
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
@@ -25,19 +25,17 @@ use crate::{Domain, math};
 pub struct ScotchYokeDimensions {
     /// Crank length r > 0 (m).
     pub crank: f64,
-    /// Angle β of the slot with the direction of motion (rad), [`ScotchYoke::FLATTEST`] to π − `FLATTEST`; π/2 for the usual
-    /// yoke.
+    /// Angle β of the slot with the direction of motion (rad), [`ScotchYoke::FLATTEST`] to π − `FLATTEST`; π/2 for the usual yoke.
     pub slot_angle: f64,
 }
 
 /// A Scotch yoke, driven at the crank, which turns fully.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`YOKE`](Self::YOKE) (frame where the slot's centre line crosses
-/// the line y = 0 through O, parallel to the global axes). A sliding block in the slot counts as part of the crank pin,
-/// with its mass at A: it turns with the yoke, so its own inertia does nothing.
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`YOKE`](Self::YOKE) (frame where the slot's centre line crosses the line y = 0 through O,
+/// parallel to the global axes). A sliding block in the slot counts as part of the crank pin, with its mass at A: it turns with the yoke, so that its
+/// own inertia has no effect.
 ///
-/// Accuracy: 1e-13 of the crank's length against the formula above with its derivatives written out (test
-/// `yoke_is_a_harmonic_motion`).
+/// Accuracy: 1e-13 of the crank's length against the formula above and its explicit derivatives (test `yoke_is_a_harmonic_motion`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScotchYoke {
     dimensions: ScotchYokeDimensions,
@@ -51,14 +49,14 @@ impl ScotchYoke {
     pub const CRANK: usize = 0;
     /// Index of the yoke.
     pub const YOKE: usize = 1;
-    /// Flattest slot (rad): the yoke's stroke is then 115 times the crank's length.
+    /// Smallest slot angle (rad): the yoke's stroke is then 115 times the crank's length.
     pub const FLATTEST: f64 = core::f64::consts::PI / 180.0;
 
     /// A Scotch yoke of these dimensions, with the links crank, yoke.
     ///
     /// # Errors
-    /// A crank that is not positive; a slot angle outside [`FLATTEST`](Self::FLATTEST) to π − `FLATTEST`: along the
-    /// direction of motion the slot would lock the crank.
+    /// A crank that is not positive; a slot angle outside [`FLATTEST`](Self::FLATTEST) to π − `FLATTEST`: a slot along the direction of motion would
+    /// lock the crank.
     pub fn new(dimensions: ScotchYokeDimensions, links: [Link; 2]) -> Result<Self, BuildError> {
         let ScotchYokeDimensions { crank, slot_angle } = dimensions;
         positive("crank length", crank)?;
@@ -89,8 +87,7 @@ impl ScotchYoke {
 }
 
 impl Jointed for ScotchYoke {
-    /// O: ground and crank; A: the crank's pin in the yoke's slot; guide: ground and yoke, its moment about the origin of
-    /// the yoke's frame.
+    /// O: ground and crank; A: the crank's pin in the yoke's slot; guide: ground and yoke, with its moment about the origin of the yoke's frame.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         Ok(Joints::from_iter([

@@ -1,4 +1,4 @@
-//! A crank drives a slotted rocker through a block, and the rocker drives a slider: the six-link quick-return mechanism.
+//! The six-link quick-return mechanism: a crank drives a slotted rocker through a block, and the rocker drives a slider.
 //!
 //! Crank pivot O₁ = (0, 0), crank pin A = l₁·(cos φ, sin φ) on a block that slides along the rocker O₂B, rocker pivot
 //! O₂ = (−b, 0), rocker length l₂, connecting link BC of length l₃, slider C on the guide y = −a:
@@ -9,14 +9,14 @@
 //! l₂·sin φ₂ − l₃·sin φ₃ + a = 0      φ₃: direction from C to B
 //! ```
 //!
-//! so that s² = l₁² + b² + 2·l₁·b·cos φ, and the slider is at x_C = −b + l₂·cos φ₂ − l₃·cos φ₃. The first two decide
-//! φ₂ and s > 0; the third leaves the sign of cos φ₃, which is the [`Branch`]: with [`Branch::Right`] the slider is on the
-//! right of B (cos φ₃ < 0), with [`Branch::Left`] on its left.
+//! so that s² = l₁² + b² + 2·l₁·b·cos φ, and the slider is at x_C = −b + l₂·cos φ₂ − l₃·cos φ₃. The first two determine φ₂ and s > 0; the third
+//! leaves the sign of cos φ₃, which is the [`Branch`]: with [`Branch::Right`] the slider is on the right of B (cos φ₃ < 0), with [`Branch::Left`] on
+//! its left.
 //!
-//! With b > l₁ the rocker swings between ±asin(l₁/b), and returns faster than it goes (shaper). With b < l₁ it turns fully
-//! (Whitworth's quick return). b = l₁ is refused: the pin passes through O₂.
+//! With b > l₁ the rocker swings between ±asin(l₁/b), and returns faster than it advances (shaper). With b < l₁ it turns fully (Whitworth's quick
+//! return). b = l₁ is refused: the pin passes through O₂.
 //!
-//! Equations (80)-(84) of the kinematics of plane mechanisms, Example 32; the signs of (81) are lost in the print.
+//! Equations (80)-(84) of the kinematics of plane mechanisms, Example 32; the signs of (81) are missing in print.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -40,19 +40,19 @@ pub struct SixLinkDimensions {
     pub crank: f64,
     /// Rocker length l₂ > 0.
     pub rocker: f64,
-    /// Rod length l₃ > 0, long enough to reach the guide all the turn, or all the stroke.
+    /// Rod length l₃ > 0, long enough to reach the guide over the whole turn or stroke.
     pub rod: f64,
     /// Distance b > 0 of the pivots: b > l₁ for a rocker that swings, b < l₁ for one that turns (Whitworth).
     pub centres: f64,
-    /// How far a the guide lies below the crank's pivot, either sign.
+    /// Distance a of the guide below the crank's pivot, either sign.
     pub below: f64,
 }
 
 /// The six-link mechanism, driven at the crank, which turns fully or swings over a stroke.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O₁ along O₁A), [`BLOCK`](Self::BLOCK) (frame at A, parallel to the rocker),
-/// [`ROCKER`](Self::ROCKER) (frame at O₂ along O₂B, its angle is φ₂), [`ROD`](Self::ROD) (frame at B along BC, its angle is
-/// φ₃ turned by half a turn), [`SLIDER`](Self::SLIDER) (frame at C, parallel to the global axes).
+/// Links: [`CRANK`](Self::CRANK) (frame at O₁ along O₁A), [`BLOCK`](Self::BLOCK) (frame at A, parallel to the rocker), [`ROCKER`](Self::ROCKER)
+/// (frame at O₂ along O₂B, with the angle φ₂), [`ROD`](Self::ROD) (frame at B along BC, with the angle φ₃ plus half a turn), [`SLIDER`](Self::SLIDER)
+/// (frame at C, parallel to the global axes).
 ///
 /// Accuracy: (81) and its derivatives (82), (84) are satisfied to 1e-12 of their largest term (test `printed_equations_hold`).
 #[derive(Clone, Debug, PartialEq)]
@@ -107,12 +107,12 @@ impl SixLink {
         Ok(six_link)
     }
 
-    /// A six-link mechanism whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose rod reaches the guide all the
-    /// way. The rest as for [`new`](Self::new).
+    /// A six-link mechanism whose crank only swings over a `stroke` `[from, to]` (rad): any lengths whose rod reaches the guide all the way. The rest
+    /// as for [`new`](Self::new).
     ///
     /// # Errors
-    /// A length or b not positive; b = l₁ with φ = 180° in the stroke; a stroke that is empty; a start where the rod does not reach the
-    /// guide; a dead point in the stroke, where the rod is perpendicular to the guide, with its angle.
+    /// A length or b not positive; b = l₁ with φ = 180° in the stroke; an empty stroke; a start where the rod does not reach the guide; a dead point
+    /// in the stroke, where the rod is perpendicular to the guide, with its angle.
     pub fn over_stroke(
         dimensions: SixLinkDimensions,
         branch: Branch,
@@ -156,7 +156,7 @@ impl SixLink {
         })
     }
 
-    /// Whether the crank pin passes through O₂ at φ = 180°, or nearer than roundings of s allow.
+    /// Whether the crank pin passes through O₂ at φ = 180°, or nearer than the rounding of s allows.
     fn pin_meets_pivot(&self) -> bool {
         let SixLinkDimensions { crank, centres, .. } = self.dimensions;
         math::abs(crank - centres) <= 1e-9 * centres
@@ -192,8 +192,8 @@ impl SixLink {
         }
     }
 
-    /// The crank angles (rad, 0 to 2π) at which a `rod` is perpendicular to the guide, |l₂·sin φ₂ + a| = l₃; a sine that is greater than
-    /// the largest of a turn by no more than `slack` is that.
+    /// The crank angles (rad, 0 to 2π) where a `rod` is perpendicular to the guide, |l₂·sin φ₂ + a| = l₃; a sine that exceeds the largest of a turn
+    /// by up to `slack` counts as the largest.
     fn dead_points(&self, rod: f64, slack: f64) -> DeadPoints {
         let (l1, b) = (self.dimensions.crank, self.dimensions.centres);
         let largest = self.largest_sine();
@@ -213,7 +213,7 @@ impl SixLink {
                 [rocker + turned, rocker + PI - turned]
             };
             for phi in positions {
-                // Cannot fail: four places.
+                // Cannot fail: capacity of four.
                 let _ = found.push(beyond(phi));
             }
         }

@@ -6,9 +6,8 @@
 //! sin ψ = (e − r·sin φ)/l      cos ψ = ±√(1 − sin²ψ)      x_B = r·cos φ + l·cos ψ
 //! ```
 //!
-//! For e = 0 and the upper sign this is (4.1) of Nazarenko, *Dynamics of mechanisms* (2002). ψ is the direction
-//! from A to B. The machine's real orientation is given by the direction of gravity: for a press whose ram
-//! moves down as x_B grows, gravity points along +x.
+//! For e = 0 and the upper sign this is (4.1) of Nazarenko, *Dynamics of mechanisms* (2002). ψ is the direction from A to B. The direction of gravity
+//! gives the machine's real orientation: for a press whose ram moves down as x_B grows, gravity points along +x.
 
 use core::f64::consts::PI;
 
@@ -24,7 +23,7 @@ use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
-/// Which of the two positions of the slider: on the right (cos ψ > 0) or on the left (cos ψ < 0) of the crank pin.
+/// The two positions of the slider: on the right (cos ψ > 0) or on the left (cos ψ < 0) of the crank pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Branch {
@@ -51,7 +50,7 @@ impl Branch {
 pub struct SliderCrankDimensions {
     /// Crank length r > 0.
     pub crank: f64,
-    /// Rod length l > r + |e|; over a stroke any that reaches the guide there.
+    /// Rod length l > r + |e|; over a stroke, any that reaches the guide there.
     pub rod: f64,
     /// Offset e of the guide from the crank's pivot, either sign; zero for an in-line slider-crank.
     pub offset: f64,
@@ -62,8 +61,8 @@ pub struct SliderCrankDimensions {
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AB),
 /// [`SLIDER`](Self::SLIDER) (frame at B, parallel to the global axes).
 ///
-/// Accuracy: positions, transfer functions and reaction-free reduction agree with 50-digit golden data to
-/// 1e-12 of the column's largest value (test `slider_crank_golden`).
+/// Accuracy: positions, transfer functions and reaction-free reduction agree with 50-digit golden data to 1e-12 of the column's largest value (test
+/// `slider_crank_golden`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SliderCrank {
     dimensions: SliderCrankDimensions,
@@ -83,8 +82,8 @@ impl SliderCrank {
     /// A slider-crank of these dimensions, whose crank turns fully, with the links crank, rod, slider.
     ///
     /// # Errors
-    /// A length that is not positive; a rod too short for a full turn, l ≤ r + |e|, with the angle where it fails and those between
-    /// which it reaches.
+    /// A length that is not positive; a rod too short for a full turn, l ≤ r + |e|, with the angle where it fails and the angles between which it
+    /// reaches the guide.
     pub fn new(
         dimensions: SliderCrankDimensions,
         branch: Branch,
@@ -93,9 +92,9 @@ impl SliderCrank {
         let bare = Self::bare(dimensions, branch, links)?;
         let SliderCrankDimensions { crank, rod, offset } = dimensions;
         let shortest = crank + math::abs(offset);
-        // A hair of distance keeps cos ψ away from the roundings of 1 − sin²ψ, so that no angle fails later.
+        // A margin keeps cos ψ away from the rounding of 1 − sin²ψ, so that no angle fails later.
         if rod <= shortest * (1.0 + reach::HAIR) {
-            // At equality a rounding may leave a dead point just outside.
+            // At equality, rounding may put a dead point just outside.
             let dead_points = dimensions.dead_points(rod, 1e-9);
             let assembled = math::abs(offset) < rod;
             let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
@@ -110,14 +109,14 @@ impl SliderCrank {
         Ok(bare)
     }
 
-    /// A slider-crank whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths whose rod reaches the guide all the way,
-    /// as one that is shorter than the crank. The rest as for [`new`](Self::new).
+    /// A slider-crank whose crank only swings over a `stroke` `[from, to]` (rad): any lengths whose rod reaches the guide all the way, such as a rod
+    /// shorter than the crank. The rest as for [`new`](Self::new).
     ///
     /// Accuracy: joints close to 1e-12 over the stroke, up to its dead points (test `short_rods_move_between_their_dead_points`).
     ///
     /// # Errors
-    /// A length that is not positive; a stroke that is empty; a start where the rod does not reach the guide; a dead point in the
-    /// stroke, where the rod is perpendicular to the guide, with its angle.
+    /// A length that is not positive; an empty stroke; a start where the rod does not reach the guide; a dead point in the stroke, where the rod is
+    /// perpendicular to the guide, with its angle.
     pub fn over_stroke(
         dimensions: SliderCrankDimensions,
         branch: Branch,
@@ -148,7 +147,7 @@ impl SliderCrank {
         })
     }
 
-    /// On which side of the crank pin the slider is.
+    /// The side of the crank pin with the slider.
     pub const fn branch(&self) -> Branch {
         self.branch
     }
@@ -160,8 +159,7 @@ impl SliderCrank {
 }
 
 impl SliderCrankDimensions {
-    /// The crank angles (rad, 0 to 2π) at which |e − r·sin φ| is the length of a `rod`; a sine that is greater than one by no more than
-    /// `slack` is one.
+    /// The crank angles (rad, 0 to 2π) where |e − r·sin φ| is the length of a `rod`; a sine that exceeds one by up to `slack` counts as one.
     fn dead_points(&self, rod: f64, slack: f64) -> DeadPoints {
         let mut found = DeadPoints::new();
         for height in [self.offset + rod, self.offset - rod] {
@@ -171,7 +169,7 @@ impl SliderCrankDimensions {
             }
             let phi = math::asin(sin.clamp(-1.0, 1.0));
             for phi in [phi, PI - phi] {
-                // Cannot fail: four places.
+                // Cannot fail: capacity of four.
                 let _ = found.push(beyond(phi));
             }
         }

@@ -1,36 +1,34 @@
-//! Gear ratio synthesis: the split of a total ratio over the stages of a train for the smallest reduced inertia.
+//! Gear ratio synthesis: splits a total ratio over the stages of a train for the smallest reduced inertia.
 //!
-//! Last part of section 6.3 of V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002: with the total ratio given, J_red of
-//! (6.9) depends on how it is divided. With stage ratios i_k = ω_driver/ω_driven > 0, inertias D_k of the drivers and C_k
-//! of the driven wheels, and J_L at the output,
+//! Last part of section 6.3 of V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002: for a given total ratio, J_red of (6.9) depends on how it is
+//! split. With stage ratios i_k = ω_driver/ω_driven > 0, inertias D_k of the drivers and C_k of the driven wheels, and J_L at the output,
 //!
 //! ```text
 //! J_red = Σ_k (D_k + C_k(i_k)/i_k²)/(i_1·…·i_(k−1))² + J_L/i²          i = i_1·…·i_n
 //! ```
 //!
-//! C_k is either given, or grows with the ratio: a wheel of the pinion's module and width has J ∝ r⁴, so C_k = P_k·i_k⁴,
-//! where P_k is the inertia of the pinion that it meshes with.
+//! C_k is either given, or grows with the ratio: a wheel of the pinion's module and width has J ∝ r⁴, so that C_k = P_k·i_k⁴, with P_k the inertia of
+//! the pinion that it meshes with.
 //!
-//! In y_k = ln i_k every term is an exponential of a linear function, so J_red is convex, and over Σ y_k = ln i it has one
-//! minimum. There ∂J/∂y_k is the same for every stage whose ratio is not at a bound. Behind the first stage the train is of
-//! the same kind, so with R(L) the smallest inertia of the rest for the rest L = ln i − y_1 of the ratio,
+//! In y_k = ln i_k every term is an exponential of a linear function, so that J_red is convex, and has one minimum over Σ y_k = ln i. There ∂J/∂y_k
+//! is equal for all stages whose ratio is not at a bound. After the first stage the rest of the train is of the same kind: with R(L) the smallest
+//! inertia of the rest for the remaining ratio L = ln i − y_1,
 //!
 //! ```text
 //! J(y_1) = D_1 + C_1/i_1² + R(L)/i_1²        J′ = (C_1/i_1²)′ − (2·R + R′)/i_1² = 0
 //! ```
 //!
-//! J′ rises with y_1, and its zero is found by bisection, stage by stage. R′ is known without differences: at the minimum
-//! it is the slope of the train's own first stage (envelope theorem).
+//! J′ rises with y_1, and its zero is found by bisection, stage by stage. R′ needs no differences: at the minimum it is the slope of the rest's own
+//! first stage (envelope theorem).
 //!
-//! Equal pinions and no load give, for two stages, J/P = 1 + i_1² + 1/i_1² + i²/i_1⁴ and the condition
-//! i_2² = (i_1⁴ − 1)/2; for large ratios and n stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of
-//! Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
+//! Equal pinions and no load give, for two stages, J/P = 1 + i_1² + 1/i_1² + i²/i_1⁴ and the condition i_2² = (i_1⁴ − 1)/2; for large ratios and n
+//! stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
 
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, not_negative, positive};
 
-/// The most stages that a ratio is split over.
+/// Greatest number of stages of a split.
 pub const MOST_STAGES: usize = 4;
 
 /// One number for each stage.
@@ -45,11 +43,11 @@ const HALVINGS: usize = 56;
 pub enum Driven {
     /// Independent of the ratio.
     Constant(f64),
-    /// P·i⁴, module and width those of a pinion with the inertia P.
+    /// P·i⁴, with the module and width of a pinion with the inertia P.
     LikePinion(f64),
 }
 
-/// One stage, its ratio still open.
+/// One stage with an open ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OpenStage {
@@ -60,7 +58,7 @@ pub struct OpenStage {
 }
 
 impl OpenStage {
-    /// A stage whose driven wheel has the module and the width of its pinion, of inertia `pinion` (kg·m²).
+    /// A stage whose driven wheel has the module and width of its pinion, of inertia `pinion` (kg·m²).
     #[must_use]
     pub const fn geared(pinion: f64) -> Self {
         Self {
@@ -78,17 +76,17 @@ impl OpenStage {
     }
 }
 
-/// A division of the ratio.
+/// A split of the ratio.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Split {
-    /// The stages' ratios, from the input.
+    /// The stages' ratios, from the input on.
     pub ratios: PerStage,
     /// J_red at the input (kg·m²).
     pub inertia: f64,
 }
 
-/// A train whose total ratio is still to be divided.
+/// A train whose total ratio is to be split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OpenTrain<'a> {
     /// The total ratio i > 0.
@@ -114,8 +112,8 @@ impl RatioSplit {
     /// The split of this train.
     ///
     /// # Errors
-    /// Fewer than 2 or more than 4 stages; an inertia negative; no inertia that depends on the split; bounds that are not
-    /// positive and rising, or within which the stages cannot give the ratio.
+    /// Fewer than 2 or more than 4 stages; a negative inertia; no inertia that depends on the split; bounds that are not positive and rising, or that
+    /// do not allow the total ratio.
     pub fn new(train: OpenTrain<'_>) -> Result<Self, RangeError> {
         let OpenTrain {
             ratio,
@@ -157,7 +155,7 @@ impl RatioSplit {
             });
         }
         let power = |bound: f64| stages.iter().map(|_| bound).product::<f64>();
-        // A rounding may leave a ratio that needs every stage at its bound just outside.
+        // Rounding may put a ratio that needs every stage at its bound just outside.
         let (min, max) = (power(low), power(high));
         if ratio < min * (1.0 - 1e-12) || ratio > max * (1.0 + 1e-12) {
             let (what, value) = ("total ratio", ratio);
@@ -203,17 +201,17 @@ impl RatioSplit {
         sum + self.output / (before * before)
     }
 
-    /// ∂J/∂(ln i_k) of every stage (kg·m²): equal, at the smallest J, for all stages that are not at a bound.
+    /// ∂J/∂(ln i_k) of every stage (kg·m²): at the smallest J equal for all stages that are not at a bound.
     #[must_use]
     pub fn slopes(&self, ratios: &[f64]) -> PerStage {
-        // From the output back: the inertia at each driver, and what of it lies behind the stage.
+        // From the output back: the inertia at each driver, and the part after the stage.
         let mut slopes = PerStage::new();
         let mut behind = self.output;
         for (stage, ratio) in self.stages.iter().zip(ratios).rev() {
             let (size, power) = stage.driven_at_driver();
             let square = ratio * ratio;
             let driven = size * if power > 0.0 { square } else { 1.0 / square };
-            // Cannot fail: one slope a stage.
+            // Cannot fail: one slope per stage.
             let _ = slopes.push(power * driven - 2.0 * behind / square);
             behind = stage.driver + driven + behind / square;
         }
@@ -239,7 +237,7 @@ impl RatioSplit {
         self.minimum([self.bounds.map(math::ln); MOST_STAGES])
     }
 
-    /// Smallest and largest ratio that the first stage can have: the range of the curve over the split.
+    /// Smallest and largest possible ratio of the first stage: the range of the curve over the split.
     #[must_use]
     pub fn first_range(&self) -> [f64; 2] {
         let [low, high] = self.bounds;
@@ -275,7 +273,7 @@ impl RatioSplit {
     fn minimum(&self, bounds: [[f64; 2]; MOST_STAGES]) -> Split {
         let bounds = bounds.get(..self.stages()).unwrap_or_default();
         let mut ratios = self.rest(0, math::ln(self.ratio), bounds).ratios;
-        // ln and exp leave a rounding beyond a bound.
+        // ln and exp may round beyond a bound.
         for ratio in &mut ratios {
             *ratio = ratio.clamp(self.bounds[0], self.bounds[1]);
         }
@@ -287,14 +285,14 @@ impl RatioSplit {
         Split { ratios, inertia }
     }
 
-    /// The smallest inertia of the stages from number `from` on for the ratio e^`total`.
+    /// The smallest inertia of the stages from number `from` on, for the ratio e^`total`.
     fn rest(&self, from: usize, total: f64, bounds: &[[f64; 2]]) -> Rest {
         let (Some(stage), Some([low, high])) = (self.stages.get(from), bounds.get(from)) else {
             return Rest::default();
         };
         let (size, power) = stage.driven_at_driver();
         let behind = bounds.get(from + 1..).unwrap_or_default();
-        // The inertia at this stage's driver and its slopes by y: all else held, and with the total held.
+        // The inertia at this stage's driver, and its slopes with respect to y: with everything else constant, and with the total constant.
         let with = |y: f64| {
             let rest = self.rest(from + 1, total - y, bounds);
             let factor = math::exp(-2.0 * y);
@@ -306,7 +304,7 @@ impl RatioSplit {
             };
             let own = power * driven - 2.0 * factor * behind;
             let mut ratios = PerStage::new();
-            // Cannot fail: one ratio a stage.
+            // Cannot fail: one ratio per stage.
             let _ = ratios.push(math::exp(y));
             ratios.extend(rest.ratios);
             Rest {
@@ -323,14 +321,14 @@ impl RatioSplit {
                 ..only
             };
         }
-        // What the stages behind can take bounds this one as well.
+        // The range of the later stages limits this one, too.
         let sum = |end: usize| behind.iter().filter_map(|ends| ends.get(end)).sum::<f64>();
         let least = (total - sum(1)).max(*low);
         let most = (total - sum(0)).min(*high).max(least);
         let (mut below, mut above) = (least, most);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (below + above);
-            // No number lies between: halving on would ask the same again, for a stage whose ratio is given all the time.
+            // No number lies between: further halving would repeat the same evaluation, for a stage with a fixed ratio every time.
             if middle <= below || middle >= above {
                 break;
             }
@@ -348,21 +346,21 @@ impl RatioSplit {
             _ => 0.5 * (below + above),
         };
         let best = with(y);
-        // Held by a bound of its own, this stage leaves more ratio to those behind; held by theirs, it takes it itself.
+        // At its own bound, this stage leaves more ratio to the later ones; at their bound, it takes the change itself.
         let own_bound = y <= *low || y >= *high;
         let slope = if own_bound { best.slope } else { best.own };
         Rest { slope, ..best }
     }
 }
 
-/// The best split of the stages behind some shaft.
+/// The best split of the stages after some shaft.
 #[derive(Clone, Debug, Default)]
 struct Rest {
     /// Inertia at that shaft.
     inertia: f64,
-    /// By the logarithm of their ratio.
+    /// Slope with respect to the logarithm of their ratio.
     slope: f64,
-    /// By y of their first stage alone.
+    /// Slope with respect to y of their first stage alone.
     own: f64,
     ratios: PerStage,
 }

@@ -1,22 +1,19 @@
-//! The toggle press (knuckle-joint press): a crank stretches two links that push the ram.
+//! The toggle press (knuckle-joint press): a crank straightens two links that push the ram.
 //!
-//! Crank pivot O = (0, 0), crank OA = r, rod AK = l to the knuckle K, upper link PK = p from the fixed pivot P, lower link
-//! KR = q, ram R on the guide y = e. O-A-K-P is a [`FourBar`] with the upper link as its rocker; ψ is the angle of the upper
-//! link. Then
+//! Crank pivot O = (0, 0), crank OA = r, rod AK = l to the knuckle K, upper link PK = p from the fixed pivot P, lower link KR = q, ram R on the guide
+//! y = e. O-A-K-P is a [`FourBar`] with the upper link as its rocker; ψ is the angle of the upper link. Then
 //!
 //! ```text
 //! K = P + p·(cos ψ, sin ψ)        sin χ = (e − y_K)/q        x_R = x_K ± q·√(1 − sin²χ)
 //! x_R′ = p·ψ′·sin(χ − ψ)/cos χ
 //! ```
 //!
-//! The upper sign is [`Branch::Right`]: the ram on the right of the knuckle. The knuckle lies on the `knee` side of the
-//! directed line from A to P.
+//! The upper sign is [`Branch::Right`]: the ram on the right of the knuckle. The knuckle lies on the `knuckle` side of the directed line from A to P.
 //!
-//! The ram stands still where the upper link reverses, ψ′ = 0, and where both links are in line, χ = ψ: stretched at the
-//! bottom. Near it a small torque produces a large force. This is no dead point of the drive: the crank moves the links
-//! through it, and every transfer function stays finite.
+//! The ram stops where the upper link reverses, ψ′ = 0, and where both links are in line, χ = ψ: straight at the bottom. Near it a small torque
+//! produces a large force. This is not a dead point of the drive: the crank moves the links through it, and every transfer function stays finite.
 //!
-//! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms are those of the four-bar and of the slider-crank in series.
+//! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms of four-bar and slider-crank in series.
 
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
@@ -31,7 +28,7 @@ use crate::machine::link::Link;
 use crate::number::error::{finite, positive};
 use crate::{Domain, math};
 
-/// Why the ram stands still at a dead centre.
+/// Why the ram stops at a dead centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Standstill {
@@ -41,7 +38,7 @@ pub enum Standstill {
     Toggle,
 }
 
-/// A crank angle at which the ram stands still.
+/// A crank angle where the ram stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -50,14 +47,14 @@ pub struct DeadCentre {
     pub phi: f64,
     /// Position x of the ram (m).
     pub ram: f64,
-    /// Why it stands still.
+    /// Why it stops.
     pub cause: Standstill,
 }
 
 /// The dead centres of one turn, by rising angle.
 pub type DeadCentres = heapless::Vec<DeadCentre, 8>;
 
-/// Dead centres nearer than this (rad) are one: where the links are in line just as the upper link reverses.
+/// Dead centres closer than this (rad) count as one: the links are in line exactly where the upper link reverses.
 const SAME: f64 = 1e-6;
 
 /// Dimensions of a toggle press (m).
@@ -70,9 +67,9 @@ pub struct TogglePressDimensions {
     pub rod: f64,
     /// Upper link length p > 0, from its pivot to the knuckle.
     pub upper: f64,
-    /// Lower link length q > 0, from the knuckle to the ram, long enough to reach the guide all the turn, or all the stroke.
+    /// Lower link length q > 0, from the knuckle to the ram, long enough to reach the guide over the whole turn or stroke.
     pub lower: f64,
-    /// Pivot P = [x, y] of the upper link, the crank's being [0, 0].
+    /// Pivot P = [x, y] of the upper link, with the crank's at [0, 0].
     pub pivot: [f64; 2],
     /// y of the ram's guide e.
     pub guide: f64,
@@ -80,11 +77,11 @@ pub struct TogglePressDimensions {
 
 /// A toggle press, driven at the crank, which turns fully or swings over a stroke.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AK), [`UPPER`](Self::UPPER)
-/// (frame at P along PK), [`LOWER`](Self::LOWER) (frame at K along KR), [`RAM`](Self::RAM) (frame at R, parallel to the
-/// global axes). The pin of the knuckle belongs to the upper link: rod and lower link turn on it.
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AK), [`UPPER`](Self::UPPER) (frame at P along PK),
+/// [`LOWER`](Self::LOWER) (frame at K along KR), [`RAM`](Self::RAM) (frame at R, parallel to the global axes). The pin of the knuckle belongs to the
+/// upper link: rod and lower link turn on it.
 ///
-/// Accuracy: positions and transfer functions to 1e-12 against four-bar and slider-crank one after the other (test
+/// Accuracy: positions and transfer functions to 1e-12 against four-bar and slider-crank in series (test
 /// `ram_follows_the_slider_crank_of_the_upper_link`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TogglePress {
@@ -106,12 +103,11 @@ impl TogglePress {
     /// Index of the ram.
     pub const RAM: usize = 4;
 
-    /// A toggle press of these dimensions, with the side on which the knuckle lies, the branch of the ram, and the links
-    /// crank, rod, upper, lower, ram.
+    /// A toggle press of these dimensions, with the side of the knuckle, the branch of the ram, and the links crank, rod, upper, lower, ram.
     ///
     /// # Errors
-    /// Those of [`FourBar::new`] for crank, coupler (here the rod), rocker (the upper link) and P; a lower link or guide
-    /// that is not possible; a lower link too short for a full turn, with the angle where it fails.
+    /// As [`FourBar::new`] for crank, coupler (here the rod), rocker (the upper link) and P; an impossible lower link or guide; a lower link too
+    /// short for a full turn, with the angle where it fails.
     pub fn new(
         dimensions: TogglePressDimensions,
         knuckle: Side,
@@ -135,12 +131,12 @@ impl TogglePress {
         Ok(press)
     }
 
-    /// A toggle press whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths of links that meet no dead point there. The
-    /// rest as for [`new`](Self::new).
+    /// A toggle press whose crank only swings over a `stroke` `[from, to]` (rad): any lengths of links without a dead point there. The rest as for
+    /// [`new`](Self::new).
     ///
     /// # Errors
-    /// Those of [`FourBar::over_stroke`] for crank, rod, upper link and P; a lower link or guide that is not possible; a start where the
-    /// lower link does not reach the guide; a dead point in the stroke, where it is perpendicular to the guide, with its angle.
+    /// As [`FourBar::over_stroke`] for crank, rod, upper link and P; an impossible lower link or guide; a start where the lower link does not reach
+    /// the guide; a dead point in the stroke, where it is perpendicular to the guide, with its angle.
     pub fn over_stroke(
         dimensions: TogglePressDimensions,
         knuckle: Side,
@@ -212,7 +208,7 @@ impl TogglePress {
             .fold(ends, f64::max))
     }
 
-    /// e − y_K (m) for an upper link of this sine.
+    /// e − y_K (m) for this sine of the upper link's angle.
     fn knuckle_off_guide(&self, sin: f64) -> f64 {
         let TogglePressDimensions {
             upper,
@@ -236,7 +232,7 @@ impl TogglePress {
         Ok(math::abs(self.knuckle_off_guide(sin)))
     }
 
-    /// The crank angles (rad, 0 to 2π) at which a `lower` link is perpendicular to the guide.
+    /// The crank angles (rad, 0 to 2π) where a `lower` link is perpendicular to the guide.
     fn dead_points(&self, lower: f64) -> Result<heapless::Vec<f64, 10>, PoseError> {
         let mut found = heapless::Vec::new();
         for distance in [lower, -lower] {
@@ -249,7 +245,7 @@ impl TogglePress {
                 }
             }
         }
-        // Where it only just fails, at the end of the swing, no angle was found before it.
+        // A link that only just fails, at the end of the swing, has no such angle before it.
         for phi in self.four_bar.rocker_dead_centres().into_iter().flatten() {
             if self.off_guide_at(phi)? >= lower * (1.0 - reach::HAIR) {
                 let _ = found.push(phi);
@@ -258,10 +254,10 @@ impl TogglePress {
         Ok(found)
     }
 
-    /// The crank angles at which the ram stands still.
+    /// The crank angles where the ram stops.
     ///
     /// # Errors
-    /// None for a press that was built.
+    /// No error for a valid press.
     pub fn dead_centres(&self) -> Result<DeadCentres, PoseError> {
         let mut found = DeadCentres::new();
         let mut add = |phi: f64, cause| -> Result<(), PoseError> {
@@ -282,8 +278,7 @@ impl TogglePress {
         }
         let TogglePressDimensions { upper, lower, .. } = self.dimensions;
         let height = self.knuckle_off_guide(0.0);
-        // Stretched R = P + (p + q)·u and folded R = P + (p − q)·u, u along the upper link; the lower link points to the
-        // ram's side.
+        // Straight R = P + (p + q)·u and folded R = P + (p − q)·u, u along the upper link; the lower link points to the ram's side.
         for (length, sign) in [
             (upper + lower, self.branch.sign()),
             (upper - lower, -self.branch.sign()),
@@ -300,17 +295,17 @@ impl TogglePress {
         Ok(found)
     }
 
-    /// Top and bottom of the ram's stroke, the bottom farthest from the knuckle's side. A press whose links pass the
-    /// stretched position reaches its bottom twice a turn; this is the first.
+    /// Top and bottom of the ram's stroke; the bottom is farthest from the knuckle's side. A press whose links pass the straight position reaches its
+    /// bottom twice per turn; this is the first one.
     ///
     /// # Errors
-    /// None for a press that was built.
+    /// No error for a valid press.
     pub fn stroke(&self) -> Result<[DeadCentre; 2], PoseError> {
         let centres = self.dead_centres()?;
         let down = |centre: &&DeadCentre| self.branch.sign() * centre.ram;
         let order = |a: &&DeadCentre, b: &&DeadCentre| down(a).total_cmp(&down(b));
         let top = centres.iter().min_by(order);
-        // Of equals the first.
+        // The first of equals.
         let bottom = centres.iter().rev().max_by(order);
         let none = DeadCentre {
             phi: 0.0,

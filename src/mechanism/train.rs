@@ -10,7 +10,7 @@ use crate::number::error::RangeError;
 use crate::number::error::{not_negative, positive};
 use crate::number::transfer::Transfer;
 
-/// How two gears mesh.
+/// Kind of mesh of two gears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mesh {
@@ -29,7 +29,7 @@ pub struct GearDimensions {
     pub teeth: [u32; 2],
     /// Inertias of the wheels (kg·m²).
     pub inertias: [f64; 2],
-    /// How they mesh.
+    /// Kind of mesh.
     pub mesh: Mesh,
 }
 
@@ -55,10 +55,10 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// A gear pair, lossless.
+    /// A lossless gear pair.
     ///
     /// # Errors
-    /// No teeth, or an inertia negative or not finite.
+    /// Zero teeth, or an inertia negative or not finite.
     pub fn gears(dimensions: GearDimensions) -> Result<Self, RangeError> {
         let [driver, driven] = dimensions.teeth.map(f64::from);
         let driver = positive("teeth of the driver", driver)?;
@@ -70,7 +70,7 @@ impl Stage {
         Self::new(sign * driven / driver, dimensions.inertias)
     }
 
-    /// An open belt without slip, lossless.
+    /// A lossless open belt without slip.
     ///
     /// # Errors
     /// A radius not positive, or an inertia or the mass negative or not finite.
@@ -84,10 +84,10 @@ impl Stage {
         Self::new(driven / driver, [pulley + belt, behind])
     }
 
-    /// A stage with the signed ratio i = ω_driver/ω_driven and the inertias on its two sides (kg·m²), lossless.
+    /// A lossless stage with the signed ratio i = ω_driver/ω_driven and the inertias on its two sides (kg·m²).
     ///
     /// # Errors
-    /// A ratio of zero, an inertia negative, or anything not finite.
+    /// A ratio of zero, a negative inertia, or a value not finite.
     pub fn new(ratio: f64, inertia: [f64; 2]) -> Result<Self, RangeError> {
         positive("ratio", crate::math::abs(ratio))?;
         Ok(Self {
@@ -98,7 +98,7 @@ impl Stage {
         })
     }
 
-    /// The same stage with an efficiency η in (0, 1], valid in both directions of power.
+    /// The same stage with an efficiency η in (0, 1], for both directions of power.
     ///
     /// # Errors
     /// An efficiency outside (0, 1].
@@ -114,7 +114,7 @@ impl Stage {
         Ok(Self { efficiency, ..self })
     }
 
-    /// The same stage with so much inertia more on its driver's side (kg·m²), as of a flywheel there.
+    /// The same stage with an additional inertia on its driver's side (kg·m²), such as a flywheel.
     ///
     /// # Errors
     /// An inertia negative or not finite.
@@ -141,9 +141,8 @@ impl Stage {
 
 /// A chain of stages, from the drive link (shaft 0) to the output shaft. An empty train is a direct coupling.
 ///
-/// As a [`Mechanism`] its links are the shafts and its reduced inertia is (6.9),
-/// J_red = J₁ + (J₂ + J₃)/i₁₂² + J₄/i₁₄²; a belt gives (5.16). Losses do not belong to the reduction: they are
-/// applied by [`input`](Self::input), where the direction of power is known.
+/// As a [`Mechanism`] its links are the shafts and its reduced inertia is (6.9), J_red = J₁ + (J₂ + J₃)/i₁₂² + J₄/i₁₄²; a belt gives (5.16). Losses
+/// are not part of the reduction: [`input`](Self::input) applies them, where the direction of power is known.
 ///
 /// Accuracy: 1e-12 against exact rationals (tests `gear_train_golden`, `belt_drive_golden`).
 #[derive(Clone, Debug, PartialEq)]
@@ -165,9 +164,9 @@ impl Train {
             }
         })?;
         let mut shafts = heapless::Vec::new();
-        let mut behind = 0.0; // the driven side of the stage before turns with this shaft
+        let mut behind = 0.0; // the driven side of the previous stage turns with this shaft
         for stage in &stages {
-            // Cannot fail: one shaft a stage, and one place more than stages.
+            // Cannot fail: one shaft per stage, and the capacity is one more than the number of stages.
             let _ = shafts.push(Link::rotor(behind + stage.driver)?);
             behind = stage.driven;
         }
@@ -201,17 +200,17 @@ impl Train {
         sum
     }
 
-    /// What the input shaft must give so that the output shaft delivers its torque in its motion.
+    /// The torque of the input shaft for the output shaft's torque and motion.
     ///
     /// Shaft by shaft: T_in = T_out/(i·η) where power flows to the output and T_out·η/i where it flows back, by the
-    /// [direction](TrainOutput::direction) of the motion; without one the first. The result says how the input torque changes
-    /// with α, so forward dynamics through the losses is a Newton step away.
+    /// [direction](TrainOutput::direction) of the motion; without a direction the first. The result contains the derivative of the input torque with
+    /// respect to α, so that forward dynamics through the losses takes one Newton step.
     #[must_use]
     pub fn input(&self, output: &TrainOutput) -> TrainInput {
         self.input_by_stages(output, |_, _| ())
     }
 
-    /// The same; `seen` is shown each stage with the torque that it delivers to the shaft behind it (N·m), from the output on.
+    /// The same; `seen` receives each stage with its torque on the next shaft (N·m), from the output back.
     pub fn input_by_stages(
         &self,
         output: &TrainOutput,
@@ -245,37 +244,37 @@ impl Train {
     }
 }
 
-/// What the output shaft of a drive train delivers, and how it moves.
+/// Torque and motion of the output shaft of a drive train.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrainOutput {
     /// Torque (N·m).
     pub torque: f64,
-    /// How the torque itself changes with α (kg·m²); 0 where nobody asks for [`TrainInput::torque_per_alpha`].
+    /// Derivative of the torque with respect to α (kg·m²); 0 if [`TrainInput::torque_per_alpha`] is not used.
     pub torque_per_alpha: f64,
     /// Speed (rad/s).
     pub omega: f64,
     /// Acceleration (rad/s²).
     pub alpha: f64,
-    /// Its sign decides which way power flows: ω itself, or at rest the direction in which the shaft starts. 0: it stays at
-    /// rest, and losses are those of driving.
+    /// Its sign decides the direction of power: ω itself, or at rest the direction in which the shaft starts. 0: it stays at rest, with the losses of
+    /// driving.
     pub direction: f64,
 }
 
-/// What a drive train needs at its input shaft.
+/// Torque and losses at the input shaft of a drive train.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TrainInput {
     /// Torque (N·m).
     pub torque: f64,
-    /// Its derivative by the acceleration of the *output* shaft (kg·m²).
+    /// Its derivative with respect to the acceleration of the *output* shaft (kg·m²).
     pub torque_per_alpha: f64,
     /// Power lost in the stages (W).
     pub loss: f64,
 }
 
 impl Jointed for Train {
-    /// The bearing of every shaft, then the mesh or belt of every stage. A train has ratios and no geometry: what a mesh
-    /// transmits is a moment on either shaft, and the ground takes the difference.
+    /// The bearing of every shaft, then the mesh or belt of every stage. A train has ratios, but no geometry: a mesh transmits a moment on each
+    /// shaft, and the ground takes the difference.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);

@@ -1,9 +1,8 @@
-//! Errors: a quantity outside its range, and what every error says beside its message.
+//! Errors: a quantity outside its range, and the cure of every error.
 
 use core::fmt;
 
-/// What to do about an error, as a text without a full stop; empty where the message says all. Made by the method `cure`
-/// of each error.
+/// The remedy for an error, as text without a full stop; empty where the message suffices. Returned by the method `cure` of each error.
 #[derive(Clone, Copy)]
 pub struct Cure<'a>(&'a dyn Curable);
 
@@ -21,7 +20,7 @@ impl fmt::Debug for Cure<'_> {
 
 /// Writes an error's cure.
 pub(crate) trait Curable {
-    /// Writes what to do.
+    /// Writes the remedy.
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result;
 }
 
@@ -31,12 +30,11 @@ impl<'a> Cure<'a> {
     }
 }
 
-/// Gives an error its method `cure` and makes it a [`core::error::Error`]; the errors named after it become variants of
-/// it by `?`.
+/// Gives an error its method `cure` and makes it a [`core::error::Error`]; the listed errors become variants of it by `?`.
 macro_rules! error {
     ($error:ident $(, $variant:ident($of:path))*) => {
         impl $error {
-            /// What to do about it.
+            /// The remedy.
             #[must_use]
             pub const fn cure(&self) -> $crate::number::error::Cure<'_> {
                 $crate::number::error::Cure::of(self)
@@ -54,7 +52,7 @@ macro_rules! error {
 }
 pub(crate) use error;
 
-/// A quantity outside the range that it must lie in.
+/// A quantity outside its range.
 ///
 /// Values are in SI units (m, kg, s, rad).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +67,7 @@ pub enum RangeError {
     Negative(&'static str, f64),
     /// The named quantity lies outside `[min, max]`.
     OutOfRange {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -78,14 +76,14 @@ pub enum RangeError {
         /// Largest value allowed.
         max: f64,
     },
-    /// More elements than the fixed capacity holds.
+    /// More elements than the fixed capacity.
     TooMany {
-        /// What was being added.
+        /// Kind of the elements.
         what: &'static str,
-        /// How many fit.
+        /// Capacity.
         capacity: usize,
     },
-    /// The buffer given is too short.
+    /// The buffer is too short.
     BufferTooShort {
         /// Number of elements needed.
         needed: usize,

@@ -1,4 +1,4 @@
-//! Factors of any size between numbers of a tick, and from counts of 32 bits to numbers and back.
+//! Factors of any magnitude between numbers of a tick, and between 32-bit counts and numbers.
 
 use super::product::high;
 
@@ -7,9 +7,9 @@ use super::product::high;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Factor {
     pub(super) float: f32,
-    /// In fixed point: an argument so shifted uses 31 bits where the result is 1,
+    /// In fixed point: an argument shifted by this uses 31 bits where the result is 1,
     shift: u32,
-    /// and is a quarter of the result when it is multiplied by this in units of 2⁻³².
+    /// and times this in units of 2⁻³² is a quarter of the result.
     mantissa: i32,
 }
 
@@ -17,12 +17,12 @@ pub struct Factor {
 const ONE: f32 = 2_147_483_648.0;
 
 impl Factor {
-    /// Of a number: result = ratio·number. `None` if the ratio is 2³¹ or more, or it or its inverse is no positive, normal number.
+    /// From a number: result = ratio·number. `None` if the ratio is 2³¹ or more, or if it or its inverse is not a positive normal number.
     pub(crate) fn new(ratio: f32) -> Option<Self> {
         Self::of(ratio, ratio)
     }
 
-    /// Of a count: result = ratio·count.
+    /// From a count: result = ratio·count.
     pub(crate) fn of_count(ratio: f32) -> Option<Self> {
         Self::of(ratio, ratio * ONE)
     }
@@ -32,7 +32,7 @@ impl Factor {
         Self::of(ratio, ratio / ONE)
     }
 
-    /// In fixed point a result of 1 is `ratio` arguments of 1.
+    /// In fixed point `ratio` is the result of the argument 1.
     fn of(float: f32, ratio: f32) -> Option<Self> {
         let argument = 1.0 / ratio;
         if !(ratio > 0.0 && ratio.is_normal() && argument.is_normal() && float.is_normal()) {
@@ -43,7 +43,7 @@ impl Factor {
             shifted *= 2.0;
             shift += 1;
         }
-        // A result for every argument but 0 would be beyond the range.
+        // Otherwise the result of every argument except 0 would be beyond the range.
         (shifted > 0.5).then(|| Self {
             float,
             shift,
@@ -51,7 +51,7 @@ impl Factor {
         })
     }
 
-    /// x times the ratio, limited to 32 bits, and whether it was.
+    /// x times the ratio, limited to 32 bits, and whether it was limited.
     #[inline(always)]
     pub(super) fn times(&self, x: i32) -> (i32, bool) {
         let shift = self.shift & 31;
@@ -70,11 +70,11 @@ impl Factor {
 mod tests {
     use super::{Factor, ONE};
 
-    /// A factor times its inverse is 1, over the whole range of both; beyond it, where one of the numbers it is made of is
-    /// zero, subnormal or infinite, there is none.
+    /// A factor times its inverse is 1, over the whole range of both. Beyond that range, where one of its numbers is zero, subnormal or infinite,
+    /// there is no factor.
     #[test]
     fn factors_and_their_inverses() {
-        // 2⁻¹²⁶ is the least normal number; the ratio's inverse is below 2¹²⁸.
+        // 2⁻¹²⁶ is the smallest normal number; the ratio's inverse is below 2¹²⁸.
         for power in -125..=30 {
             let ratio = 2.0f32.powi(power);
             let factor = Factor::new(ratio).unwrap();
@@ -102,7 +102,7 @@ mod tests {
         ] {
             assert_eq!(Factor::new(none), None, "{none:e}");
         }
-        // Of a count: the ratio may be smaller by 2³¹, but is itself a number that single precision holds.
+        // From a count: the ratio may be smaller by 2³¹, but must itself be a normal single-precision number.
         assert!(Factor::of_count(tiny).is_some());
         assert_eq!(Factor::of_count(0.5 * tiny), None);
         // To a count: larger by 2³¹.

@@ -1,30 +1,30 @@
-//! The arithmetic behind polynomials and the equation of motion, for each number type.
+//! The arithmetic of polynomials and of the equation of motion, for each number type.
 
 use core::fmt;
 use core::ops::{Add, Mul, Sub};
 
 use super::{Number, Outcome, Quantity as _, Role, Scale, Sliding};
 
-/// What coefficients of a cell are computed in.
+/// Numbers for the coefficients of a cell.
 pub trait Ring:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// A small multiple.
     fn times(self, factor: i8) -> Self;
-    /// A whole number.
+    /// An integer.
     fn whole(number: u16) -> Self;
 }
 
-/// The arithmetic behind a tick. Not nameable outside the crate: it may change with every release.
+/// The arithmetic of a tick. Not nameable outside the crate: it may change with every release.
 ///
-/// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
-/// fixed-point types. For floating point every format is the plain number.
+/// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format given by its [`Role`] (for the fixed-point types see the table in
+/// [`number`](super)). In floating point every format is the plain number.
 pub trait Kernel: Number {
-    /// What polynomials are evaluated and torques are summed in.
+    /// Numbers for the evaluation of polynomials and for sums of torques.
     type Raw: Ring;
-    /// As `Raw`, wide enough that no check overflows.
+    /// As `Raw`, but wide enough that no check overflows.
     type Wide: Ring;
-    /// A constant to multiply slopes by, of any size.
+    /// A multiplier for slopes, of any magnitude.
     type Factor: Copy + fmt::Debug + PartialEq;
     /// Constants of forward dynamics without a division.
     type Reciprocal: Copy + Default + fmt::Debug + PartialEq;
@@ -32,9 +32,9 @@ pub trait Kernel: Number {
     type Fraction: Copy;
     /// Code in the image header; `None`: not stored in images.
     const CODE: Option<u8>;
-    /// What [`step`](Self::step) divides by.
+    /// Divisor of [`step`](Self::step).
     const STEP: i8;
-    /// The place in a cell that the polynomials of rows are about.
+    /// The centre of row polynomials in a cell.
     const ROW_CENTRE: f64;
 
     fn raw(word: Self::Word) -> Self::Raw;
@@ -48,8 +48,7 @@ pub trait Kernel: Number {
     /// Whether a cell can be evaluated anywhere without overflow, NaN or infinity.
     fn is_sound(coefficients: [Self::Wide; 4]) -> bool;
 
-    /// ½·cells/span·J_b·ω_b²/T_b: the velocity torque at the speed base is this times dJ/du. For a slope that is stored
-    /// times `step`.
+    /// ½·cells/span·J_b·ω_b²/T_b: the velocity torque at the speed base is this times dJ/du, for a slope that is stored times `step`.
     fn velocity_factor(
         cells: u32,
         span: Self::Real,
@@ -57,9 +56,9 @@ pub trait Kernel: Number {
         step: i8,
     ) -> Option<Self::Factor>;
 
-    /// The cell that a phase lies in, and where.
+    /// The cell of a phase, and the place in it.
     fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
-    /// As `locate`, the place from `ROW_CENTRE` on.
+    /// As `locate`, with the place relative to `ROW_CENTRE`.
     #[inline(always)]
     fn locate_row(phase: u32, cells: u32) -> (u32, Self::Fraction) {
         Self::locate(phase, cells)
@@ -95,7 +94,7 @@ pub trait Kernel: Number {
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
     /// sum + |c|·share
     fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw;
-    /// sum and Coulomb friction.
+    /// sum plus Coulomb friction.
     #[inline(always)]
     fn add_sliding(sum: Self::Raw, c: Self::Raw, sliding: Sliding<Self>) -> Self::Raw {
         match sliding {
@@ -103,11 +102,11 @@ pub trait Kernel: Number {
             Sliding::Share(share) => Self::add_share(sum, c, share),
         }
     }
-    /// The sum as a torque. It fits: `Model::new` saw to it.
+    /// The sum as a torque. It fits, as `Model::new` ensured.
     fn torque(sum: Self::Raw) -> Self;
     /// (torque − resisting)/J
     fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
-    /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
+    /// Constants of `by_reciprocal`, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if the two do not match.
     fn reciprocal_of(inertia: Self::Raw, reciprocal: Self::Raw) -> Option<(Self::Reciprocal, f32)>;
     /// J_m, in machine units.
     fn reciprocal_unit(constants: Self::Reciprocal) -> f32;
@@ -161,7 +160,7 @@ macro_rules! float {
                 raw as f64
             }
             fn is_sound(coefficients: [$float; 4]) -> bool {
-                // Far below the largest number, no sum of a few such products overflows.
+                // Far below the largest number: a sum of a few such products cannot overflow.
                 coefficients.iter().all(|c| c.abs() < 1e30)
             }
             fn velocity_factor(cells: u32, span: $float, scale: &Scale, _: i8) -> Option<$float> {
@@ -189,7 +188,7 @@ macro_rules! float {
             #[inline(always)]
             fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
                 if cfg!(soft_float) {
-                    // By the bits of ω: a comparison is a call there.
+                    // By the bits of ω: with software floating point a comparison is a call.
                     let sign = -0.0 as $float;
                     let bits = omega.to_bits();
                     let not_zero = (bits << 1).wrapping_sub(1) < $float::INFINITY.to_bits() << 1;
@@ -245,7 +244,7 @@ mod tests {
     use super::Kernel as _;
     use crate::Q31;
 
-    /// |c|·sgn ω in floating point and in fixed point, of c with either sign.
+    /// |c|·sgn ω in floating point and in fixed point, for c with either sign.
     #[test]
     #[allow(clippy::float_cmp, reason = "sums of halves are exact")]
     fn every_speed_but_zero_has_a_sign() {

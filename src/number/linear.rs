@@ -1,12 +1,12 @@
 //! Small dense linear systems on borrowed memory: Gaussian elimination with row pivoting.
 //!
-//! Written here and not taken from a library: a linkage solves systems of one to a dozen equations in slices of its own
-//! memory, whose size only the mechanism knows, and a matrix library would be most of what firmware compiles for it.
-//! Elimination with the largest pivot of the column gives the exact solution of a system whose coefficients differ from
-//! those given by a few units of the last place (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 9.3).
+//! Not from a library: a linkage solves systems of one to a dozen equations in slices of its own memory, whose size depends on the mechanism, and a
+//! matrix library would be most of the code that firmware compiles for it. Elimination with the largest pivot of the column gives the exact solution
+//! of a system whose coefficients differ from the given ones by a few units of the last place (N. J. Higham, *Accuracy and Stability of Numerical
+//! Algorithms*, 9.3).
 
-/// Factors the n × n matrix `a` (column-major) in place; n is the length of `pivots`. Returns its determinant: zero where
-/// a pivot vanishes, and then the factors are of no use.
+/// Factors the n × n matrix `a` (column-major) in place; n is the length of `pivots`. Returns its determinant; at zero a pivot vanishes, and the
+/// factors must not be used.
 pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
     let n = pivots.len();
     let mut determinant = 1.0;
@@ -38,7 +38,7 @@ pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
     determinant
 }
 
-/// Solves for the right-hand side `b`, in place, with the factors that [`factor`] left.
+/// Solves for the right-hand side `b`, in place, with the factors from [`factor`].
 pub(crate) fn solve(factors: &[f64], pivots: &[usize], b: &mut [f64]) {
     let n = pivots.len();
     for (k, &pivot) in pivots.iter().enumerate() {
@@ -54,7 +54,7 @@ pub(crate) fn solve(factors: &[f64], pivots: &[usize], b: &mut [f64]) {
     }
 }
 
-/// Takes the first element's row, in the given shares, from the rows below it.
+/// Subtracts the first element's row, in the given shares, from the rows below it.
 fn eliminate(column: &mut [f64], shares: &[f64]) {
     if let Some((&mut first, rest)) = column.split_first_mut() {
         subtract(rest, first, shares);
@@ -67,7 +67,7 @@ fn subtract(from: &mut [f64], factor: f64, shares: &[f64]) {
     }
 }
 
-/// Index of the element of largest size.
+/// Index of the element of largest magnitude.
 fn largest(column: &[f64]) -> usize {
     let mut found = (0, 0.0);
     for (index, x) in column.iter().enumerate() {

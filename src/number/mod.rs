@@ -1,20 +1,19 @@
-//! Numbers: the types that everything else computes with.
+//! Numbers: the types that all computations use.
 //!
-//! Below the whole way of the data: angles, per-unit scales and derivatives, and the numbers that a tick takes and gives.
+//! The lowest layer: angles, per-unit scales and derivatives, and the numbers of a tick.
 //!
-//! Fixed point numbers are per-unit, in [−1, 1). The [`Scale`] of the model says what 1 means. Formats are chosen
-//! so that every product of a tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and
-//! nothing can wrap:
+//! Fixed-point numbers are per-unit, in [−1, 1); the [`Scale`] of the model defines 1. The formats make every product of a tick the upper half of a
+//! 32 × 32-bit product (one instruction on a Cortex-M4 and up), and prevent wrapping:
 //!
 //! | | [`Q31`](crate::Q31) | 1 is |
 //! |---|---|---|
 //! | J, b | Q30 | 2³⁰ |
 //! | load, c, sums of torques | Q29 | 2²⁹ |
 //! | seed of 1/J | Q31 | 2³¹ |
-//! | ω, α, T: arguments and results, each a type of its own | Q31 | 2³¹ |
+//! | ω, α, T: arguments and results, each with its own type | Q31 | 2³¹ |
 //!
-//! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when
-//! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
+//! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when table and model are
+//! created, so that inverse dynamics cannot saturate. Forward dynamics can, and reports it.
 
 pub(crate) mod error;
 mod factor;

@@ -8,11 +8,10 @@ use core::ops::{Add, Sub};
 use crate::math::{self, Real};
 use crate::number::error::finite;
 
-/// A position within the drive link's range as a fraction of 2³²: one turn for a rotating link, the stroke for a
-/// sliding one.
+/// A position in the drive link's range as a fraction of 2³²: one turn for a rotating link, the stroke for a sliding one.
 ///
-/// Wrapping is free (integer overflow), the high part selects the table cell, the low part interpolates.
-/// Resolution: 2⁻³² of the range (1.5e-9 rad of a turn).
+/// Wrapping is free (integer overflow); the high part selects the table cell, the low part interpolates. Resolution: 2⁻³² of the range (1.5e-9 rad of
+/// a turn).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Phase(u32);
@@ -30,20 +29,20 @@ impl Phase {
         self.0
     }
 
-    /// From an encoder count with `per_turn` counts a turn (or a stroke). Whole turns drop out exactly, and no error
-    /// accumulates: the result is floor(count·2³²/per_turn) modulo 2³².
+    /// From an encoder count with `per_turn` counts per turn (or stroke). Whole turns cancel exactly, and no error accumulates: the result is
+    /// floor(count·2³²/per_turn) modulo 2³².
     ///
-    /// A counter that overflows keeps its angle only if 2³² is a multiple of `per_turn` (a power of two); let other counters
-    /// wrap at a whole number of turns.
+    /// A counter that overflows keeps its angle only if 2³² is a multiple of `per_turn` (a power of two); other counters must wrap at a whole number
+    /// of turns.
     #[must_use]
     pub const fn from_counts(count: u32, per_turn: NonZeroU32) -> Self {
         let within = count % per_turn.get();
-        // within < per_turn, so the quotient is below 2³².
+        // within < per_turn, so that the quotient is below 2³².
         Self((((within as u64) << 32) / per_turn.get() as u64) as u32)
     }
 
-    /// From an angle in radians, wrapped to one turn; half a unit of 2⁻³² turn for |φ| ≤ 2π (test
-    /// `radians_round_to_half_a_unit`). NaN gives phase 0.
+    /// From an angle in radians, wrapped to one turn. Accuracy: half a unit of 2⁻³² turn for |φ| ≤ 2π (test `radians_round_to_half_a_unit`). NaN
+    /// gives phase 0.
     #[must_use]
     pub fn from_radians(phi: f64) -> Self {
         let turns = phi / TAU;
@@ -52,9 +51,9 @@ impl Phase {
         Self((fraction * 4_294_967_296.0 + 0.5) as u64 as u32)
     }
 
-    /// From an angle in radians in single precision, without any double-precision code: 6e-8 of a turn for
-    /// |φ| ≤ 2π (test `single_precision_radians_keep_their_promise`). Beyond ±6e8 rad, where a single-precision number no longer tells turns apart, and for NaN, the phase
-    /// is 0.
+    /// From an angle in radians in single precision, without double-precision code. Accuracy: 6e-8 of a turn for |φ| ≤ 2π (test
+    /// `single_precision_radians_keep_their_promise`). The phase is 0 for NaN and beyond ±6e8 rad, where single precision no longer distinguishes
+    /// turns.
     #[must_use]
     pub fn from_radians_f32(phi: f32) -> Self {
         const TURNS_PER_RADIAN: f32 = core::f32::consts::FRAC_1_PI * 0.5;
@@ -62,7 +61,7 @@ impl Phase {
         if !(turns > -1.0e8 && turns < 1.0e8) {
             return Self(0);
         }
-        // The difference is exact, in (−1, 1); the rest of 1/2π counts 4e-8 of a turn at 2π.
+        // The difference is exact, in (−1, 1); the remainder of 1/2π amounts to 4e-8 of a turn at 2π.
         let fraction = turns - (turns as i32) as f32 + phi * 6.420_638e-9;
         Self((fraction * 4_294_967_296.0) as i64 as u32)
     }
@@ -73,7 +72,7 @@ impl Phase {
         f64::from(self.0) * (TAU / 4_294_967_296.0)
     }
 
-    /// The cell of a table with `cells` cells, and the place within it as a fraction of 2³².
+    /// The cell of a table with `cells` cells, and the place in it as a fraction of 2³².
     ///
     /// One long multiplication (two short ones on a Cortex-M0); any number of cells up to 65535.
     #[must_use]
@@ -94,7 +93,7 @@ impl Phase {
     }
 }
 
-/// Index of the cell, and the place within it as a fraction of 2³²; for up to 65535 cells.
+/// Index of the cell, and the place in it as a fraction of 2³²; for up to 65535 cells.
 #[inline(always)]
 pub(crate) fn cell(phase: u32, cells: u32) -> (u32, u32) {
     if cfg!(short_multiply) {
@@ -105,7 +104,7 @@ pub(crate) fn cell(phase: u32, cells: u32) -> (u32, u32) {
     }
 }
 
-/// As `cell`; only the upper half of the place is sure to be right.
+/// As `cell`; only the upper half of the place is valid.
 #[inline(always)]
 pub(crate) fn cell_short(phase: u32, cells: u32) -> (u32, u32) {
     if cfg!(short_multiply) {
@@ -122,7 +121,7 @@ fn cell_by_halves(phase: u32, cells: u32) -> (u32, u32) {
     (upper >> 16, upper << 16 | low & 0xffff)
 }
 
-/// phase·cells/2¹⁶, and phase's lower half·cells.
+/// phase·cells/2¹⁶, and the lower half of phase times cells.
 #[inline(always)]
 fn products(phase: u32, cells: u32) -> [u32; 2] {
     let low = (phase & 0xffff).wrapping_mul(cells);
@@ -132,7 +131,7 @@ fn products(phase: u32, cells: u32) -> [u32; 2] {
     ]
 }
 
-/// Wrapping: a full turn is nothing.
+/// Wraps at a full turn.
 impl Add for Phase {
     type Output = Self;
     fn add(self, other: Self) -> Self {
@@ -140,7 +139,7 @@ impl Add for Phase {
     }
 }
 
-/// Wrapping: a full turn is nothing.
+/// Wraps at a full turn.
 impl Sub for Phase {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
@@ -154,8 +153,7 @@ impl Sub for Phase {
 pub enum Domain<R = f64> {
     /// A link that turns fully, φ in radians; every curve is periodic.
     Turn,
-    /// A stroke from `from` to `to`: metres for a sliding link, radians for one that swings. Positions outside are
-    /// clamped to the ends.
+    /// A stroke from `from` to `to`: metres for a sliding link, radians for one that swings. Positions outside are clamped to the ends.
     Stroke {
         /// Start of the stroke.
         from: R,
@@ -165,7 +163,7 @@ pub enum Domain<R = f64> {
 }
 
 impl Domain<f64> {
-    /// A stroke, checked.
+    /// A checked stroke.
     ///
     /// # Errors
     /// An end that is not finite, or `to` not greater than `from`.
@@ -188,7 +186,7 @@ impl Domain<f64> {
         }
     }
 
-    /// The position of a fraction (0 to 1) of the range.
+    /// The position at a fraction (0 to 1) of the range.
     #[must_use]
     pub fn position(self, fraction: f64) -> f64 {
         match self {
@@ -208,7 +206,7 @@ impl<R: Real> Domain<R> {
         }
     }
 
-    /// The same range in another precision: tables and images in `f32` store it in single precision.
+    /// The same range in another precision: `f32` tables and images store it in single precision.
     #[must_use]
     pub fn to<T: Real>(self) -> Domain<T> {
         match self {

@@ -1,8 +1,7 @@
 //! Upper halves of products, the same bits with and without a long multiplication.
 //!
-//! Cortex-M3 and up multiply 32 × 32 bits into 64 in one instruction. Cortex-M0, M0+ and M23 do not; there the compiler
-//! would call a helper of about 40 instructions, so products are put together from 16-bit halves instead. `build.rs` sets
-//! `short_multiply` for them; the tests compare both.
+//! Cortex-M3 and up multiply 32 × 32 bits into 64 in one instruction. Cortex-M0, M0+ and M23 do not: the compiler would call a helper of about 40
+//! instructions, so that products are composed of 16-bit halves instead. `build.rs` sets `short_multiply` for them; the tests compare both.
 
 /// Floor of a·b/2³².
 #[inline(always)]
@@ -33,7 +32,7 @@ pub(crate) fn high_short(x: i32, u: i32) -> i32 {
     if cfg!(short_multiply) {
         high_short_by_halves(x, u)
     } else if cfg!(dsp) {
-        // One instruction (SMULWT), which takes the upper half of u by itself.
+        // One instruction (SMULWT), which reads the upper half of u directly.
         ((i64::from(x) * i64::from(u >> 16)) >> 16) as i32
     } else {
         high(x, u & !0xffff)
@@ -47,13 +46,13 @@ fn high_short_by_halves(x: i32, u: i32) -> i32 {
     (x >> 16).wrapping_mul(n).wrapping_add(low)
 }
 
-/// The words of b = upper·2³² + lower, the lower one with a sign, so that both factors of a long product have one.
+/// The words of b = upper·2³² + lower, with a signed lower word, so that both factors of a long product are signed.
 pub(crate) const fn signed_words(b: u64) -> (i32, u32) {
     let lower = b as i32;
     (lower, ((b >> 32) as u32).wrapping_add((lower < 0) as u32))
 }
 
-/// Floor of (a·b + c)/2³², modulo 2³², by the [`signed_words`] of b.
+/// Floor of (a·b + c)/2³², modulo 2³², from the [`signed_words`] of b.
 #[inline(always)]
 pub(crate) const fn upper_of_sum(a: i32, (lower, upper): (i32, u32), c: u64) -> u32 {
     let sum = if cfg!(short_multiply) {
@@ -64,7 +63,7 @@ pub(crate) const fn upper_of_sum(a: i32, (lower, upper): (i32, u32), c: u64) -> 
     sum.wrapping_add((a as u32).wrapping_mul(upper))
 }
 
-/// The same of a factor b with 32 bits.
+/// The same for a 32-bit factor b.
 #[inline(always)]
 const fn upper_of_short_sum_by_halves(a: i32, b: i32, c: u64) -> u32 {
     let (a1, a0) = (a >> 16, a & 0xffff);
@@ -90,7 +89,7 @@ mod tests {
         upper_of_sum,
     };
 
-    /// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), after the extremes.
+    /// A fixed sequence of numbers of every magnitude (xorshift; G. Marsaglia 2003), after the extremes.
     fn numbers() -> impl Iterator<Item = i32> + Clone {
         let mut state = 0x9e37_79b9_u32;
         let random = core::iter::repeat_with(move || {
@@ -126,7 +125,7 @@ mod tests {
             }
         }
     }
-    /// Against integers of 128 bits.
+    /// Compared with 128-bit integers.
     #[test]
     fn the_upper_word_of_the_sum_is_exact() {
         for a in numbers().take(200) {

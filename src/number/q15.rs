@@ -6,8 +6,7 @@ use crate::{Acceleration, MotorTorque, Q31, Speed, Torque};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
-/// The [`Scale`](crate::Scale) of its model says what 1 means. Conversions round to the nearest
-/// number, halves away from zero.
+/// The [`Scale`](crate::Scale) of its model defines 1. Conversions round to the nearest number, halves away from zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Q15(i16);
@@ -58,7 +57,7 @@ impl Number for Q15 {
 
     fn per_unit(value: f32, base: f32) -> Outcome<Self> {
         let scaled = value / base * UNIT;
-        // Towards zero after half a unit more: the nearest. `as` saturates, and gives 0 for NaN.
+        // Adding half a unit and truncating rounds to the nearest. `as` saturates, and gives 0 for NaN.
         let nearest = (scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i32;
         let limited = nearest.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
         Outcome {
@@ -89,7 +88,7 @@ impl Number for Q15 {
     #[inline(always)]
     fn times(self, factor: &Factor) -> Outcome<Self> {
         let Outcome { value, saturated } = Q31::from(self).times(factor);
-        // To the nearest, in words of this length: rounded down, a motion would fall a little each tick.
+        // Rounded to the nearest, because repeated rounding down would make a motion fall a little each tick.
         let rounded = value.to_bits().saturating_add(1 << 15) >> 16;
         Outcome {
             value: Self(rounded as i16),

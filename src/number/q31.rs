@@ -11,7 +11,7 @@ use crate::{Acceleration, MotorTorque, Speed, Torque};
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
 ///
-/// The [`Scale`] of its model says what 1 means.
+/// The [`Scale`] of its model defines 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Q31(i32);
@@ -59,7 +59,7 @@ impl Ring for i64 {
 
 impl Scalar for Q31 {}
 
-/// 2 to the power of the fractional bits that a raw value of this role has.
+/// 2 to the power of the number of fraction bits of a raw value with this role.
 const fn unit(role: Role) -> f64 {
     match role {
         Role::Inertia | Role::Viscous => 1_073_741_824.0,
@@ -169,7 +169,7 @@ impl Kernel for Q31 {
         f64::from(raw.0) / unit(role)
     }
     fn is_sound(coefficients: [i64; 4]) -> bool {
-        // Every step of a value or slope stays within this sum; each floor adds less than 1.
+        // Every step of a value or slope stays below this sum; each floor adds less than 1.
         let [p0, p1, p2, p3] = coefficients.map(i64::abs);
         let limit = i64::from(i32::MAX) - 8;
         p1 + p2 + p3 <= limit && p0 + (p1 + p2 + p3) / 2 <= limit
@@ -202,7 +202,7 @@ impl Kernel for Q31 {
     }
     #[inline(always)]
     fn velocity(slope: Self::Raw, factor: i32, omega: Self) -> Self::Raw {
-        // The slope is Q30 times `step`, the factor makes 31 fractional bits of it. `Model::new` saw to it that the product fits.
+        // The slope is Q30 times `step`; the factor converts it to 31 fraction bits. The product fits, as `Model::new` ensured.
         Wrapping(high(slope.0.wrapping_mul(factor), omega.0))
     }
     #[inline(always)]
@@ -211,7 +211,7 @@ impl Kernel for Q31 {
     }
     #[inline(always)]
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {
-        // |c|·sgn ω has the sign of c·ω before c.
+        // The sign of c·ω decides the sign of the term.
         let c = if (c.0 ^ omega.0) < 0 { -c } else { c };
         if omega.0 == 0 { sum } else { sum + c }
     }
@@ -228,7 +228,7 @@ impl Kernel for Q31 {
         let magnitude = net.unsigned_abs();
         let divisor = inertia.0.unsigned_abs() << 1;
         if magnitude >= u64::from(divisor) {
-            // |quotient| ≥ 1: outside the range (−1 itself is given as saturated, too).
+            // |quotient| ≥ 1: outside the range (−1 itself counts as saturated, too).
             return Outcome {
                 value: if net < 0 { Self::MIN } else { Self::MAX },
                 saturated: true,
@@ -241,7 +241,7 @@ impl Kernel for Q31 {
         }
     }
     fn reciprocal_of(inertia: Self::Raw, seed: Self::Raw) -> Option<(Reciprocal, f32)> {
-        // J·ρ is a power of two, 2⁻ᵐ of the inertia base, but for the seed's error.
+        // J·ρ is a power of two, 2⁻ᵐ of the inertia base, except for the seed's error.
         let product = high(inertia.0, seed.0); // Q29
         let nearest = (u32::try_from(product).ok()? + product as u32 / 3).checked_ilog2()?;
         let shift = 29u32.checked_sub(nearest)?;
@@ -266,7 +266,7 @@ impl Kernel for Q31 {
         let net = (torque.0 >> 2).wrapping_sub(resisting.0); // Q29, |net| < 2
         let mut quotient = high(net, reciprocal.0); // Q28 − m
         if let Some(inertia) = inertia {
-            // One step of Newton's iteration, ρ ← ρ + ρ·(1 − J·ρ), taken on the quotient: its error is squared.
+            // One step of Newton's iteration, ρ ← ρ + ρ·(1 − J·ρ), applied to the quotient: its error is squared.
             let error = (unit << 1).wrapping_sub(high(inertia.0, reciprocal.0)); // Q29 + m
             quotient = quotient.wrapping_add(high(quotient, error.wrapping_mul(gain))); // Q32
         }
@@ -284,7 +284,7 @@ impl Kernel for Q31 {
     }
 }
 
-/// What makes an acceleration of a torque and the seed of 1/J, in units of 2⁻ᵐ.
+/// Constants that convert a torque and the seed of 1/J to an acceleration, in units of 2⁻ᵐ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reciprocal {
     /// 2²⁸⁻ᵐ
@@ -293,7 +293,7 @@ pub struct Reciprocal {
     gain: i32,
 }
 
-/// The whole number that a factor is, but for the rounding of its three bases.
+/// The integer value of a factor, except for the rounding of its three bases.
 pub(super) fn whole(factor: f32) -> Option<i32> {
     const ROUNDING: f32 = 1e-6;
     let nearest = (factor + 0.5) as i32;
@@ -305,8 +305,8 @@ pub(super) fn whole(factor: f32) -> Option<i32> {
 mod tests {
     use super::{Kernel as _, Q31};
 
-    /// Any step of (c₃·u + c₂)·u + c₁ and of p₀ + …·u stays within 32 bits for u from -½ to ½ and 0 to 1: up to the limit, in any share
-    /// of the three coefficients and with either sign, and not a unit beyond it.
+    /// Every step of (c₃·u + c₂)·u + c₁ and of p₀ + …·u stays within 32 bits for u from −½ to ½ and 0 to 1: up to the limit, for any split among the
+    /// three coefficients and with either sign, and not one unit beyond it.
     #[test]
     fn a_cell_is_sound_up_to_the_limit() {
         let limit = i64::from(i32::MAX) - 8;

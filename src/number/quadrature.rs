@@ -1,6 +1,6 @@
 //! Integrals of smooth functions.
 
-/// Places and weights of the Gauss-Legendre rule of five points on [−1, 1] (Abramowitz and Stegun, table 25.4).
+/// Nodes and weights of the five-point Gauss-Legendre rule on [−1, 1] (Abramowitz and Stegun, table 25.4).
 #[expect(clippy::excessive_precision, reason = "the table's digits")]
 const RULE: [(f64, f64); 5] = [
     (-0.906_179_845_938_663_993, 0.236_926_885_056_189_088),

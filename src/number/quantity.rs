@@ -1,4 +1,4 @@
-//! Speeds, accelerations and torques of a tick: in fixed point types that the compiler tells apart.
+//! Speeds, accelerations and torques of a tick: in fixed point, distinct types.
 
 use core::fmt;
 
@@ -7,8 +7,8 @@ use crate::{Q15, Q31};
 
 /// A speed, an acceleration or a torque of a tick. Sealed.
 ///
-/// In fixed point each has a type of its own, [`Speed`], [`Acceleration`], [`Torque`] and [`MotorTorque`], because a number per unit tells neither by its
-/// size nor by its unit what it is. `f32` and `f64` are every quantity as they are.
+/// In fixed point each has its own type, [`Speed`], [`Acceleration`], [`Torque`] and [`MotorTorque`], because neither magnitude nor unit of a
+/// per-unit number shows its meaning. In floating point all are plain `f32` or `f64`.
 ///
 /// ```
 /// use jred::number::Quantity;
@@ -28,10 +28,10 @@ pub trait Quantity:
     + crate::sealed::Sealed
     + 'static
 {
-    /// What it is a number of: itself in floating point.
+    /// Its number type: itself in floating point.
     type Number: Number;
 
-    /// The quantity of this number, in machine units.
+    /// The quantity with this number, in machine units.
     fn of(number: Self::Number) -> Self;
     /// Its number, in machine units.
     fn number(self) -> Self::Number;
@@ -62,20 +62,20 @@ pub trait Quantity:
     fn mean(self, other: Self) -> Self {
         Self::of(self.number().mean(other.number()))
     }
-    /// Whether its magnitude is greater than the limit, or it is no number.
+    /// Whether its magnitude is greater than the limit; true for NaN.
     #[doc(hidden)]
     #[inline(always)]
     fn exceeds(self, limit: Self) -> bool {
         self.number().exceeds(limit.number())
     }
-    /// Limited; 0 for what is no number.
+    /// Limited to a range; NaN becomes 0.
     #[doc(hidden)]
     #[must_use]
     #[inline(always)]
     fn within(self, [least, greatest]: [Self; 2]) -> Self {
         Self::of(self.number().within([least.number(), greatest.number()]))
     }
-    /// Another quantity: the number times the factor; limited and flagged in fixed point.
+    /// Another quantity, the number times the factor; limited and flagged in fixed point.
     #[doc(hidden)]
     #[inline(always)]
     fn times<Q: Quantity<Number = Self::Number>>(self, factor: &Factor) -> Outcome<Q> {
@@ -87,7 +87,7 @@ pub trait Quantity:
     fn from_si(si: f32, base: f32) -> Outcome<Self> {
         Self::Number::per_unit(si, base).map(Self::of)
     }
-    /// Back to SI.
+    /// From units of `base` to SI.
     #[doc(hidden)]
     #[inline(always)]
     fn to_si(self, base: f32) -> f32 {
@@ -118,7 +118,7 @@ macro_rules! quantity {
     ($(#[$documentation:meta])* $name:ident) => {
         $(#[$documentation])*
         ///
-        /// For a motion table or a log there are the raw integers: `from_bits`, `to_bits`.
+        /// `from_bits` and `to_bits` give the raw integers for a motion table or a log.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         #[repr(transparent)]
@@ -181,7 +181,7 @@ macro_rules! quantity {
                 Self(self.0.minus(other.0).value)
             }
 
-            /// The same the other way round, limited to the range.
+            /// The negative, limited to the range.
             #[must_use]
             #[inline]
             pub fn saturating_neg(self) -> Self {
@@ -223,7 +223,7 @@ quantity! {
     /// # Ok::<(), jred::number::RangeError>(())
     /// ```
     ///
-    /// What has no meaning does not compile: a speed and a torque have no sum,
+    /// Meaningless operations do not compile: a speed and a torque have no sum,
     ///
     /// ```compile_fail,E0308
     /// # use jred::{Q31, Speed, Torque};
@@ -232,7 +232,7 @@ quantity! {
     /// }
     /// ```
     ///
-    /// and a speed is no acceleration:
+    /// and a speed is not an acceleration:
     ///
     /// ```compile_fail,E0271
     /// # use jred::{Q31, Scale, Speed};
@@ -254,7 +254,6 @@ quantity! {
 }
 
 quantity! {
-    /// A torque on the motor's shaft, behind a gearbox, in fixed point: 1 is the base of the
-    /// [`Transmission`](crate::axis::Transmission).
+    /// A torque on the motor's shaft, behind a gearbox, in fixed point: 1 is the base of the [`Transmission`](crate::axis::Transmission).
     MotorTorque
 }

@@ -2,11 +2,11 @@
 
 /// Floor of dividend·2³¹/divisor, for a dividend less than the divisor.
 ///
-/// Two digits of 16 bits, as by hand (D. Knuth, *The Art of Computer Programming*, vol. 2, algorithm D).
+/// Two 16-bit digits, by long division (D. Knuth, *The Art of Computer Programming*, vol. 2, algorithm D).
 #[inline]
 pub(crate) fn quotient(dividend: u32, divisor: u32) -> u32 {
     let shift = divisor.leading_zeros();
-    // The top bit is set but for a divisor of 0, which then counts as the largest.
+    // The top bit is set, except for a divisor of 0, which then counts as the largest.
     let divisor = divisor.wrapping_shl(shift) | 1 << 31;
     // Less than divisor·2³¹.
     let dividend = u64::from(dividend) << (31 + (shift & 31));
@@ -15,7 +15,7 @@ pub(crate) fn quotient(dividend: u32, divisor: u32) -> u32 {
     upper << 16 | lower
 }
 
-/// Quotient and rest of (u·2¹⁶ + next)/divisor, for u less than the divisor, `next` of 16 bits, a divisor whose top bit is set.
+/// Quotient and remainder of (u·2¹⁶ + next)/divisor, for u less than the divisor, a 16-bit `next`, and a divisor whose top bit is set.
 #[inline]
 fn digit(u: u32, next: u32, divisor: u32) -> (u32, u32) {
     let (upper, lower) = (divisor >> 16 | 1 << 15, divisor & 0xffff);
@@ -40,7 +40,7 @@ mod tests {
 
     #[test]
     fn two_digits_give_the_long_quotient() {
-        // A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), and the extremes.
+        // A fixed sequence of numbers of every magnitude (xorshift; G. Marsaglia 2003), and the extremes.
         let mut state = 0x9e37_79b9_u32;
         let mut next = move || {
             state ^= state << 13;
@@ -64,7 +64,7 @@ mod tests {
         ];
         let pairs = (0..300_000).map(|_| [next(), next()]);
         let ends = extremes.iter().flat_map(|a| extremes.map(|b| [*a, b]));
-        // Dividends next to the divisor, and next to a multiple of its upper half, make the digits too large.
+        // Dividends near the divisor, and near a multiple of its upper half, make the digits too large.
         let near = extremes
             .iter()
             .flat_map(|d| [1, 2, 0xffff].map(|k| [d.wrapping_sub(k), *d]));

@@ -1,4 +1,4 @@
-//! The numbers that a tick takes and gives: `f32`, `f64`, [`Q31`](crate::Q31) and [`Q15`](crate::Q15).
+//! The numbers of a tick: `f32`, `f64`, [`Q31`](crate::Q31) and [`Q15`](crate::Q15).
 
 use core::fmt;
 
@@ -8,7 +8,7 @@ use crate::math::Real;
 
 /// A number of a tick: `f32`, `f64`, [`Q31`](crate::Q31) or [`Q15`](crate::Q15). Sealed.
 ///
-/// Floating point works in SI units or in per-unit, as its [`Scale`](crate::Scale) says; fixed point always in per-unit.
+/// Floating point uses SI units or per-unit, depending on its [`Scale`](crate::Scale); fixed point always uses per-unit.
 ///
 /// ```
 /// use jred::Q31;
@@ -21,7 +21,7 @@ use crate::math::Real;
 /// assert_eq!(doubled(Q31::MAX), None);
 /// ```
 ///
-/// A number of one's own does not compile, complete or not:
+/// Other crates cannot implement it, completely or not:
 ///
 /// ```compile_fail,E0277
 /// use jred::Outcome;
@@ -54,7 +54,7 @@ use crate::math::Real;
 /// }
 /// ```
 ///
-/// Nor is a number of 16 bits one of 32:
+/// Nor is a 16-bit number a 32-bit one:
 ///
 /// ```
 /// # use jred::{Q15, Q31};
@@ -70,7 +70,7 @@ pub trait Number:
 {
     /// The type for lengths and spans: `f64` for `f64`, otherwise `f32`.
     type Real: Real;
-    /// A number as it lies in a table: `f32`, `f64`, `i32` for `Q31`, `i16` for `Q15`.
+    /// A number as stored in a table: `f32`, `f64`, `i32` for `Q31`, `i16` for `Q15`.
     type Word: bytemuck::Pod + Default + fmt::Debug + PartialEq;
     /// A speed: the number itself in floating point, [`Speed`](crate::Speed) in fixed point.
     type Speed: super::Quantity<Number = Self>;
@@ -80,9 +80,9 @@ pub trait Number:
     type Torque: super::Quantity<Number = Self>;
     /// A torque on the motor's shaft: the number itself, or [`MotorTorque`](crate::MotorTorque).
     type MotorTorque: super::Quantity<Number = Self>;
-    /// Name as the command line and the generated sources use it.
+    /// Name in the command line and in generated sources.
     const NAME: &'static str;
-    /// Fixed point: the largest number is 1, and forward dynamics can do without a division.
+    /// Fixed point: the largest number is 1, and forward dynamics can avoid the division.
     const FIXED: bool;
 
     /// The nearest number, if it is in range.
@@ -91,7 +91,7 @@ pub trait Number:
     fn to_f64(self) -> f64;
     /// `value` in units of `base`.
     fn per_unit(value: f32, base: f32) -> Outcome<Self>;
-    /// Back to SI.
+    /// From units of `base` to SI.
     fn si(self, base: f32) -> f32;
     /// `count` times the factor; limited and flagged in fixed point.
     #[doc(hidden)]
@@ -107,7 +107,7 @@ pub trait Number:
             saturated: a.saturated || b.saturated || sum.saturated,
         }
     }
-    /// The number times the factor, as a count; limited, and 0 for what is no number.
+    /// The number times the factor, as a count; limited, and 0 for NaN.
     #[doc(hidden)]
     fn to_count(self, factor: &Factor) -> i32;
     /// The number times the factor; limited and flagged in fixed point.
@@ -123,21 +123,21 @@ pub trait Number:
     #[doc(hidden)]
     #[must_use]
     fn mean(self, other: Self) -> Self;
-    /// The smallest number with its sign that friction sees; 0 of 0.
+    /// The smallest nonzero number of the same sign; 0 for 0.
     #[doc(hidden)]
     #[must_use]
     fn least(self) -> Self;
-    /// Limited to −1 … 1; 0 for what is no number.
+    /// Limited to −1 … 1; NaN becomes 0.
     #[doc(hidden)]
     #[must_use]
     #[inline(always)]
     fn to_unit(self) -> Self {
         self
     }
-    /// Whether its magnitude is greater than the limit, or it is no number.
+    /// Whether its magnitude is greater than the limit; true for NaN.
     #[doc(hidden)]
     fn exceeds(self, limit: Self) -> bool;
-    /// Limited; 0 for what is no number.
+    /// Limited to a range; NaN becomes 0.
     #[doc(hidden)]
     #[must_use]
     #[inline(always)]
@@ -156,8 +156,7 @@ pub trait Number:
 
 /// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
 ///
-/// Its supertrait `Kernel` is the arithmetic behind a tick, which may change with every release: it cannot be named outside the
-/// crate.
+/// Its supertrait `Kernel` is the arithmetic of a tick, which may change with every release: it cannot be named outside the crate.
 pub trait Scalar: Number + Kernel {}
 
 /// A result, and whether it was limited to the number's range.
@@ -180,7 +179,7 @@ impl<S> Outcome<S> {
         }
     }
 
-    /// The same of what a function makes of the result.
+    /// The same, with the result converted by `of`.
     #[inline(always)]
     pub(crate) fn map<T>(self, of: impl FnOnce(S) -> T) -> Outcome<T> {
         Outcome {
@@ -246,7 +245,7 @@ macro_rules! float {
             }
             #[inline(always)]
             fn least(self) -> Self {
-                // By the bits, without a comparison of floating point: that is a call where it is software.
+                // By the bits: with software floating point a comparison is a call.
                 let size = if self.to_bits() << 1 == 0 {
                     0.0
                 } else {
@@ -260,7 +259,7 @@ macro_rules! float {
             }
             #[inline(always)]
             fn exceeds(self, limit: Self) -> bool {
-                // Magnitudes of floating point compare as their bits do, with what is no number above all.
+                // Magnitudes of floating point compare like their bits, with NaN above all.
                 self.to_bits() << 1 > limit.to_bits() << 1
             }
         }

@@ -1,4 +1,4 @@
-//! SI units to machine units and back.
+//! Conversion between SI units and machine units.
 
 use crate::math;
 use crate::number::error::{RangeError, positive};
@@ -6,9 +6,8 @@ use crate::number::{Number, Outcome, Quantity};
 
 /// The bases of the per-unit system: the SI values of the number 1.
 ///
-/// Three bases are free; the others follow, so that the equation of motion has the same form in machine units:
-/// acceleration T_b/J_b, viscous coefficient T_b/ω_b. They are single-precision numbers, exactly as in a table image, so that
-/// host and firmware convert with the same bits.
+/// Three bases are free; the others follow, so that the equation of motion has the same form in machine units: acceleration T_b/J_b, viscous
+/// coefficient T_b/ω_b. They are single-precision numbers, as in a table image, so that host and firmware convert with the same bits.
 ///
 /// For a sliding drive link read force (N), speed (m/s), mass (kg).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +18,7 @@ pub struct Scale {
     inertia: f32,
 }
 
-/// What the number 1 is in machine units.
+/// The SI values of the number 1 in machine units.
 ///
 /// ```
 /// # use jred::{Scale, number::Bases};
@@ -39,7 +38,7 @@ pub struct Bases {
 }
 
 impl Scale {
-    /// Machine units are SI units: the scale of floating-point models.
+    /// SI units as machine units: the scale of floating-point models.
     pub const SI: Self = Self {
         torque: 1.0,
         speed: 1.0,
@@ -70,21 +69,20 @@ impl Scale {
         })
     }
 
-    /// The same with the speed base enlarged a little, so that in a fixed-point table of `cells` cells over `span` (2π, or the
-    /// stroke) the velocity torque is a whole multiple of the slope a cell:
+    /// The same with a slightly larger speed base, so that in a fixed-point table of `cells` cells over `span` (2π, or the stroke) the velocity
+    /// torque is an integer multiple of the slope per cell:
     ///
     /// ```text
     /// ½·cells/span·J_b·ω_b²/T_b = 1, 2, 3, …
     /// ```
     ///
-    /// One integer multiplication then replaces a product with a fraction and a shift. Speed grows to the next whole number, a
-    /// few percent where the number is not small. The bases of torque and inertia grow with its square, so that no curve leaves
-    /// the range that it was in, but not more than by 2 or as the speed (from the whole number 1 on, the velocity torque is
-    /// only the slope a cell); that of the acceleration stays.
+    /// One integer multiplication then replaces a product with a fraction and a shift. The speed base grows until the multiple is the next integer,
+    /// by a few per cent unless the integer is small. The bases of torque and inertia grow with its square, so that no curve leaves its range, but at
+    /// most by the larger of 2 and the growth of the speed base (from the integer 1 on, the velocity torque is only the slope per cell). The
+    /// acceleration base stays the same.
     ///
-    /// Accuracy: the bases are rounded to single precision, which leaves an error of up to 2.5e-7 of the velocity torque
-    /// (`tests/proofs/scale.g`, test `for_cells_makes_the_factor_whole`). A scale that is as near as that to a whole multiple is
-    /// returned as it is.
+    /// Accuracy: rounding of the bases to single precision causes an error of up to 2.5e-7 of the velocity torque (`tests/proofs/scale.g`, test
+    /// `for_cells_makes_the_factor_whole`). A scale within that error of an integer multiple is returned unchanged.
     #[must_use]
     pub fn for_cells(self, cells: u32, span: f64) -> Self {
         let (torque, speed, inertia) = (
@@ -94,7 +92,7 @@ impl Scale {
         );
         let per_square = 0.5 * f64::from(cells) / span * inertia / torque;
         let factor = per_square * speed * speed;
-        // A scale that is already whole does not change: four roundings of 2⁻²⁴ are 2.4e-7.
+        // A scale with an integer multiple does not change: four roundings of 2⁻²⁴ are 2.4e-7.
         let nearest = math::floor(factor + 0.5);
         if nearest >= 1.0 && math::abs(factor - nearest) < 2.5e-7 * factor {
             return self;
@@ -109,7 +107,7 @@ impl Scale {
         }
     }
 
-    /// Whether the bases are positive, finite numbers.
+    /// Checks that the bases are positive and finite.
     pub(crate) fn is_sound(&self) -> bool {
         [self.torque, self.speed, self.inertia]
             .iter()
@@ -118,7 +116,7 @@ impl Scale {
             && self.acceleration().is_finite()
     }
 
-    /// From bases read from an image; see [`is_sound`](Self::is_sound).
+    /// A scale with bases read from an image; see [`is_sound`](Self::is_sound).
     pub(crate) const fn from_bases([torque, speed, inertia]: [f32; 3]) -> Self {
         Self {
             torque,
@@ -147,7 +145,7 @@ impl Scale {
         self.torque / self.inertia
     }
 
-    /// J_b·ω_b²/T_b: size of the velocity term.
+    /// J_b·ω_b²/T_b: magnitude of the velocity term.
     pub(crate) fn velocity_base(&self) -> f32 {
         self.inertia * self.speed / self.torque * self.speed
     }
@@ -167,17 +165,17 @@ impl Scale {
         T::from_si(torque, self.torque)
     }
 
-    /// A torque on the drive link in machine units, in N·m.
+    /// A torque on the drive link, from machine units to N·m.
     pub fn torque_si<T: Quantity<Number: Number<Torque = T>>>(&self, torque: T) -> f32 {
         torque.to_si(self.torque)
     }
 
-    /// A speed in machine units, in rad/s.
+    /// A speed, from machine units to rad/s.
     pub fn omega_si<S: Quantity<Number: Number<Speed = S>>>(&self, omega: S) -> f32 {
         omega.to_si(self.speed)
     }
 
-    /// An acceleration in machine units, in rad/s².
+    /// An acceleration, from machine units to rad/s².
     pub fn alpha_si<A: Quantity<Number: Number<Acceleration = A>>>(&self, alpha: A) -> f32 {
         alpha.to_si(self.acceleration())
     }

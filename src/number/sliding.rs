@@ -1,16 +1,16 @@
-//! Which way friction acts.
+//! Direction of friction.
 
 use super::Number;
 
-/// What Coulomb friction opposes, and with what share of c. The viscous friction always opposes ω itself.
+/// The motion that Coulomb friction opposes, or its share of c. Viscous friction always opposes ω itself.
 ///
-/// At standstill friction balances what else acts, up to c either way, and a tick cannot tell: sgn 0 = 0. A *measured* speed changes its sign
-/// there with every count, and ±c with it.
+/// At standstill friction balances the other forces, up to c in both directions, which a tick does not know: sgn 0 = 0. A *measured* speed changes
+/// its sign there with every count, and ±c with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sliding<N: Number> {
-    /// All of c against the sign of this speed: of the motion itself, or of its set-point, which does not chatter. Only 0
-    /// itself has no sign, however small a speed is (test `every_speed_but_zero_has_a_sign`).
+    /// All of c against the sign of this speed: of the motion itself, or of its set-point, which does not chatter. Only 0 has no sign, however small
+    /// a speed is (test `every_speed_but_zero_has_a_sign`).
     Against(N::Speed),
     /// This share of c, −1 to 1: a ramp over a width of speed.
     Share(N),

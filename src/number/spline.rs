@@ -1,32 +1,30 @@
-//! The interpolant of every curve: a uniform cubic B-spline through samples.
+//! The interpolant of all curves: a uniform cubic B-spline through samples.
 //!
-//! One control point a knot gives value, slope and curvature of one and the same C2 curve:
+//! One control point per knot gives value, slope and curvature of the same C2 curve:
 //!
 //! ```text
 //! f(u) = p0 + u·(p1 + u·(p2 + u·p3)),   u in [0, 1) within the cell
 //! p0 = c₀ + 4c₁ + c₂    p1 = 3(c₂ − c₀)    p2 = 3(c₀ − 2c₁ + c₂)    p3 = (c₃ − c₀) + 3(c₁ − c₂)
 //! ```
 //!
-//! where c₀…c₃ are four neighbouring control points, stored divided by six so that no division is left. The error
-//! of the value falls with the fourth power of the cell's width, that of the slope with the third.
-//! Interpolation of periodic samples by two recursive filters: M. Unser, *Splines: a perfect fit for signal and
-//! image processing*, IEEE Signal Processing Magazine 16 (1999), equations (19)-(20).
+//! where c₀…c₃ are four neighbouring control points, stored divided by six so that no division remains. The error of the value falls with the fourth
+//! power of the cell's width, the error of the slope with the third. Interpolation of periodic samples by two recursive filters: M. Unser, *Splines:
+//! a perfect fit for signal and image processing*, IEEE Signal Processing Magazine 16 (1999), equations (19)-(20).
 
 use crate::math;
 use crate::number::Ring;
 use crate::number::error::RangeError;
 
-/// Control points that a curve of `cells` cells has: one a cell and three more, so that the four of any cell lie
-/// side by side.
+/// Number of control points of a curve of `cells` cells: one per cell and three more, so that the four of any cell lie side by side.
 #[must_use]
 pub const fn control_points(cells: usize) -> usize {
     cells + 3
 }
 
-/// Fewest cells of a curve.
+/// Least number of cells of a curve.
 pub const MIN_CELLS: usize = 4;
 
-/// Control points of the periodic curve through `samples` (one a cell, the first not repeated at the end).
+/// Control points of the periodic curve through `samples` (one per cell, the first not repeated at the end).
 ///
 /// # Errors
 /// Fewer than [`MIN_CELLS`] samples, or a buffer of another length than samples + 3.
@@ -55,7 +53,7 @@ fn solve_periodic(a: f64, f: &[f64], control: &mut [f64]) {
         .rev()
         .fold(0.0, |sum, j| sum * pole + at(cells - j))
         * wrap;
-    // Control point k of the formula above sits at index k + 1: the cell before the first needs one, too.
+    // Control point k of the formula above has index k + 1: the cell before the first needs one, too.
     if let Some(first) = control.get_mut(1) {
         *first = y;
     }
@@ -82,8 +80,8 @@ fn solve_periodic(a: f64, f: &[f64], control: &mut [f64]) {
     }
 }
 
-/// Control points (in halves) of the periodic C1 quadratic through `samples` in the middle of every cell. Interpolating
-/// there keeps an even degree well-posed; value and slope are then continuous at the knots.
+/// Control points (in halves) of the periodic C1 quadratic through `samples` in the middle of every cell. Interpolation there keeps an even degree
+/// well-posed; value and slope are then continuous at the knots.
 ///
 /// # Errors
 /// As [`fit_periodic`].
@@ -113,14 +111,13 @@ pub fn fit_quadratic_bounded(samples: &[f64], control: &mut [f64]) -> Result<(),
     check_lengths(samples.len(), cells, control.len())?;
     let f = |k: usize| samples.get(k).copied().unwrap_or(0.0);
     let (start, end) = (f(0), f(cells + 1));
-    // h₋₁ = start − h₀ and hₙ = end − hₙ₋₁ leave the tridiagonal system (1, 6, 1) with 5 in both corners; hₖ sits at
-    // index k + 1.
+    // h₋₁ = start − h₀ and hₙ = end − hₙ₋₁ lead to the tridiagonal system (1, 6, 1) with 5 in both corners; hₖ has index k + 1.
     let mut set = |k: usize, value: f64| {
         if let Some(slot) = control.get_mut(k) {
             *slot = value;
         }
     };
-    // Of the eliminated rows: h[k] = right − pivot·h[k+1].
+    // The eliminated rows: h[k] = right − pivot·h[k+1].
     let mut right = (4.0 * f(1) - start) / 5.0;
     set(1, right);
     for k in 1..cells {
@@ -147,13 +144,13 @@ pub fn fit_quadratic_bounded(samples: &[f64], control: &mut [f64]) -> Result<(),
     Ok(())
 }
 
-/// What elimination leaves of the system (1, 6, 1) that begins with 5, at row k.
+/// Remaining coefficient of row k after elimination of the system (1, 6, 1) that begins with 5.
 fn quadratic_pivot(k: usize) -> f64 {
     (0..k.min(20)).fold(0.2, |before, _| 1.0 / (6.0 - before))
 }
 
-/// Control points of the curve through `samples` at both ends and between (one more than cells), with not-a-knot
-/// ends: the first two and the last two cells share one cubic.
+/// Control points of the curve through `samples` at both ends and between (one more than cells), with not-a-knot ends: the first two and the last two
+/// cells each share one cubic.
 ///
 /// # Errors
 /// Fewer than [`MIN_CELLS`] cells, or a buffer of another length than samples + 2.
@@ -161,11 +158,11 @@ pub fn fit_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), RangeErro
     let cells = samples.len().saturating_sub(1);
     check_lengths(samples.len(), cells, control.len())?;
     let f = |k: usize| samples.get(k).copied().unwrap_or(0.0);
-    // With f[k] = c[k−1] + 4c[k] + c[k+1] (c in sixths), not-a-knot at knot 1 leaves c[1] by itself:
+    // With f[k] = c[k−1] + 4c[k] + c[k+1] (c in sixths), not-a-knot at knot 1 determines c[1] directly:
     let end = |f0: f64, f1: f64, f2: f64| (8.0 * f1 - f0 - f2) / 36.0;
     let first = end(f(0), f(1), f(2));
     let last = end(f(cells), f(cells - 1), f(cells - 2));
-    // Between them a tridiagonal system (1, 4, 1), solved by elimination; control point k sits at index k + 1.
+    // Between them a tridiagonal system (1, 4, 1), solved by elimination; control point k has index k + 1.
     let mut set = |k: usize, value: f64| {
         if let Some(slot) = control.get_mut(k) {
             *slot = value;
@@ -185,7 +182,7 @@ pub fn fit_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), RangeErro
             *slot = next;
         }
     }
-    // The outer points from the interpolation at knots 1, 0 and their mirror images.
+    // The outer points from the interpolation at knots 1 and 0, and symmetrically at the other end.
     let get = |control: &[f64], k: usize| control.get(k).copied().unwrap_or(0.0);
     let c1 = f(1) - 4.0 * get(control, 2) - get(control, 3);
     let c0 = f(0) - 4.0 * c1 - get(control, 2);
@@ -199,8 +196,8 @@ pub fn fit_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), RangeErro
     Ok(())
 }
 
-/// What elimination leaves of the system (1, 4, 1) at knot k ≥ 2: 1/4, 1/(4 − 1/4), … It reaches its limit 2 − √3
-/// to the last bit within 20 knots.
+/// Remaining coefficient after elimination of the system (1, 4, 1) at knot k ≥ 2: 1/4, 1/(4 − 1/4), … It reaches its limit 2 − √3 to the last bit
+/// within 20 knots.
 fn pivot(k: usize) -> f64 {
     (1..k.min(21)).fold(0.0, |before, _| 1.0 / (4.0 - before))
 }
@@ -234,7 +231,7 @@ pub struct CubicSpline<C> {
 }
 
 impl<C: AsRef<[f64]>> CubicSpline<C> {
-    /// From control points made by [`fit_periodic`] or [`fit_bounded`].
+    /// From control points computed by [`fit_periodic`] or [`fit_bounded`].
     ///
     /// # Errors
     /// Too few control points, or one that is not finite.
@@ -257,7 +254,7 @@ impl<C: AsRef<[f64]>> CubicSpline<C> {
         self.control.as_ref().len() - 3
     }
 
-    /// Value, first and second derivative by x, for x in 0 to 1 (clamped).
+    /// Value, first and second derivative with respect to x, for x in 0 to 1 (clamped).
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 3] {
         let cells = self.cells() as f64;

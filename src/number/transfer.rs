@@ -6,9 +6,8 @@ use crate::math;
 
 /// A quantity f(φ) with its transfer functions of first, second and third order: f, f′, f″, f‴, where ′ is d/dφ.
 ///
-/// Arithmetic on `Transfer` follows the rules of differentiation (Leibniz, chain rule), so a closed form
-/// written once in positions gives exact velocities and accelerations, and J_red″ as well; no finite
-/// differences anywhere.
+/// Arithmetic on `Transfer` follows the rules of differentiation (Leibniz, chain rule): a closed form written once in positions gives exact
+/// velocities and accelerations, and J_red″, without finite differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Transfer {
     /// f
@@ -22,7 +21,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// A quantity that does not depend on φ.
+    /// A quantity independent of φ.
     #[must_use]
     pub const fn constant(value: f64) -> Self {
         Self {
@@ -69,7 +68,7 @@ impl Transfer {
         (sin, cos)
     }
 
-    /// Square root, from y² = f differentiated three times. Infinite derivatives at f = 0 are the caller's dead point.
+    /// Square root, from y² = f differentiated three times. The derivatives are infinite at f = 0, a dead point that the caller handles.
     #[must_use]
     pub fn sqrt(self) -> Self {
         let y = math::sqrt(self.value);
@@ -94,7 +93,7 @@ impl Transfer {
         Self { value, d1, d2, d3 }
     }
 
-    /// The angle whose sine and cosine are given (they satisfy s² + c² = 1): ψ′ = c·s′ − s·c′.
+    /// The angle with this sine and cosine, which must satisfy s² + c² = 1: ψ′ = c·s′ − s·c′.
     #[must_use]
     pub fn angle(sin: Self, cos: Self) -> Self {
         let speed = cos * sin.derivative() - sin * cos.derivative();
@@ -106,7 +105,7 @@ impl Transfer {
         }
     }
 
-    /// f(g(φ)), the chain rule, where `self` is f with its derivatives by g, at the value of `g`.
+    /// f(g(φ)), the chain rule, where `self` is f with its derivatives with respect to g, at the value of `g`.
     #[must_use]
     pub fn after(self, g: Self) -> Self {
         Self {

@@ -1,12 +1,11 @@
-//! A table and the memory it lies in.
+//! A table and its memory.
 
 use super::{Request, Tabulated, fill, tabulate};
 use crate::curve::{Format, Set, words_len};
 use crate::machine::Reducible;
 use crate::{Error, Model, Scale};
 
-/// Memory for tables of up to `CELLS` cells, `WORDS` words long: for firmware that makes its own tables. What fills it gives the
-/// model over it.
+/// Memory for tables of up to `CELLS` cells and `WORDS` words, for firmware that makes its own tables. Filling it returns the model over it.
 ///
 /// ```
 /// use jred::mechanism::{ScotchYoke, ScotchYokeDimensions};
@@ -31,7 +30,7 @@ use crate::{Error, Model, Scale};
 /// }
 /// ```
 ///
-/// A length that is not that of the table does not compile. 32 cells take 35 control points of J and 35 of the load:
+/// A length other than the table's does not compile. 32 cells take 35 control points of J and 35 of the load:
 ///
 /// ```
 /// # use jred::tabulate::TableBuffer;
@@ -45,7 +44,7 @@ use crate::{Error, Model, Scale};
 /// let buffer = TableBuffer::<Spline<f32>, { curves::LOAD }, 32, 35>::new();
 /// ```
 ///
-/// Nor does a table that is made anew while the model over the last one is in use:
+/// Nor does refilling it while the model over the last table is in use:
 ///
 /// ```
 /// # use jred::tabulate::TableBuffer;
@@ -90,7 +89,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
         }
     }
 
-    /// The model over the table of exactly `cells` cells.
+    /// The model over a table of exactly `cells` cells.
     ///
     /// # Errors
     /// As [`fill`](fill()), and as [`Model::new`].
@@ -105,7 +104,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
         Model::new(table).map_err(Error::Table)
     }
 
-    /// The model over the smallest table that meets the request, of up to `CELLS` cells, and what was found.
+    /// The model over the smallest table of up to `CELLS` cells that meets the request, and its figures.
     ///
     /// # Errors
     /// As [`tabulate`](tabulate()).

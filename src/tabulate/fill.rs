@@ -8,14 +8,14 @@ use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
 use crate::{Domain, Error, Scale};
 
-/// Fills `words` with the table of exactly `cells` cells and of this set of [`curves`](crate::curves), and returns it.
+/// Fills `words` with a table of exactly `cells` cells and this set of [`curves`](crate::curves), and returns it.
 ///
-/// A constant of the set is the machine's value at the start of its range. Coulomb friction is stored with a sign that changes
-/// where its magnitude has a kink at zero (see [`curves::COULOMB`](crate::curves::COULOMB)).
+/// A constant of the set has the machine's value at the start of its range. Coulomb friction is stored with a sign that changes where its magnitude
+/// has a kink at zero (see [`curves::COULOMB`](crate::curves::COULOMB)).
 ///
 /// # Errors
-/// Those of the machine; curves that do not repeat with the turn of the drive link; buffers too short; a curve outside the
-/// number range of `scale`; a set that the format cannot have; as [`Table::new`].
+/// The machine's errors; curves that are not periodic over a turn of the drive link; buffers too short; a curve outside the number range of `scale`;
+/// a set that the format cannot have; as [`Table::new`].
 pub fn fill<'w, F: Format>(
     machine: &impl Reducible,
     set: Set,

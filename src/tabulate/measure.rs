@@ -1,4 +1,4 @@
-//! How exact a table is.
+//! The error of a table.
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
 use crate::curve::{CurveValues, Format, Table};
@@ -6,12 +6,12 @@ use crate::machine::reducible::Reducible;
 use crate::machine::reduction::Reduction;
 use crate::{Domain, Error, Phase, math};
 
-/// The largest torque error of a table within the range of the request. With 16 bits the roundings of the tick count, and are
-/// added: at most ¾ of a unit of 2⁻¹⁵ of the torque base (`tests/proofs/q15_rows.g`). So at the places checked no tick within the range of the request, whose
-/// ω and α are numbers of the type, is off by more.
+/// The largest torque error of a table within the range of the request. With 16 bits the rounding of the tick is significant and is added: at most ¾
+/// of a unit of 2⁻¹⁵ of the torque base (`tests/proofs/q15_rows.g`). So at the places checked no tick within the range of the request, with ω and α
+/// representable, has a larger error.
 ///
 /// # Errors
-/// Those of the machine.
+/// The machine's errors.
 pub fn measure<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -20,11 +20,11 @@ pub fn measure<F: Format>(
     measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
-/// Parts of the range between two edges.
+/// Number of parts between two edges.
 const PARTS: usize = 8;
 
-/// The edges of a machine (rad, or m; [`Reducible::edge`]) and seven places between each and the next: none of its loads is so
-/// narrow that a search for the largest error of a table would step over it.
+/// The edges of a machine (rad, or m; [`Reducible::edge`]) and seven places between each and the next, so that a search for the largest error of a
+/// table does not step over a narrow load.
 pub fn edge_places(machine: &impl Reducible) -> impl Iterator<Item = f64> {
     let mut next = machine.edge(0);
     let intervals = (1..).map_while(move |k| {
@@ -38,7 +38,7 @@ pub fn edge_places(machine: &impl Reducible) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Positions at which a machine is sampled: so many at equal distances, and the [`edge_places`].
+/// Positions at which a machine is sampled: `positions` at equal distances, and the [`edge_places`].
 pub(super) fn sampled(machine: &impl Reducible, positions: u32) -> impl Iterator<Item = f64> {
     let even = (0..positions).map(move |k| {
         let place = f64::from(k) / f64::from(positions);
@@ -47,8 +47,7 @@ pub(super) fn sampled(machine: &impl Reducible, positions: u32) -> impl Iterator
     even.chain(edge_places(machine))
 }
 
-/// As [`measure`], from `start` on round the range at `places` places a cell; if `stop`, only up to the first that
-/// misses.
+/// As [`measure`], from `start` on around the range, with `checks` places per cell; if `stop`, only up to the first place that exceeds the request.
 pub(super) fn measure_until<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -62,7 +61,7 @@ pub(super) fn measure_until<F: Format>(
     let within = |found: &Tabulated| limit.is_none_or(|limit| found.torque_error <= limit);
     let mut before = [(f64::NAN, f64::NAN); 2];
     for (k, place) in edge_places(machine).enumerate() {
-        // What has missed, misses.
+        // The request is exceeded already.
         if !within(&found) {
             break;
         }
@@ -71,7 +70,7 @@ pub(super) fn measure_until<F: Format>(
             (found.torque_error, found.worst) = (error, phi);
         }
         let mut bound = error;
-        // Closer than the places of the cells, and three between the same edges.
+        // Only places closer than those of the cells, and three between the same edges.
         if k % PARTS >= 2 && place - before[1].0 < found.spacing {
             bound += 0.125 * math::abs(error - 2.0 * before[1].1 + before[0].1);
         }
@@ -84,8 +83,8 @@ pub(super) fn measure_until<F: Format>(
     })
 }
 
-/// The largest of the errors that `torque_error` says (with their positions) at so many places of every one of these cells, from
-/// `start` on round the range; up to the first beyond `limit`, if there is one.
+/// The largest of the errors that `torque_error` returns (with their positions) at `checks` places of every cell, from `start` on around the range;
+/// if `limit` is given, only up to the first error beyond it.
 pub(crate) fn scan(
     domain: Domain,
     cells: u32,
@@ -99,7 +98,7 @@ pub(crate) fn scan(
         checks,
     };
     let found = scan_places(domain, cells, limit, places, torque_error)?;
-    // Nothing found: there is no error at all.
+    // No place was worst: there is no error at all.
     let worst = if found.torque_error > 0.0 {
         found.worst
     } else {
@@ -108,19 +107,19 @@ pub(crate) fn scan(
     Ok(Tabulated { worst, ..found })
 }
 
-/// Places of a table at which its error is looked at.
+/// Places of a table where its error is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
-    /// The first cell; after the last of the table comes its first again.
+    /// The first cell; after the table's last cell follows its first.
     pub(super) first: u32,
-    /// How many cells.
+    /// Number of cells.
     pub(super) cells: u32,
-    /// Places in each of them.
+    /// Places in each cell.
     pub(super) checks: u32,
 }
 
-/// As [`scan`], of a table of so many cells. The ends of a stroke are checked as well: no neighbour makes them
-/// continuous, so the slope errs most there.
+/// As [`scan`], for a table of `cells` cells. It also checks the ends of a stroke: no neighbour makes them continuous, so that the slope has its
+/// largest error there.
 pub(super) fn scan_places(
     domain: Domain,
     cells: u32,
@@ -157,10 +156,10 @@ pub(super) fn scan_places(
     let mut before = [f64::NAN; 2];
     let mut curvature = 0.0f64;
     for k in 0..count {
-        // The knots are among them: a quadratic's slope is worst there.
+        // The places include the knots, where a quadratic's slope has its largest error.
         let place = (first + k) % all;
         if place == 0 && domain != Domain::Turn {
-            // The start of a stroke is no neighbour of its end.
+            // The start of a stroke is not adjacent to its end.
             before = [f64::NAN; 2];
         }
         let phase = Phase::from_bits(((place << 32) / all) as u32);
@@ -168,16 +167,16 @@ pub(super) fn scan_places(
         if stop {
             break;
         }
-        // NaN, while there are not yet three, is not the greater of two.
+        // Before the third place the difference is NaN, and `max` ignores it.
         curvature = curvature.max(math::abs(error - 2.0 * before[1] + before[0]));
         before = [before[1], error];
     }
-    // Between two places a parabola is higher than both by an eighth of the second difference at most.
+    // Between two places a parabola exceeds both by at most an eighth of the second difference.
     found.bound = found.torque_error + 0.125 * curvature;
     Ok(found)
 }
 
-/// The bound of the module's head, at one phase, and where that is.
+/// The bound of the [module](super)'s head at one phase, and its position.
 pub(super) fn torque_error<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -192,8 +191,7 @@ pub(super) fn torque_error<F: Format>(
     Ok((torque_between(request, &read, &exact) + rounding, phi))
 }
 
-/// How far the drive torques of a table and of the machine are apart at most within the range of the request: the bound of the
-/// [module](super)'s head.
+/// Bound of the difference between the drive torques of a table and of the machine within the range of the request, as in the [module](super)'s head.
 pub fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
         (read.inertia - exact.inertia) * request.alpha,

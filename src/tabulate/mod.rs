@@ -1,18 +1,16 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
-//! The step of the way of the data between a [`Reduction`](crate::Reduction) and a [`Table`](crate::Table): on the host, or in
-//! firmware after a change of payload.
+//! In the data flow it comes between a [`Reduction`](crate::Reduction) and a [`Table`](crate::Table): on the host, or in firmware after a change of
+//! payload.
 //!
-//! The error of the drive torque that a table causes is bounded, at every position checked, by the sum of what its
-//! curves contribute at the ends of the stated range:
+//! At every position checked, the error of the drive torque of a table is bounded by the sum of its curves' errors at the ends of the stated range:
 //!
 //! ```text
 //! |δT| ≤ |δJ|·α_max + ½·|δJ′|·ω_max² + |δload| + |δb|·ω_max + |δc|
 //! ```
 //!
-//! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
-//! reduction, at [`CHECKS_PER_CELL`] places of every cell, at both ends of a stroke, and at the [edges](edge_places) of loads and cam
-//! segments and between them.
+//! δ is the table's value in its own arithmetic (with quantisation and rounding) minus the exact reduction, at [`CHECKS_PER_CELL`] places of every
+//! cell, at both ends of a stroke, and at and between the [edges](edge_places) of loads and cam segments.
 
 mod buffer;
 mod fill;
@@ -40,20 +38,20 @@ use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
 pub const CHECKS_PER_CELL: u32 = 64;
-/// Places at which a candidate is looked at first.
+/// Places in each cell in the first check of a candidate.
 const COARSE_CHECKS: u32 = 8;
 
-/// Sizes up to this one are all tried.
+/// All sizes up to this one are tried.
 pub const EXHAUSTIVE: u32 = 128;
 
-/// What a table is for.
+/// Requirements for a table.
 ///
 /// ```
 /// # use jred::tabulate::Request;
 /// let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(128);
 /// ```
 ///
-/// It may have more fields one day, so a program cannot list them:
+/// Later versions may add fields, so that a program cannot list them:
 ///
 /// ```compile_fail,E0639
 /// # use jred::tabulate::Request;
@@ -68,12 +66,12 @@ pub struct Request {
     pub omega: f64,
     /// Largest acceleration (rad/s²).
     pub alpha: f64,
-    /// Most cells, or harmonics, to try.
+    /// Greatest number of cells or harmonics to try.
     pub max_cells: u32,
 }
 
 impl Request {
-    /// A drive torque right to `torque_error` (N·m). The range of the motion is to be added: [`with_omega`](Self::with_omega),
+    /// An error of the drive torque of at most `torque_error` (N·m). Add the range of the motion: [`with_omega`](Self::with_omega),
     /// [`with_alpha`](Self::with_alpha).
     #[must_use]
     pub const fn new(torque_error: f64) -> Self {
@@ -85,7 +83,7 @@ impl Request {
         }
     }
 
-    /// With another largest error of the drive torque (N·m).
+    /// Changes the largest error of the drive torque (N·m).
     #[must_use]
     pub const fn with_torque_error(self, torque_error: f64) -> Self {
         Self {
@@ -94,25 +92,25 @@ impl Request {
         }
     }
 
-    /// Up to the speed `omega` (rad/s).
+    /// Sets the largest speed `omega` (rad/s).
     #[must_use]
     pub const fn with_omega(self, omega: f64) -> Self {
         Self { omega, ..self }
     }
 
-    /// Up to the acceleration `alpha` (rad/s²).
+    /// Sets the largest acceleration `alpha` (rad/s²).
     #[must_use]
     pub const fn with_alpha(self, alpha: f64) -> Self {
         Self { alpha, ..self }
     }
 
-    /// With at most so many cells, or harmonics.
+    /// Sets the greatest number of cells or harmonics.
     #[must_use]
     pub const fn with_max_cells(self, max_cells: u32) -> Self {
         Self { max_cells, ..self }
     }
 
-    /// The largest number of cells that is tried.
+    /// Greatest number of cells that is tried.
     fn most_cells(&self) -> u32 {
         self.max_cells.clamp(MIN_CELLS as u32, MAX_CELLS)
     }
@@ -125,33 +123,32 @@ impl Request {
     }
 }
 
-/// A table found.
+/// The figures of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Tabulated {
     /// Number of cells.
     pub cells: u32,
-    /// Largest error of the drive torque (N·m) at the places checked: of curves and words, but for 16 bits without the roundings of the
-    /// tick's sums and without that of the bases ([`Model::torque`](crate::Model::torque) says what they are).
+    /// Largest error of the drive torque (N·m) at the places checked: of curves and words; for 16 bits also the rounding of the tick's sums; without
+    /// the rounding of the bases ([`Model::torque`](crate::Model::torque) gives both).
     pub torque_error: f64,
-    /// The same between the places as well (N·m), **estimated, not proven**: an eighth of the largest second difference of the error
-    /// is added, what a parabola through three places rises above them. On a host `jred export --prove` proves it. Only the machine knows its curves between the places,
-    /// so that a peak narrower than [`spacing`](Self::spacing) may be missed. Of the machine files of the project the search of
-    /// the test `hardly_any_place_errs_more_than_the_bound` exceeds it by 0.7 % at most, at corners of the error of tables with an
-    /// edge inside, and nowhere without one.
+    /// The same including the range between the places (N·m), **estimated, not proven**: an eighth of the largest second difference of the error is
+    /// added, by which a parabola through three places exceeds them. On a host `jred export --prove` proves it. Only the machine knows its curves
+    /// between the places, so that a peak narrower than [`spacing`](Self::spacing) may be missed. For the machine files of the project the search of
+    /// the test `hardly_any_place_errs_more_than_the_bound` exceeds it by at most 0.7 %, at corners of the error of tables with an edge inside, and
+    /// nowhere without an edge.
     pub bound: f64,
-    /// What `bound` rests on: how far apart the places checked are (rad, or m), the edges of the machine apart. 0 if they were not
-    /// at equal distances.
+    /// Resolution of `bound`: the distance of the checked places (rad, or m), except at the edges of the machine. 0 if the distances were not equal.
     pub spacing: f64,
-    /// Where it is (rad).
+    /// Position of the largest error (rad).
     pub worst: f64,
-    /// Machine units of the table: those asked for, in fixed point as [`Scale::for_cells`] makes them.
+    /// Machine units of the table: the requested ones, in fixed point changed by [`Scale::for_cells`].
     pub scale: Scale,
 }
 
 impl Tabulated {
-    /// What the image says about itself.
+    /// The validity for the header of an image.
     #[must_use]
     pub fn validity(&self, request: &Request) -> Validity {
         Validity {
@@ -162,20 +159,19 @@ impl Tabulated {
     }
 }
 
-/// Numbers of `f64` scratch that tables of up to `cells` cells need.
+/// Numbers of `f64` scratch for tables of up to `cells` cells.
 #[must_use]
 pub const fn scratch_len(cells: u32, set: Set) -> usize {
     (curves::width(set) + 1) * control_points(cells as usize)
 }
 
-/// The set of curves that the machine has: those that are not zero at all of `positions` places and of
-/// the [`edge_places`]. Viscous and Coulomb friction
-/// that is the same at all of them is one number instead of a curve.
+/// The set of the machine's curves: those that are not zero at all of `positions` places and of the [`edge_places`]. Viscous or Coulomb friction that
+/// is the same at all of them becomes a constant instead of a curve.
 ///
 /// # Errors
-/// Those of the machine.
+/// The machine's errors.
 pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<Set, Error> {
-    // Roundings of sums over links.
+    // Rounding of sums over links.
     const SAME: f64 = 1e-12;
     let mut set = curves::INERTIA;
     let mut first = None;

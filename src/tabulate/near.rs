@@ -1,9 +1,8 @@
 //! Finds large tables without checking every place of every candidate.
 //!
-//! The place of a table's largest error hardly changes from one size to the next. So for sizes beyond [`EXHAUSTIVE`] the search
-//! checks only the cells around that place: a table that misses there misses. Only the resulting size is checked in all places.
-//! If it misses after all, which is possible if rounding is most of the error, larger sizes are searched with all places of
-//! every candidate.
+//! The place of a table's largest error hardly changes from one size to the next. So for sizes beyond [`EXHAUSTIVE`] the search checks only the cells
+//! near that place: a table that fails there is rejected. Only the resulting size is checked at all places. If it fails there, which is possible
+//! where rounding dominates the error, larger sizes are checked at all places.
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::search::smallest;
@@ -12,19 +11,19 @@ use crate::Error;
 use crate::curve::{Format, Table};
 use crate::machine::reducible::Reducible;
 
-/// Cells on each side of the worst place that are looked at.
+/// Cells on each side of the worst place that are checked.
 const NEIGHBOURS: u32 = 8;
 
-/// Which places of a candidate are looked at.
+/// Places of a candidate to check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Look {
     /// All of them.
     All,
-    /// For sizes beyond [`EXHAUSTIVE`] those near the worst.
+    /// For sizes beyond [`EXHAUSTIVE`] only those near the worst.
     Near,
 }
 
-/// As [`smallest`], for a `meets` that can look at fewer places.
+/// As [`smallest`], for a `meets` that can check fewer places.
 pub(super) fn search_near(
     request: &Request,
     mut meets: impl FnMut(u32, Look) -> Result<Option<Tabulated>, Error>,
@@ -49,11 +48,11 @@ pub(super) fn search_near(
     Ok(larger.map(|(_, found)| found))
 }
 
-/// Where a table errs most, and its number of cells.
+/// Place of a table's largest error, and its number of cells.
 pub(super) type Worst = Option<(f64, u32)>;
 
-/// The error of a table near its worst place, if it meets the request there. That place is searched for all round, in few
-/// places, in the first table, and again in one that meets the request and is much larger.
+/// The error of a table near its worst place, if it meets the request there. The worst place is searched around the whole range, at few places per
+/// cell, in the first table, and again in a much larger one that meets the request.
 pub(super) fn meets_near<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -97,8 +96,8 @@ mod tests {
     use super::{Look, search_near};
     use crate::tabulate::{EXHAUSTIVE, Request, Tabulated};
 
-    /// What is found where sizes from `near` on pass a look near the worst place, and those from `all` on pass every look; and
-    /// how many looks at all places of sizes beyond [`EXHAUSTIVE`] that takes.
+    /// Result of a search where sizes from `near` on pass the check near the worst place, and those from `all` on pass every check; and the number of
+    /// checks at all places of sizes beyond [`EXHAUSTIVE`].
     fn found(near: u32, all: u32, max_cells: u32) -> (Option<u32>, u32) {
         let request = Request::new(1.0)
             .with_omega(1.0)

@@ -1,4 +1,4 @@
-//! A part of a machine's range, which is tabulated alone.
+//! A part of a machine's range, tabulated separately.
 
 use crate::machine::PoseError;
 use crate::number::error::{RangeError, finite};
@@ -6,9 +6,9 @@ use core::f64::consts::TAU;
 
 use crate::{Domain, Reducible, Reduction, math};
 
-/// A part of a machine's range, as a stroke from 0 to its length: what one table of [`Pieces`](crate::Pieces) is made from.
+/// A part of a machine's range, as a stroke from 0 to its length: the source of one table of [`Pieces`](crate::Pieces).
 ///
-/// Positions count from the part's start, so that its length keeps all digits in single precision, however short it is.
+/// Positions count from the part's start, so that even a short length keeps all digits in single precision.
 #[derive(Debug)]
 pub struct Part<'m, M> {
     machine: &'m M,
@@ -16,7 +16,7 @@ pub struct Part<'m, M> {
     to: f64,
 }
 
-// It only refers to the machine, which need not be copied.
+// A part only refers to its machine: `M` need not be `Clone`.
 impl<M> Clone for Part<'_, M> {
     fn clone(&self) -> Self {
         *self
@@ -25,12 +25,12 @@ impl<M> Clone for Part<'_, M> {
 
 impl<M> Copy for Part<'_, M> {}
 
-/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in ranges of the
-/// machine, a unit of a [`Phase`](crate::Phase)) its first and last place lie.
+/// Margin of a part's first and last place to its ends, as a share of the machine's range: a unit of a [`Phase`](crate::Phase). The end belongs to
+/// the next part, and the start may be rounded into the previous one.
 const INSIDE: f64 = 1.0 / 4_294_967_296.0;
 
 impl<'m, M: Reducible> Part<'m, M> {
-    /// From the position `from` to `to` (rad, or m).
+    /// The part from the position `from` to `to` (rad, or m).
     ///
     /// # Errors
     /// A position that is not finite, `to` not greater than `from`, or more than a turn.
@@ -38,7 +38,7 @@ impl<'m, M: Reducible> Part<'m, M> {
         let from = finite("start of the part", from)?;
         let to = finite("end of the part", to)?;
         let span = machine.domain().span();
-        // A turn from one position to the same a turn later may be rounded up.
+        // A turn from one position to the same position a turn later may be rounded up.
         if !(to > from && to - from <= span * (1.0 + 1e-12)) {
             return Err(RangeError::OutOfRange {
                 what: "length of the part",
@@ -50,13 +50,13 @@ impl<'m, M: Reducible> Part<'m, M> {
         Ok(Self { machine, from, to })
     }
 
-    /// Whether the machine's drive link turns, so that a part may go on into the next turn.
+    /// Whether the machine's drive link turns, so that a part may continue into the next turn.
     #[must_use]
     pub fn turns(&self) -> bool {
         self.machine.domain() == Domain::Turn
     }
 
-    /// Where it begins in the machine's range (rad, or m).
+    /// Start in the machine's range (rad, or m).
     #[must_use]
     pub const fn start(&self) -> f64 {
         self.from
@@ -73,7 +73,7 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 
     fn edge(&self, k: usize) -> Option<f64> {
         let edge = self.machine.edge(k)? - self.from;
-        // What is a hair before the start is the start.
+        // An edge within this margin before the start counts as the start.
         let hair = INSIDE * TAU;
         Some(match self.machine.domain() {
             Domain::Turn => (edge - TAU * math::floor((edge + hair) / TAU)).max(0.0),
@@ -83,7 +83,7 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let margin = INSIDE * self.machine.domain().span();
-        // Not `clamp`, which panics if a part is so short that roundings turn the two round.
+        // Not `clamp`, which panics if rounding swaps the ends of a very short part.
         let phi = (self.from + phi)
             .max(self.from + margin)
             .min(self.to - margin);

@@ -8,15 +8,15 @@ use crate::machine::Reducible;
 use crate::number::spline::MIN_CELLS;
 use crate::{Error, Scale};
 
-/// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is.
+/// Finds the table with the fewest cells that meets the request, fills `words` with it, and returns its figures.
 ///
-/// Sizes are tried as by [`smallest`], every one up to [`EXHAUSTIVE`] cells. A candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In the
-/// bisection only the cells near the worst position are looked at; the size that comes out is checked at all places, and
-/// larger ones after it if it misses. In fixed point the machine units of the table are those in [`Tabulated::scale`].
+/// Sizes are tried as in [`smallest`], every one up to [`EXHAUSTIVE`] cells. A candidate is rejected at the first position that exceeds the request;
+/// the check starts where the previous candidate had its largest error. The bisection checks only the cells near that position; the resulting size is
+/// checked at all places, and larger ones follow if it fails. In fixed point [`Tabulated::scale`] has the machine units of the table.
 ///
 /// # Errors
-/// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
-/// [`Error::Table`] if a fixed-point model cannot be made of the largest; otherwise as [`fill`](fill()).
+/// [`Error::TorqueErrorNotReached`] if no size up to `max_cells` meets the request, with the best of them; [`Error::Table`] if the largest does not
+/// form a fixed-point model; otherwise as [`fill`](fill()).
 pub fn tabulate<F: Format>(
     machine: &impl Reducible,
     set: Set,
@@ -31,7 +31,7 @@ pub fn tabulate<F: Format>(
         let Ok(table) = candidate::<F>(machine, set, cells, scale, scratch, words) else {
             return Ok(None);
         };
-        // Where the roundings of 16 bits make most of the error, it is worst now here, now there.
+        // Where 16-bit rounding dominates the error, the worst place changes from size to size.
         if look == Look::Near && cells > EXHAUSTIVE && F::TICK_ROUNDING == 0.0 {
             return meets_near(machine, &table, request, &mut near);
         }
@@ -49,7 +49,7 @@ pub fn tabulate<F: Format>(
     Ok(found)
 }
 
-/// The table of `cells` cells, in machine units that suit it, if a model can be made of it.
+/// The table of `cells` cells, in suitable machine units, if it forms a model.
 fn candidate<'w, F: Format>(
     machine: &impl Reducible,
     set: Set,
@@ -67,20 +67,20 @@ fn candidate<'w, F: Format>(
     Ok(table)
 }
 
-/// Sizes of a table from the smallest on, growing by a quarter each; `most` is the last.
+/// Sizes of a table from the smallest on, each a quarter larger; `most` is the last.
 pub fn growing(most: u32) -> impl Iterator<Item = u32> {
     core::iter::successors(Some((MIN_CELLS as u32).min(most)), move |cells| {
         (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
     })
 }
 
-/// The smallest size up to `most` cells for which `meets` gives something, and what it gives.
+/// The smallest size up to `most` cells for which `meets` returns a value, and that value.
 ///
-/// [Growing](growing) sizes are tried until one of them meets; then the smaller ones: every size up to `exhaustive` cells, and
-/// beyond by bisection, which assumes that more cells err less.
+/// First tries [growing](growing) sizes until one meets; then the smaller ones: every size up to `exhaustive` cells, and larger ones by bisection,
+/// which assumes that the error falls with the number of cells.
 ///
 /// # Errors
-/// Those of `meets`.
+/// The errors of `meets`.
 pub fn smallest<T, E>(
     most: u32,
     exhaustive: u32,
@@ -115,8 +115,7 @@ pub fn smallest<T, E>(
     Ok(Some(best))
 }
 
-/// What `measure` says of a candidate that meets the request, looked at first in few places, and where the one before it was
-/// worst.
+/// The figures of a candidate if it meets the request. `measure` checks few places first, from the previous candidate's worst place on.
 fn meets(
     request: &Request,
     worst: &mut f64,
@@ -133,7 +132,7 @@ fn meets(
     Ok(Some(found))
 }
 
-/// The best that any of the growing sizes reaches, or why the largest is no table at all.
+/// The best of the growing sizes, or why the largest does not form a table.
 fn not_reached(
     request: &Request,
     mut measured: impl FnMut(u32) -> Result<Tabulated, Error>,
@@ -144,7 +143,7 @@ fn not_reached(
     };
     let mut refused = None;
     for cells in growing(request.most_cells()) {
-        // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
+        // A coarse curve may dip below zero or overshoot, which more cells cure: only the error of the largest size is reported.
         refused = match measured(cells) {
             Ok(found) => {
                 if found.torque_error < best.torque_error {

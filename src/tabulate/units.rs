@@ -1,4 +1,4 @@
-//! Machine units that suit a machine.
+//! Machine units for a machine.
 
 use crate::machine::{PoseError, Reducible};
 use crate::number::Bases;
@@ -7,14 +7,13 @@ use crate::tabulate::measure::sampled;
 use crate::{Scale, math};
 
 impl Scale {
-    /// A scale in which nothing saturates for speeds up to `omega` (rad/s), accelerations up to `alpha` (rad/s²)
-    /// and drive torques of the size that these need: the acceleration that such a torque gives where the inertia
-    /// is smallest fits as well.
+    /// A scale in which nothing saturates for speeds up to `omega` (rad/s), accelerations up to `alpha` (rad/s²) and drive torques up to those needed
+    /// for them. The acceleration by such a torque where the inertia is smallest fits as well.
     ///
     /// The machine is sampled at `positions` places; 5 % are added to speed and acceleration, and 5 % to the torque.
     ///
     /// # Errors
-    /// Those of the machine, or `omega` or `alpha` not positive.
+    /// The machine's errors, or `omega` or `alpha` not positive.
     pub fn covering(
         machine: &impl Reducible,
         omega: f64,
@@ -26,8 +25,8 @@ impl Scale {
         most.scale((most.inertia * alpha + 2.0 * most.resisting) / most.least)
     }
 
-    /// A scale for speeds up to `omega` and accelerations up to `alpha`, and no more: an acceleration beyond saturates in
-    /// forward dynamics. It makes the best of 16 bits; with 32, [`covering`](Self::covering) costs nothing.
+    /// A scale for speeds up to `omega` and accelerations up to `alpha` only: a larger acceleration saturates in forward dynamics. It makes the best
+    /// use of 16 bits; with 32 bits use [`covering`](Self::covering), which loses nothing.
     ///
     /// # Errors
     /// As [`covering`](Self::covering).
@@ -41,13 +40,13 @@ impl Scale {
     }
 }
 
-/// The largest quantities of a machine, with the margin of a scale for its speed.
+/// The largest quantities of a machine, including a scale's margin for the speed.
 struct Most {
     /// Least inertia.
     least: f64,
     /// Greatest inertia.
     inertia: f64,
-    /// Greatest torque besides that of the acceleration.
+    /// Greatest torque without that of the acceleration.
     resisting: f64,
     /// Greatest speed.
     omega: f64,

@@ -1,4 +1,4 @@
-//! The tick and what belongs to it: models over tables, their images in flash, the duty meter.
+//! The tick: models over tables, their images in flash, the duty meter.
 
 pub mod duty;
 mod image;

@@ -1,24 +1,23 @@
-//! The tick: the equation of motion of the reduced machine, both ways.
+//! The tick: the equation of motion of the reduced machine, solved for torque or acceleration.
 //!
 //! ```text
 //! inverse:  T = J(φ)·α + ½·J′(φ)·ω² − load(φ) + b(φ)·ω + c(φ)·sgn ω
 //! forward:  α = (T − ½·J′(φ)·ω² + load(φ) − b(φ)·ω − c(φ)·sgn ω)/J(φ)
 //! ```
 //!
-//! (7.12) of Nazarenko, *Dynamics of mechanisms* (2002); for a sliding drive link (7.10), with m_red for J, F for T
-//! and v for ω. T acts on the drive link: a motor behind a gear ratio i gives T/i, and its rotor belongs into J as
-//! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model has no friction, because friction then balances the
-//! other forces.
+//! (7.12) of Nazarenko, *Dynamics of mechanisms* (2002); for a sliding drive link (7.10), with m_red for J, F for T and v for ω. T acts on the drive
+//! link: a motor behind a gear ratio i has T/i, and its rotor belongs in J as i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model
+//! has no friction, because friction then balances the other forces.
 
 use crate::curve::{AccelerationOf, Format, Set, SpeedOf, Table, TableError, TorqueOf};
 use crate::number::{Number, Quantity, Sliding};
 use crate::{Outcome, Phase};
 
-/// A reduced machine ready for the tick, over a table in RAM or in flash; its set of [`curves`](crate::curves) is part of the
-/// type, so that curves that a machine does not have cost neither memory nor instructions.
+/// A reduced machine ready for the tick, over a table in RAM or in flash. Its set of [`curves`](crate::curves) is part of the type, so that absent
+/// curves cost neither memory nor instructions.
 ///
-/// Everything was checked when it was built: [`torque`](Self::torque), [`acceleration`](Self::acceleration) and
-/// [`acceleration_range`](Self::acceleration_range) neither fail nor panic nor allocate, and take the same path every time.
+/// Everything was checked when it was created: [`torque`](Self::torque), [`acceleration`](Self::acceleration) and
+/// [`acceleration_range`](Self::acceleration_range) neither fail nor panic nor allocate, and always take the same path.
 ///
 /// A tick takes a [`Phase`] and, in numbers of the model's format, a speed and an acceleration. In SI units these are plain numbers,
 ///
@@ -29,7 +28,7 @@ use crate::{Outcome, Phase};
 /// }
 /// ```
 ///
-/// per unit they are types of their own:
+/// in per-unit they have their own types:
 ///
 /// ```
 /// # use jred::{Acceleration, Model, Phase, Q31, Speed, Spline, Torque};
@@ -74,7 +73,7 @@ use crate::{Outcome, Phase};
 /// }
 /// ```
 ///
-/// SI numbers in a model in per-unit,
+/// SI numbers in a per-unit model,
 ///
 /// ```compile_fail,E0308
 /// # use jred::{Model, Phase, Q31, Spline, Torque};
@@ -83,7 +82,7 @@ use crate::{Outcome, Phase};
 /// }
 /// ```
 ///
-/// and numbers of 16 bits in a model of 32:
+/// and 16-bit numbers in a 32-bit model:
 ///
 /// ```compile_fail,E0308
 /// # use jred::{Acceleration, Model, Phase, Q15, Q31, Speed, Spline, Torque};
@@ -92,7 +91,7 @@ use crate::{Outcome, Phase};
 /// }
 /// ```
 ///
-/// A model of one format or set of curves is none of another:
+/// Models of different formats or curve sets are different types:
 ///
 /// ```
 /// # use jred::{Model, Spline, curves};
@@ -118,15 +117,14 @@ use crate::{Outcome, Phase};
 #[repr(transparent)]
 pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
 
-/// As [`Model`], with a set of [`curves`](crate::curves) that is known when the program runs: for hosts, which tick any table
-/// they are given. The same bits.
+/// As [`Model`], with a set of [`curves`](crate::curves) known at run time: for hosts, which tick any table. The same bits.
 #[derive(Clone, Copy, Debug)]
 pub struct AnyModel<'a, F: Format> {
     table: Table<'a, F>,
     tick: F::Tick<'a>,
 }
 
-/// The accelerations that an interval of torques can give.
+/// The accelerations for an interval of torques.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AccelerationRange<N: Number> {
@@ -153,14 +151,14 @@ pub struct Contributions<N: Number> {
 }
 
 impl<'a, F: Format> AnyModel<'a, F> {
-    /// A model over `table`.
+    /// Creates a model over `table`.
     ///
-    /// In fixed point it is proven here that no torque leaves the number range for any speed and acceleration in it.
+    /// In fixed point this proves that no torque leaves the number range for any speed and acceleration in it.
     ///
     /// # Errors
-    /// [`TableError::VelocityTorque`]: ½·J′·ω_b² does not fit the torque base. [`TableError::TorqueRange`]: all terms
-    /// together do not fit the torque base. [`TableError::Reciprocal`]: the seed of 1/J is not that of J.
-    /// [`TableError::SpeedBase`], [`TableError::Slope`]: not the machine units that the table was made in.
+    /// [`TableError::VelocityTorque`]: ½·J′·ω_b² does not fit the torque base. [`TableError::TorqueRange`]: the sum of all terms does not fit the
+    /// torque base. [`TableError::Reciprocal`]: the seed of 1/J does not match J. [`TableError::SpeedBase`], [`TableError::Slope`]: the machine units
+    /// are not those of the table.
     pub fn new(table: Table<'a, F>) -> Result<Self, TableError> {
         let tick = F::prepare(&table)?;
         Ok(Self { table, tick })
@@ -170,7 +168,7 @@ impl<'a, F: Format> AnyModel<'a, F> {
         self
     }
 
-    /// The same model over the words that it was made of, borrowed anew or in another place.
+    /// The same model over its words, borrowed again or moved.
     #[inline(always)]
     fn moved<'b>(&self, words: &'b [F::Word], set: Set) -> AnyModel<'b, F> {
         let table = self.table.moved(words);
@@ -180,7 +178,7 @@ impl<'a, F: Format> AnyModel<'a, F> {
 }
 
 impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
-    /// A model over `table`.
+    /// Creates a model over `table`.
     ///
     /// # Errors
     /// As [`AnyModel::new`]; [`TableError::Curves`]: the table has another set.
@@ -195,7 +193,7 @@ impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
         &self.0
     }
 
-    /// The same model over the words that it was made of, borrowed anew or in another place.
+    /// The same model over its words, borrowed again or moved.
     #[inline(always)]
     pub(crate) fn moved<'b>(&self, words: &'b [F::Word]) -> Model<'b, F, SET> {
         Model(self.0.moved(words, SET))
@@ -210,8 +208,8 @@ macro_rules! dynamics {
                 &self.any().table
             }
 
-            /// Inverse dynamics of many samples: `torques[k]` becomes the torque at `phases[k]`, `omegas[k]`, `alphas[k]`. As
-            /// many as the shortest slice has; their number is returned.
+            /// Inverse dynamics of many samples: `torques[k]` becomes the torque at `phases[k]`, `omegas[k]`, `alphas[k]`. Computes as many as the
+            /// shortest slice has, and returns their number.
             pub fn torques(
                 &self,
                 phases: &[Phase],
@@ -227,29 +225,28 @@ macro_rules! dynamics {
                     .count()
             }
 
-            /// Inverse dynamics: the torque on the drive link (N·m, or per unit) that the speed `omega` and the acceleration
-            /// `alpha` need. It never saturates.
+            /// Inverse dynamics: the torque on the drive link (N·m, or per unit) for the speed `omega` and the acceleration `alpha`. It never
+            /// saturates.
             ///
-            /// Accuracy, against the same formula without a rounding, of the table's own words at the place in the cell that
-            /// the tick reads; the scripts of `tests/proofs` prove it (`scripts/test proofs`), and the tests of `tests/proven.rs`
-            /// try to exceed it:
+            /// Accuracy against the same formula without rounding, for the table's own words at the place in the cell that the tick reads. The
+            /// scripts of `tests/proofs` prove it (`scripts/test proofs`); the tests of `tests/proven.rs` try to exceed it:
             ///
-            /// - `Q31`: 24 units of 2⁻³¹ of the torque base, and 7 more (`Spline` 3½, `Quadratic` 4) for each whole slope a cell
-            ///   that [`Scale::for_cells`](crate::Scale::for_cells) makes the velocity torque. Of it, the sum of what
-            ///   [`Table::at`] reads has 10 (test `q31_torque_rounds_as_stated`).
-            /// - `Q15`: 5.75 units of 2⁻¹⁵; of it, the sum has ¾ (test `torque_is_that_of_the_curves`).
-            /// - `f32`, with cells: 115 units of 2⁻²⁴ (`Spline` 192), if coefficients (of a `Spline`, eight times its points),
-            ///   arguments and the factor of the velocity torque (½·cells/range in SI units) are up to 1; else of the largest term.
+            /// - `Q31`: 24 units of 2⁻³¹ of the torque base, plus 7 (`Spline` 3½, `Quadratic` 4) for each whole slope per cell that
+            ///   [`Scale::for_cells`](crate::Scale::for_cells) assigns to the velocity torque. The sum of the values that [`Table::at`] reads has 10
+            ///   of them (test `q31_torque_rounds_as_stated`).
+            /// - `Q15`: 5.75 units of 2⁻¹⁵; the sum has ¾ of them (test `torque_is_that_of_the_curves`).
+            /// - `f32`, with cells: 115 units of 2⁻²⁴ (`Spline` 192), if coefficients (of a `Spline`, eight times its points), arguments and the
+            ///   factor of the velocity torque (½·cells/range in SI units) are at most 1; otherwise of the largest term.
             ///
-            /// Not in it: the bases of the scale, which leave 2.5e-7 of the velocity torque in `Q31` if `Scale::for_cells` made
-            /// them (1.4e-6 are accepted), 3e-7 in `f32`; and what
-            /// the table is off by, which `tabulate` says. docs/theory.md adds them up. Cost: docs/performance.md.
+            /// Not included: the rounding of the scale's bases, 2.5e-7 of the velocity torque in `Q31` if `Scale::for_cells` made them (1.4e-6 are
+            /// accepted), 3e-7 in `f32`; and the error of the table, which `tabulate` reports. docs/theory.md adds them up. Cost:
+            /// docs/performance.md.
             #[inline]
             pub fn torque(&self, phase: Phase, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> TorqueOf<F> {
                 self.torque_with(phase, omega, alpha, Sliding::Against(omega))
             }
 
-            /// As [`torque`](Self::torque), with Coulomb friction as `sliding` says: by the sign of the set-point, or by a ramp.
+            /// As [`torque`](Self::torque), with Coulomb friction given by `sliding`: the sign of the set-point, or a ramp.
             #[inline(always)]
             pub fn torque_with(
                 &self,
@@ -263,8 +260,8 @@ macro_rules! dynamics {
                 TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, motion, sliding))
             }
 
-            /// The terms of [`torque_with`](Self::torque_with), each for itself. Their sum is the torque but for their roundings, each of
-            /// four units in `Q31` and of one in `Q15`.
+            /// The separate terms of [`torque_with`](Self::torque_with). Their sum is the torque except for their roundings, each of four units in
+            /// `Q31` and of one in `Q15`.
             pub fn contributions(
                 &self,
                 phase: Phase,
@@ -280,9 +277,9 @@ macro_rules! dynamics {
                 Contributions { inertial, velocity, load, viscous, coulomb }
             }
 
-            /// Forward dynamics: the acceleration that the torque `torque` on the drive link gives at the speed `omega`; in
-            /// fixed point limited to the number range, and flagged. With [`curves::RECIPROCAL`](crate::curves::RECIPROCAL)
-            /// there is no division; [`Table::reciprocal_error`] says how far it is from one.
+            /// Forward dynamics: the acceleration that `torque` on the drive link causes at the speed `omega`; in fixed point limited to the number
+            /// range, and flagged. With [`curves::RECIPROCAL`](crate::curves::RECIPROCAL) there is no division; [`Table::reciprocal_error`] gives the
+            /// error of that.
             #[inline(always)]
             pub fn acceleration(
                 &self,
@@ -298,7 +295,7 @@ macro_rules! dynamics {
                 found.map(AccelerationOf::<F>::of)
             }
 
-            /// The accelerations that torques from `least` to `greatest` can give: the limits for planning the motion.
+            /// The accelerations for torques from `least` to `greatest`: the limits for planning a motion.
             #[inline]
             pub fn acceleration_range(
                 &self,
@@ -310,7 +307,8 @@ macro_rules! dynamics {
                 self.acceleration_range_with(phase, omega, Sliding::Against(omega), [least, greatest])
             }
 
-            /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction as `sliding` says: at rest, that of the motion that is to begin.
+            /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction given by `sliding`: at rest, against the motion that is to
+            /// begin.
             #[inline(always)]
             pub fn acceleration_range_with(
                 &self,

@@ -1,26 +1,24 @@
 //! A turn in pieces, for curves with jumps.
 //!
-//! A table is at least continuously differentiable. Where a curve of the machine jumps (a load that is switched on, a cam whose
-//! follower starts with a blow), the largest error of one table over the turn stays half the jump or more, with any number
-//! of cells; only the part of the turn in which it is large shrinks, with the width of a cell (test
-//! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. A
-//! [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] puts the models together again.
+//! A table is at least continuously differentiable. Where a curve of the machine jumps (a load that is switched on, a cam whose follower starts with
+//! a shock), the largest error of one table over the turn is at least half the jump, with any number of cells. More cells only narrow the region of
+//! large error, to the width of a cell (test `one_table_cannot_follow_a_jump`). Separate tables for the pieces between the jumps have no such cells.
+//! A [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] combines the models again.
 
 use crate::curve::{AccelerationOf, Format, Set, SpeedOf, TableError, TorqueOf};
 use crate::math::Real;
 use crate::number::{Number, Outcome};
 use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 
-/// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with a model of its own; they share the machine
-/// units and the set of curves.
+/// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with its own model; they share the machine units and the set of
+/// curves.
 ///
-/// The place within a piece is right to 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Costs in addition to
-/// the model's tick: N comparisons and one long multiplication.
+/// Accuracy of the place within a piece: 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Cost in addition to the model's tick: N
+/// comparisons and one long multiplication.
 ///
-/// In fixed point with 32 bits the machine units of a model go with the width of its cells
-/// ([`Scale::for_cells`](crate::Scale::for_cells)). Pieces share them if a cell of each is a whole part of one common width:
-/// `for_cells` of that width then suits every piece. So there the jumps must lie at multiples of some small part of the turn,
-/// as `jred export --pieces` finds it.
+/// In 32-bit fixed point the machine units of a model depend on the width of its cells ([`Scale::for_cells`](crate::Scale::for_cells)). Pieces share
+/// them if one common width is a multiple of the cell width of each piece: `for_cells` of that width then suits every piece. So the jumps must lie at
+/// multiples of a small part of the turn; `jred export --pieces` finds it.
 ///
 /// ```
 /// use core::f64::consts::TAU;
@@ -75,25 +73,24 @@ pub struct Pieces<'a, F: Format, const SET: Set, const N: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Piece<'a, F: Format, const SET: Set> {
     start: u32,
-    /// Shifts the length of the piece to the left until its top bit is set.
+    /// Left shift of the piece's length until its top bit is set.
     shift: u32,
-    /// 2⁶³ divided by the length so shifted.
+    /// 2⁶³ divided by the shifted length.
     stretch: u32,
     model: Model<'a, F, SET>,
 }
 
-/// Largest difference of the length of a phase between two pieces: of a length of 2¹⁶ units, rounded to one.
+/// Largest relative difference of a phase's length between two pieces: a length of 2¹⁶ units, rounded to one.
 const UNITS: f32 = 1e-4;
 /// 2³²
 const TURN: f32 = 4_294_967_296.0;
 
 impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
-    /// Of this range, from the models of its pieces and the phases at which they start, in ascending order; the last ends where the first starts.
+    /// Creates pieces of this range, from their models and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors
-    /// [`TableError::Pieces`]: no piece, starts that do not ascend, or a piece shorter than 2⁻¹⁶ of a turn.
-    /// [`TableError::PieceUnits`]: a model whose range is not its part of the whole one, or whose machine units are not those of
-    /// the first.
+    /// [`TableError::Pieces`]: no piece, starts that do not ascend, or a piece shorter than 2⁻¹⁶ of a turn. [`TableError::PieceUnits`]: a model whose
+    /// range is not its part of the whole one, or whose machine units differ from the first model's.
     pub fn new(
         domain: Domain<<F::Number as Number>::Real>,
         models: [(Phase, Model<'a, F, SET>); N],
@@ -112,7 +109,7 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
         let pieces = models.map(|(start, model)| {
             let start = start.to_bits();
             let next = following.next().copied().unwrap_or(start);
-            // A single piece is a whole turn, whose length does not fit: one unit less.
+            // A single piece is a whole turn, whose length does not fit: use one unit less.
             let length = match next.wrapping_sub(start) {
                 0 => u32::MAX,
                 length => length,
@@ -120,9 +117,9 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
             too_short |= length < 1 << 16;
             let shift = length.leading_zeros();
             let shifted = u64::from(length.wrapping_shl(shift)).max(1);
-            // To the nearest: off by half a unit, which is a unit of 2⁻³² at the end of the piece.
+            // Rounded: off by half a unit, which is a unit of 2⁻³² at the end of the piece.
             let stretch = (((1u64 << 63) + shifted / 2) / shifted).min(u64::from(u32::MAX));
-            // What a piece's phases are long, as a part of its range.
+            // Length of the piece's phases as a part of its range.
             let table = model.table();
             let expected = length as f32 / TURN * span;
             let near = (table.domain().span().to_f32() - expected).abs() <= UNITS * expected;
@@ -150,7 +147,7 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
     /// The model of the piece at `phase`, and the phase within it.
     #[inline]
     fn at(&self, phase: Phase) -> Option<(&Model<'a, F, SET>, Phase)> {
-        // Before the first start it is the last piece, which goes on from the turn before.
+        // Before the first start lies the last piece, continued from the previous turn.
         let mut piece = self.models.last()?;
         for candidate in &self.models {
             if phase.to_bits() >= candidate.start {

@@ -1,19 +1,19 @@
-//! The machine units that belong to a model.
+//! The machine units of a model.
 
 use super::{AnyModel, Model, Pieces};
 use crate::curve::{Format, Set};
 use crate::number::{Number, Real};
 use crate::{Domain, Scale};
 
-/// What has machine units and a range of the drive link: a [`Model`], an [`AnyModel`], or [`Pieces`]. Sealed.
+/// The machine units and the range of the drive link of a [`Model`], an [`AnyModel`], or [`Pieces`]. Sealed.
 ///
-/// What stands before and after a model, such as a [`Period`](crate::axis::Period) or a [`Transmission`](crate::axis::Transmission), takes its units
-/// from here: no scale is given beside the model that could be that of another table. Used with another model later, they are wrong if its machine units
-/// are others; the compiler tells only the number types apart.
+/// The parts before and after a model, such as a [`Period`](crate::axis::Period) or a [`Transmission`](crate::axis::Transmission), take their units
+/// from it, so that no separate scale can be that of another table. Used later with a model of other machine units, they are wrong; the compiler
+/// distinguishes only the number types.
 pub trait MachineUnits: crate::sealed::Sealed {
-    /// Numbers that its tick takes and gives.
+    /// Numbers of its tick.
     type Number: Number<Real = Self::Real>;
-    /// What its range is in.
+    /// Numbers of its range.
     type Real: Real;
 
     /// The machine units.

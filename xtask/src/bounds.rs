@@ -1,8 +1,8 @@
-//! What a function can need at most, whatever its arguments are: the longest way through its code and the deepest stack.
+//! Upper bound of a function's cost for all arguments: the longest path through its code, and the deepest stack.
 //!
-//! The code is followed from the first instruction through both sides of every branch and into every call. That ends, because
-//! a tick has no loop, no recursion and no call through a pointer; where there is one, this fails. So the bound holds for every
-//! argument, and a program that is never run shows it. Not every way can be taken: the bound may be larger than any call.
+//! The code is followed from the first instruction through both sides of every branch and into every call. That ends, because a tick has no loop, no
+//! recursion and no call through a pointer; otherwise it fails. So the bound is valid for every argument, without running the program. Not every path
+//! can be taken: the bound may be larger than any call.
 
 use std::collections::{HashMap, HashSet};
 
@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail, ensure};
 use crate::elf::Program;
 use crate::instruction::{Decoder, Kind, Stack};
 
-/// From an instruction to the return of its function, with all that it calls.
+/// From an instruction to the return of its function, including all calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Bound {
     pub(crate) instructions: u32,
@@ -35,12 +35,12 @@ impl Bound {
     }
 }
 
-/// The bounds of a program's instructions, each found once.
+/// The bounds of a program's instructions, each computed once.
 pub(crate) struct Bounds<'p> {
     program: &'p Program,
     decoder: Decoder<'p>,
     known: HashMap<u32, Bound>,
-    /// Instructions that are being followed: who comes back to one of them is in a loop.
+    /// Instructions being followed: reaching one of them again is a loop.
     open: HashSet<u32>,
 }
 
@@ -62,14 +62,14 @@ impl<'p> Bounds<'p> {
             .with_context(|| format!("{name} has no bound"))
     }
 
-    /// The bound of the one function whose mangled name contains `part`.
+    /// The bound of the only function whose mangled name contains `part`.
     pub(crate) fn containing(&mut self, part: &str) -> Result<Bound> {
         let address = self.program.address_containing(part)?;
         self.from(address, 0)
             .with_context(|| format!("{part} has no bound"))
     }
 
-    /// From `address` on, where so many instructions may be skipped by an IT block. It ends as often as the code branches.
+    /// From `address` on, where an IT block may skip the next `skippable` instructions. The recursion is as deep as the code branches.
     fn from(&mut self, address: u32, skippable: u32) -> Result<Bound> {
         if let Some(known) = self.known.get(&address) {
             return Ok(*known);
@@ -119,7 +119,7 @@ impl<'p> Bounds<'p> {
                 self.from(next, left)?
             }
         };
-        // Where a function takes its stack pointer back from a register, the stack is taken to stay as deep as it was.
+        // Where a function restores its stack pointer from a register, the stack is assumed to stay as deep as before.
         let down = match this.stack {
             Stack::By(bytes) => bytes,
             Stack::Restore => 0,
@@ -128,7 +128,7 @@ impl<'p> Bounds<'p> {
             .stack
             .saturating_add_signed(down)
             .max(down.max(0).cast_unsigned());
-        // What an IT block skips gives no stack back.
+        // Instructions that an IT block skips release no stack.
         let skipped = if skippable > 0 { after.stack } else { 0 };
         let bound = Bound {
             instructions: 1 + after.instructions,

@@ -1,4 +1,4 @@
-//! `cargo xtask c`: what a tick costs through the C interface, beside the same tick in Rust.
+//! `cargo xtask c`: cost of a tick through the C interface, compared with the same tick in Rust.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -16,14 +16,14 @@ use crate::program::{self, root, target_dir};
 use crate::report::Measurement;
 use crate::trace::Emulator;
 
-/// Instructions that a call from C may take more than the same call from Rust.
+/// Additional instructions allowed for a call from C.
 const MORE: u32 = 6;
-/// Those of them with which the caller looks whether there is a model: a load, a comparison, a branch.
+/// Part of them for the caller's check for a model: a load, a comparison, a branch.
 const LOOK: u32 = 3;
-/// Where the compiler finds fewer registers than in a program with one model, and more instructions are allowed.
+/// Cases with fewer free registers than in a program with one model, where more instructions are allowed.
 const EXCEPTIONS: [(&str, u32); 2] = [("jred_q31_spline16_torque", 20), ("jred_q31_torque", 12)];
-/// What a path from a count may take more on a core that multiplies to 32 bits only: of the product of four halves, for which LLVM takes 23 instructions, gcc 12
-/// makes 60: half of the sixteen registers cannot take part, and it moves as much as it computes.
+/// Additional instructions allowed for a path from a count on a core that multiplies only to 32 bits. For the product of four halves LLVM needs 23
+/// instructions, gcc 12 needs 60: half of the sixteen registers cannot take part, and it moves as much as it computes.
 const MORE_BY_HALVES: u32 = 46;
 const GCC: &str = "arm-none-eabi-gcc";
 const LIBRARY: &str = "libjred_ffi.a";
@@ -42,7 +42,7 @@ pub(crate) struct Options {
     markdown: bool,
 }
 
-/// Runs it; an error if a call from C costs too much or gives other bits.
+/// Runs the command; an error if a call from C costs too much or gives other bits.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let emulator = Emulator::installed()?;
     let kernels: Vec<&Kernel> = KERNELS
@@ -54,7 +54,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
         |core: &&Core| options.core.is_empty() || options.core.iter().any(|n| n == core.name);
     let mut all = Vec::new();
     for core in CORES.iter().filter(chosen) {
-        // In floating point by software a trace takes longer than all the rest, and shows no more.
+        // With software floating point a trace takes longer than all others together, and shows nothing more.
         let here = |kernel: &&&Kernel| core.float || kernel.number != Number::PhaseF32;
         let kernels: Vec<&Kernel> = kernels.iter().filter(here).copied().collect();
         let rust = program::compile(core, None)?;
@@ -90,7 +90,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     }
 }
 
-/// What a call from C takes more, the caller's look at the model included: the function with a count is such a caller.
+/// Additional instructions of a call from C, including the caller's check for a model: the function with a count is such a caller.
 fn more(rust: &Measurement, c: &Measurement) -> i64 {
     let look = if rust.kernel.counts { 0 } else { LOOK };
     i64::from(c.worst.instructions + look) - i64::from(rust.worst.instructions)
@@ -105,15 +105,15 @@ fn allowed(rust: &Measurement) -> i64 {
     i64::from(found.map_or(MORE, |(_, most)| *most))
 }
 
-/// Of Rust, and of C.
+/// In Rust, and in C.
 type Pair = (Measurement, Measurement);
 
-/// Where the library for `core` and programs with it are put.
+/// Folder of the library for `core` and its programs.
 fn folder_of(core: &Core) -> PathBuf {
     target_dir().join("c").join(core.name)
 }
 
-/// The function of the library that computes what a kernel does, or of the program that calls it with a count.
+/// The library's function for a kernel, or the program's function that calls it with a count.
 fn symbol(kernel: &Kernel) -> String {
     if kernel.counts {
         return kernel.name.replacen("jred", "c", 1);
@@ -208,7 +208,7 @@ fn done(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Whether both programs gave the same results; the last word of a file is the clock's.
+/// Checks that both programs gave the same results; the last word of a file is the clock's.
 fn same_bits(core: &Core, kernel: &Kernel, rust: &Path, c: &Path) -> Result<()> {
     let results = |folder: &Path| -> Result<Vec<u8>> {
         let path = folder.join(format!("{}.out", kernel.name));
@@ -243,7 +243,7 @@ fn text(all: &[Pair]) -> String {
     text
 }
 
-/// A line for each kernel, a column for each core: Rust, and what C takes more.
+/// A line for each kernel, a column for each core: Rust, and C's additional instructions.
 fn markdown(kernels: &[&Kernel], all: &[Pair]) -> String {
     let cores: Vec<_> = CORES
         .iter()

@@ -1,4 +1,4 @@
-//! From a row of executed addresses to calls of kernels: instructions, cycles, stack, functions.
+//! From a sequence of executed addresses to calls of kernels: instructions, cycles, stack, functions.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -8,13 +8,13 @@ use crate::elf::Program;
 use crate::instruction::{Decoder, Instruction, Kind, Stack};
 use crate::timing::{Step, Timing};
 
-/// The function of the on-target program that reads the clock: before and after the calls of a kernel.
+/// The function of the on-target program that reads the clock, before and after the calls of a kernel.
 const CLOCK: &str = "tick_clock";
 
-/// What a call took.
+/// Cost of a call.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Call {
-    /// Executed instructions, from the first of the kernel to its return, with all functions that it called.
+    /// Executed instructions, from the first of the kernel to its return, including all functions that it called.
     pub(crate) instructions: u32,
     /// Estimated cycles; 0 without timings.
     pub(crate) cycles: u32,
@@ -22,14 +22,14 @@ pub(crate) struct Call {
     pub(crate) stack: u32,
 }
 
-/// What the calls of a kernel took.
+/// Costs of the calls of a kernel.
 #[derive(Debug, Default)]
 pub(crate) struct Calls {
-    /// One after the other.
+    /// In order.
     pub(crate) each: Vec<Call>,
-    /// Addresses of the functions executed.
+    /// Addresses of the executed functions.
     functions: BTreeSet<u32>,
-    /// Instructions from reading the clock to reading it again.
+    /// Instructions between two readings of the clock.
     pub(crate) between_clocks: u64,
 }
 
@@ -44,13 +44,13 @@ impl Calls {
     }
 }
 
-/// A call that is not over.
+/// An unfinished call.
 struct Open {
     kernel: usize,
     return_to: u32,
     call: Call,
     depth: i32,
-    /// Return address and stack depth of the functions that are not over.
+    /// Return address and stack depth of the unfinished functions.
     callers: Vec<(u32, i32)>,
     before: Option<Instruction>,
     this: Option<(u32, Instruction)>,
@@ -64,17 +64,17 @@ pub(crate) struct Splitter<'p> {
     entries: HashMap<u32, usize>,
     kernels: Vec<Calls>,
     clock: u32,
-    /// Instructions so far, and those at the last reading of the clock.
+    /// Number of instructions so far, and at the last reading of the clock.
     count: u64,
     started: Option<u64>,
-    /// The kernel called last.
+    /// The last kernel called.
     last: Option<usize>,
     previous: u32,
     open: Option<Open>,
 }
 
 impl<'p> Splitter<'p> {
-    /// For kernels by their symbols.
+    /// A splitter for kernels with these symbols.
     pub(crate) fn new(
         program: &'p Program,
         timing: Option<Timing>,
@@ -169,7 +169,7 @@ impl<'p> Splitter<'p> {
         Ok(open)
     }
 
-    /// Charges the instruction that `next` follows.
+    /// Adds the cost of the instruction before `next`.
     fn charge(
         timing: Option<Timing>,
         open: &mut Open,
@@ -202,7 +202,7 @@ impl<'p> Splitter<'p> {
                 .is_some_and(|(back, _)| *back == address)
                 && let Some((_, depth)) = open.callers.pop()
             {
-                // Whatever a function did with the stack pointer, it has undone it.
+                // A function restores the stack pointer, whatever it did with it.
                 open.depth = depth;
             }
             open.before = Some(this);

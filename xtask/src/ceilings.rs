@@ -1,4 +1,4 @@
-//! `benches/ceilings.txt`: what may not be exceeded.
+//! `benches/ceilings.txt`: upper limits.
 
 #[path = "../../benches/support/ceilings.rs"]
 mod shared;

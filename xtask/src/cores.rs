@@ -1,16 +1,16 @@
-//! The cores, and how programs for them are compiled and emulated.
+//! The cores, and the compilation and emulation of programs for them.
 
 use crate::timing::Timing;
 
 /// A Cortex-M core.
 pub(crate) struct Core {
-    /// As `benches/ceilings.txt` names it.
+    /// Name in `benches/ceilings.txt`.
     pub(crate) name: &'static str,
-    /// As a table's head names it.
+    /// Name in the heads of tables.
     pub(crate) title: &'static str,
     /// The target of rustc.
     pub(crate) target: &'static str,
-    /// Options of rustc beside those of `.cargo/config.toml`.
+    /// Options of rustc in addition to those of `.cargo/config.toml`.
     pub(crate) rustc: &'static [&'static str],
     /// Options of gcc.
     pub(crate) gcc: &'static [&'static str],
@@ -22,7 +22,7 @@ pub(crate) struct Core {
     pub(crate) clock: f64,
     /// Whether it has a floating-point unit.
     pub(crate) float: bool,
-    /// Published instruction timings, if there are any.
+    /// Published instruction timings, if any.
     pub(crate) timing: Option<Timing>,
 }
 

@@ -1,4 +1,4 @@
-//! What a kernel computes from: a table image, linear tables, or the machine's dimensions.
+//! The data of a kernel: a table image, linear tables, or the machine's dimensions.
 
 use std::f64::consts::TAU;
 
@@ -24,9 +24,9 @@ pub(crate) enum Data {
     },
     /// J, ½·J′, G in linear tables, single precision.
     LinearF32,
-    /// The same, per unit, with 31 fractional bits.
+    /// The same, per-unit, with 31 fraction bits.
     LinearQ31,
-    /// The same, with 15 fractional bits, two numbers a word.
+    /// The same, with 15 fraction bits, two numbers per word.
     LinearQ15,
     /// r, λ, m, J₀, m·g, b, c.
     Dimensions,
@@ -37,14 +37,13 @@ const CELLS: u32 = 256;
 
 /// Data for the on-target program.
 pub(crate) struct Words {
-    /// The words.
     pub(crate) words: Vec<u32>,
-    /// How many of their bytes are tables.
+    /// Number of table bytes among them.
     pub(crate) table_bytes: usize,
 }
 
-/// The scale in which `kernel` computes in fixed point: a little above the largest speed and acceleration, a tenth above the
-/// torque that they need; adapted to the cells of a table of the library.
+/// The scale of `kernel` in fixed point: slightly above the largest speed and acceleration, a tenth above the torque for them; adapted to the cells
+/// of a table of the library.
 pub(crate) fn scale(kernel: &Kernel, example: &Example) -> Result<Scale> {
     const MARGIN: f64 = 1.02;
     let mut torque = 0.0f64;
@@ -100,7 +99,7 @@ pub(crate) fn words(kernel: &Kernel, example: &Example, scale: &Scale) -> Result
         (Data::LinearQ15, _) => {
             let mut linear = linear(example, scale, kernel.number, &[]);
             let pack = |pair: &[u32]| pair[0] & 0xffff | pair.get(1).unwrap_or(&0) << 16;
-            // N, b and c keep their words; a table begins on a word of its own.
+            // N, b and c keep their words; a table begins on a new word.
             let tables = linear.words.split_off(3);
             let packed = tables
                 .chunks(CELLS as usize + 1)

@@ -6,11 +6,10 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 
-/// A function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Function {
     pub(crate) name: String,
-    /// Bytes, with the constants that follow the code.
+    /// Bytes, including the constants after the code.
     pub(crate) size: u32,
 }
 
@@ -32,7 +31,7 @@ impl Program {
             .symbols()
             .filter(|s| s.kind() == SymbolKind::Text && s.size() > 0)
         {
-            // Bit 0 says that it is Thumb code.
+            // Bit 0 marks Thumb code.
             let function = Function {
                 name: symbol.name()?.to_owned(),
                 size: symbol.size() as u32,
@@ -87,7 +86,7 @@ impl Program {
             .map(|(address, _)| *address)
     }
 
-    /// Of the one function whose name contains `part`: compilers add their own to a name.
+    /// Address of the only function whose name contains `part`: compilers extend names.
     pub(crate) fn address_containing(&self, part: &str) -> Result<u32> {
         let mut found = self
             .functions
@@ -100,7 +99,7 @@ impl Program {
         }
     }
 
-    /// The function that the instruction at `address` belongs to.
+    /// The function that contains the instruction at `address`.
     pub(crate) fn function_at(&self, address: u32) -> Option<(u32, &Function)> {
         let (start, function) = self.functions.range(..=address).next_back()?;
         (address < start + function.size).then_some((*start, function))

@@ -25,14 +25,14 @@ pub(crate) enum Layout {
     SliderCrank,
 }
 
-/// Load, and friction of the drive link that does not depend on the angle.
+/// Load, and constant friction of the drive link.
 pub(crate) const FULL: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
-/// The inertia alone.
+/// Only the inertia.
 pub(crate) const BARE: Set = curves::INERTIA;
 /// With a seed of 1/J instead of a division.
 pub(crate) const SEED: Set = curves::RECIPROCAL;
 
-/// The image for a kernel that computes with `number`; floating point in SI units, fixed point in those of `scale`.
+/// The image for a kernel with `number`; floating point in SI units, fixed point in those of `scale`.
 pub(crate) fn image(
     example: &Example,
     number: Number,
@@ -72,7 +72,7 @@ fn make<F: Format>(example: &Example, set: Set, cells: u32, scale: &Scale) -> Re
     encoded(&table)
 }
 
-/// The closed form: with friction of the drive link as loads of the crank, or the inertia alone.
+/// The closed form: with friction of the drive link as loads of the crank, or only the inertia.
 fn crank(example: &Example, set: Set) -> Result<Words> {
     let failed = |error| anyhow!("the example machine: {error}");
     let machine = example.crank(set != BARE).map_err(failed)?;
@@ -91,7 +91,7 @@ fn encoded<F: Format>(table: &Table<'_, F>) -> Result<Words> {
     })
 }
 
-/// Nothing reads these three here.
+/// Unused here.
 const VALIDITY: Validity = Validity {
     omega: OMEGA as f32,
     alpha: ALPHA as f32,

@@ -1,4 +1,4 @@
-//! Instructions: what their timing and their use of the stack depend on.
+//! Instructions, with the properties that determine timing and use of the stack.
 
 use std::collections::HashMap;
 
@@ -10,10 +10,10 @@ use capstone::prelude::*;
 use crate::elf::Program;
 use crate::mnemonic::Operands;
 
-/// What an instruction does, as far as its timing goes.
+/// The kind of an instruction, as far as timing depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Everything that takes one cycle.
+    /// Every instruction with one cycle.
     Plain,
     Multiply,
     MultiplyAdd,
@@ -24,9 +24,9 @@ pub(crate) enum Kind {
     Divide,
     Load,
     Store,
-    /// So many words at once.
+    /// Several words at once.
     Multiple(u32),
-    /// A branch to a place that the instruction names.
+    /// A branch to an address in the instruction.
     Branch {
         link: bool,
     },
@@ -34,7 +34,7 @@ pub(crate) enum Kind {
     BranchRegister {
         link: bool,
     },
-    /// Loads so many words, the last of them into the program counter.
+    /// Loads several words, the last of them into the program counter.
     PopPc(u32),
     /// `tbb`, `tbh`.
     TableBranch,
@@ -43,7 +43,7 @@ pub(crate) enum Kind {
     FloatMultiplyAdd,
     /// Division and root.
     FloatDivide,
-    /// `vldr`, `vstr` of so many words.
+    /// `vldr`, `vstr` of several words.
     FloatMemory(u32),
     /// Between two core registers and the floating-point unit.
     FloatMovePair,
@@ -51,16 +51,15 @@ pub(crate) enum Kind {
     System,
 }
 
-/// How the stack pointer moves.
+/// Movement of the stack pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stack {
-    /// Down by so many bytes; up if negative.
+    /// Down by this number of bytes; up if negative.
     By(i32),
-    /// Back to what a register holds.
+    /// Restored from a register.
     Restore,
 }
 
-/// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Instruction {
     pub(crate) size: u32,
@@ -74,15 +73,15 @@ pub(crate) struct Instruction {
     pub(crate) float_writes: u32,
     /// Whether the address is a register and an immediate.
     pub(crate) immediate_offset: bool,
-    /// Where a branch leads to that names its place.
+    /// Target of a branch to an address in the instruction.
     pub(crate) target: Option<u32>,
     /// Whether a branch may not be taken.
     pub(crate) conditional: bool,
-    /// How many of the next instructions may be skipped, if this one says so: `it`.
+    /// For `it`: how many of the next instructions may be skipped.
     pub(crate) skips: Option<u32>,
 }
 
-/// Decodes the instructions of a program, each of them once.
+/// Decodes the instructions of a program, each once.
 pub(crate) struct Decoder<'p> {
     program: &'p Program,
     capstone: Capstone,

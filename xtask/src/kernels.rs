@@ -1,4 +1,4 @@
-//! The kernels: what is measured, the numbers it computes with, the data it needs.
+//! The kernels: the measured functions, with their numbers and data.
 //!
 //! To add one: a line in [`KERNELS`], and the function of that name in `benches/tick/`.
 
@@ -7,7 +7,7 @@ use crate::image::Layout::{self, Cubic, Quadratic, Rows16, SliderCrank, Spline, 
 use crate::image::{BARE, FULL, SEED};
 use crate::number::Number;
 
-/// What a kernel computes.
+/// Result of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// Inverse dynamics.
@@ -16,12 +16,11 @@ pub(crate) enum Quantity {
     Acceleration,
 }
 
-/// Whose it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// The library: its instructions and bytes have ceilings.
     Jred,
-    /// For comparison: always there.
+    /// For comparison: always available.
     Other,
     /// For comparison: needs `--peers`.
     Peer,
@@ -31,17 +30,17 @@ pub(crate) enum Origin {
 pub(crate) struct Kernel {
     /// Its symbol.
     pub(crate) name: &'static str,
-    /// What a table of results calls it.
+    /// Title in tables of results.
     pub(crate) title: &'static str,
     pub(crate) quantity: Quantity,
     pub(crate) origin: Origin,
     pub(crate) number: Number,
     pub(crate) data: Data,
-    /// Its first argument is a count of an encoder with [`COUNTS`] a turn, not a phase.
+    /// Its first argument is a count of an encoder with [`COUNTS`] per turn, not a phase.
     pub(crate) counts: bool,
 }
 
-/// Counts a turn of the encoder in `benches/tick/library.rs` and in `ffi/tests/tick.c`.
+/// Counts per turn of the encoder in `benches/tick/library.rs` and in `ffi/tests/tick.c`.
 pub(crate) const COUNTS: u32 = 10_000;
 
 macro_rules! kernels {
@@ -58,7 +57,7 @@ macro_rules! kernels {
     };
 }
 
-/// A table of the library: 64 cells, quadratics 256; a slider-crank none.
+/// A table of the library: 64 cells, quadratics 256; none for a slider-crank.
 const fn table(layout: Layout, set: jred::Set) -> Data {
     let cells = match layout {
         SliderCrank => 0,
@@ -104,7 +103,7 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![false:
     cmsis_analytic_acceleration  Acceleration Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
 ];
 
-/// From a count to a torque, as a program calls it: for the comparison of C with Rust.
+/// From a count to a torque, as in a program: for the comparison of C with Rust.
 #[rustfmt::skip]
 pub(crate) const COUNTED: &[Kernel] = &kernels![true:
     jred_f32_counts              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic, 10,000 counts";
@@ -113,7 +112,7 @@ pub(crate) const COUNTED: &[Kernel] = &kernels![true:
 ];
 
 impl Kernel {
-    /// Whether this is the other quantity of the same thing.
+    /// Whether this is the other quantity with the same data.
     pub(crate) fn data_of(&self, other: &Self) -> bool {
         let stem = |name: &'static str| name.rsplit_once('_').map(|(stem, _)| stem);
         stem(self.name) == stem(other.name)

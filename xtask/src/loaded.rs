@@ -1,4 +1,4 @@
-//! `cargo xtask loaded`: what of two programs is loaded into a device.
+//! `cargo xtask loaded`: the loaded parts of two programs.
 
 use std::path::{Path, PathBuf};
 

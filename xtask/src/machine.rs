@@ -6,7 +6,7 @@
 //! acceleration:  α = (T − ½·J′·ω²)/J        T: what is left of the motor's torque after the load
 //! ```
 //!
-//! These closed forms are the reference. The library gets the mechanism and does not see them.
+//! These closed forms are the reference. The library gets the mechanism, but not them.
 
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
@@ -60,7 +60,7 @@ fn transfer(phi: f64) -> [f64; 2] {
     [first, second]
 }
 
-/// J₀ (kg·m²): makes the inertia vary as it should.
+/// J₀ (kg·m²) for the specified variation of the inertia.
 pub(crate) fn rotating() -> f64 {
     let steps = 100_000;
     let largest = (0..steps)
@@ -137,7 +137,7 @@ impl Example {
             .with_load(coulomb)?)
     }
 
-    /// The same machine as the library knows it: mechanism, gravity, friction of the drive link.
+    /// The same machine for the library: mechanism, gravity, friction of the drive link.
     pub(crate) fn mechanism(&self) -> Result<Machine<SliderCrank>, Error> {
         self.crank(true)
     }
@@ -146,8 +146,8 @@ impl Example {
 /// Angle (turns), speed (rad/s), acceleration (rad/s²).
 pub(crate) type Motion = [f64; 3];
 
-/// 64 angles over a turn, none of them a knot of a table; at each of them both directions and standstill. Speeds and
-/// accelerations follow golden-ratio sequences over their ranges.
+/// 64 angles over a turn, none at a knot of a table; at each both directions and standstill. Speeds and accelerations follow golden-ratio sequences
+/// over their ranges.
 pub(crate) fn motions() -> Vec<Motion> {
     let golden = |k: usize, step: f64| (k as f64 * step).fract();
     (0..ANGLES)

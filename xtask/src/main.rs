@@ -1,4 +1,4 @@
-//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`.
+//! Commands for developers of jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`.
 #![forbid(unsafe_code)]
 
 mod bounds;

@@ -1,4 +1,4 @@
-//! From a mnemonic and its operands to what an instruction does.
+//! From a mnemonic and its operands to the properties of an instruction.
 
 use anyhow::{Result, bail};
 
@@ -182,7 +182,7 @@ impl Operands {
         })
     }
 
-    /// A load or store that moves the stack pointer by its own offset.
+    /// Movement of the stack pointer by the offset of a load or store.
     fn moved_base(&self, writeback: bool) -> Stack {
         let by = if self.offset != 0 {
             self.offset

@@ -1,4 +1,4 @@
-//! What kernels compute with: SI numbers to words and back.
+//! The numbers of kernels: from SI to words and back.
 
 use std::f64::consts::TAU;
 
@@ -13,13 +13,13 @@ pub(crate) enum Number {
     Radians,
     /// Single precision, SI; the angle as a binary fraction of a turn.
     PhaseF32,
-    /// Fixed point with 31 fractional bits, per unit; the angle as a binary fraction of a turn.
+    /// Fixed point with 31 fraction bits, per-unit; the angle as a binary fraction of a turn.
     PhaseQ31,
-    /// Fixed point with 15 fractional bits, per unit; the angle as a binary fraction of a turn.
+    /// Fixed point with 15 fraction bits, per-unit; the angle as a binary fraction of a turn.
     PhaseQ15,
 }
 
-/// One turn, as a binary angle counts it.
+/// One turn as a binary angle.
 const TURN: f64 = 4_294_967_296.0;
 
 impl Number {
@@ -45,7 +45,7 @@ impl Number {
         ]
     }
 
-    /// The arguments that the words stand for, SI, the angle in rad: what the reference is computed from.
+    /// The arguments in the words, in SI, the angle in rad: the input of the reference.
     pub(crate) fn decode(
         self,
         scale: &Scale,
@@ -67,7 +67,7 @@ impl Number {
         ]
     }
 
-    /// The result that a word stands for (SI).
+    /// The result in a word (SI).
     pub(crate) fn result(self, scale: &Scale, of: Quantity, word: u32) -> f64 {
         let base = match of {
             Quantity::Torque => f64::from(scale.torque()),

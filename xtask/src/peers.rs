@@ -1,8 +1,8 @@
-//! CMSIS-DSP and C, to compare with: fetched, compiled, and linked into the on-target program.
+//! CMSIS-DSP and C for comparison: fetched, compiled, and linked into the on-target program.
 //!
-//! Nothing of it is part of this project. The package is the source distribution on PyPI, checked by its SHA-256; it is
-//! compiled as it builds without CMSIS-Core (`__GNUC_PYTHON__`), because none of the functions used here holds an
-//! intrinsic. gcc's own libgcc and newlib go with it, under names that rustc's routines cannot take the place of.
+//! None of it is part of this project. The package is the source distribution on PyPI, checked by its SHA-256. It is compiled as in its build without
+//! CMSIS-Core (`__GNUC_PYTHON__`), because none of the functions used here contains an intrinsic. gcc's own libgcc and newlib are linked with it,
+//! under names that rustc's routines cannot replace.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,14 +17,14 @@ use crate::program::{root, target_dir};
 
 const ARCHIVE: &str = "cmsisdsp-1.10.3.tar.gz";
 const SHA256: &str = "307d32298faa7c58db912851027fce35f886fec7eb1a27c4b309ce1a97f47519";
-/// Prints the address of the package index that pip is set up for.
+/// Prints the address of the package index in pip's configuration.
 const INDEX: &str = "import subprocess, sys; from pip._internal.models.index import PyPI; \
     own = subprocess.run([sys.executable, '-m', 'pip', 'config', 'get', 'global.index-url'], \
     capture_output=True, text=True).stdout.strip(); print(own or PyPI.simple_url)";
-/// The package's name there.
+/// The package's name in the index.
 const PACKAGE: &str = "cmsisdsp";
 const GCC: &str = "arm-none-eabi-gcc";
-/// Functions of kernels.c that make a machine of the data.
+/// Functions of kernels.c that create a machine from the data.
 const BUILDERS: [&str; 5] = [
     "peer_tables_f32",
     "peer_linear_f32",
@@ -77,7 +77,7 @@ fn sha256(bytes: &[u8]) -> String {
         })
 }
 
-/// The package's sources, downloaded at first.
+/// The package's sources, downloaded on first use.
 pub(crate) fn fetch() -> Result<PathBuf> {
     run(Command::new(GCC).arg("--version"))
         .context("apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi")?;

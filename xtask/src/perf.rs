@@ -23,7 +23,7 @@ use crate::user;
 
 /// Largest error of the library's kernels, relative to the largest result.
 const ERROR: f64 = 5e-4;
-/// The same of the others: what errs more does not compute the same thing.
+/// The same for the others: with a larger error a kernel does not compute the same thing.
 const OTHERS: f64 = 1e-2;
 
 /// Measures one control tick on emulated Cortex-M cores: instructions, estimated cycles, bytes, error.
@@ -49,7 +49,7 @@ pub(crate) struct Options {
     user: bool,
 }
 
-/// Runs it; an error if a figure is out of bounds.
+/// Runs the command; an error if a figure is out of bounds.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let whole = options.core.is_empty() && options.kernel.is_none();
     if options.user || whole {
@@ -91,7 +91,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     ensure!(!kernels.is_empty(), "no kernel has that in its name");
     let mut report = Report::default();
     for core in cores {
-        // A comparison in floating point by software takes longer than all the rest.
+        // A comparison in software floating point takes longer than all others together.
         let here = |kernel: &&&Kernel| options.peers || core.float || kernel.origin == Origin::Jred;
         let kernels: Vec<&Kernel> = kernels.iter().filter(here).copied().collect();
         let objects = sources
@@ -125,8 +125,8 @@ fn tools(with_peers: bool) -> Result<Vec<String>> {
     tools.map(version).collect()
 }
 
-/// Runs the program twice, once for the trace and once for the clock, and puts both together. The program reads and writes its
-/// files in `folder`; `symbol` is what it calls a kernel.
+/// Runs the program twice, once for the trace and once for the clock, and combines both. The program reads and writes its files in `folder`; `symbol`
+/// gives the name of a kernel in it.
 pub(crate) fn measure(
     emulator: Emulator,
     core: &'static Core,
@@ -136,7 +136,7 @@ pub(crate) fn measure(
     symbol: impl Fn(&Kernel) -> String,
 ) -> Result<Vec<Measurement>> {
     let example = Example::new();
-    // Nothing of an earlier run may be taken for a result.
+    // No file of an earlier run may be mistaken for a result.
     let _ = std::fs::remove_dir_all(folder);
     std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let work = kernels
@@ -171,7 +171,7 @@ pub(crate) fn measure(
         } else {
             OTHERS
         };
-        // A result that is no number fails.
+        // A result that is NaN fails.
         ensure!(
             !matches!(error.partial_cmp(&most), None | Some(Ordering::Greater)),
             "{} on {}: error {error:.1e} of the largest result, above {most:.0e}",
@@ -214,7 +214,7 @@ pub(crate) fn measure(
     Ok(found)
 }
 
-/// Whether the instructions in the trace are those that the clock counted, to a tick of it.
+/// Checks that the trace has the number of instructions that the clock counted, to one tick of the clock.
 fn agree(core: &Core, traced: u64, ticks: u32) -> Result<()> {
     let per_tick = 1e9 / core.clock;
     let counted = f64::from(ticks) * per_tick;
@@ -226,7 +226,7 @@ fn agree(core: &Core, traced: u64, ticks: u32) -> Result<()> {
     Ok(())
 }
 
-/// The library's kernels against their ceilings.
+/// Compares the library's kernels with their ceilings.
 fn check(report: &Report) -> Result<()> {
     let mut failures = 0;
     for m in report
@@ -235,7 +235,7 @@ fn check(report: &Report) -> Result<()> {
         .filter(|m| m.kernel.origin == Origin::Jred)
     {
         let name = m.kernel.name;
-        // Where floating point is software, calls differ, and the bound is far above them all.
+        // With software floating point, calls differ, and the bound is far above them all.
         let software = !m.core.float && m.kernel.number == Number::PhaseF32;
         let most = m.bound.map_or(0, |bound| bound.instructions);
         let mut figures = vec![if software {
@@ -246,7 +246,7 @@ fn check(report: &Report) -> Result<()> {
         if software {
             figures.push((name.to_owned(), "instructions", m.worst.instructions));
         }
-        // Code differs little from core to core: one ceiling is enough.
+        // Code differs little between cores: one ceiling is enough.
         if m.core.name == "cortex-m4" {
             figures.push((format!("{name}-bytes"), "bytes of code", m.code));
         }

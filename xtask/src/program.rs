@@ -1,4 +1,4 @@
-//! The on-target program: compiled, linked, and the files through which it gets its work.
+//! The on-target program: compiled and linked, and its input and output files.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -17,24 +17,24 @@ pub(crate) fn root() -> &'static Path {
         .unwrap_or(Path::new("."))
 }
 
-/// The cargo that runs this, or the one that is installed.
+/// The cargo that runs this, or the installed one.
 pub(crate) fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Where everything is built.
+/// Build folder.
 pub(crate) fn target_dir() -> PathBuf {
     let set =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
     root().join(set)
 }
 
-/// Where the program for `core` reads and writes its files.
+/// Folder of the files that the program for `core` reads and writes.
 pub(crate) fn files(core: &Core) -> PathBuf {
     target_dir().join("tick").join(core.name)
 }
 
-/// Compiles the program for `core`, with the objects of `peers` if there are any.
+/// Compiles the program for `core`, with the objects of `peers`, if any.
 pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
     let mut flags: Vec<String> = core.rustc.iter().map(|flag| (*flag).to_owned()).collect();
     if let Some(object) = peers {
@@ -84,7 +84,7 @@ pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
         .context("cargo named no program")
 }
 
-/// A kernel's arguments and the results to expect.
+/// A kernel's arguments and the expected results.
 pub(crate) struct Work {
     points: Vec<[u32; 3]>,
     expected: Vec<f64>,
@@ -112,13 +112,13 @@ impl Work {
             let counted = kernel.counts.then(|| {
                 let count = (u64::from(words[0]) * u64::from(COUNTS)) >> 32;
                 words[0] = ((count << 32) / u64::from(COUNTS)) as u32;
-                // Some turns away, either way.
+                // Several turns away, in both directions.
                 let turns = points.len() as u32 % 7;
                 (count as u32)
                     .wrapping_add(COUNTS * turns)
                     .wrapping_sub(3 * COUNTS)
             });
-            // The reference is for the arguments as they were rounded: the error is the kernel's own.
+            // The reference is computed from the rounded arguments: the error is the kernel's own.
             let [phi, omega, third] = number.decode(&scale, of, words);
             points.push([counted.unwrap_or(words[0]), words[1], words[2]]);
             expected.push(match of {
@@ -139,7 +139,7 @@ impl Work {
         self.data.table_bytes
     }
 
-    /// How many calls there will be.
+    /// Number of calls.
     pub(crate) fn calls(&self) -> usize {
         self.points.len()
     }
@@ -178,7 +178,7 @@ impl Work {
             .chunks_exact(3)
             .zip(&self.expected)
             .map(|(words, value)| (result(words[0]) - value).abs());
-        // A result that is no number must not pass as a small error.
+        // A result that is NaN must not pass as a small error.
         let error = error.fold(
             0.0f64,
             |most, e| if e.is_nan() || e > most { e } else { most },

@@ -7,17 +7,17 @@ use crate::calls::Call;
 use crate::cores::Core;
 use crate::kernels::{Kernel, Quantity};
 
-/// What a kernel took on a core.
+/// Cost of a kernel on a core.
 pub(crate) struct Measurement {
     pub(crate) kernel: &'static Kernel,
     pub(crate) core: &'static Core,
-    /// The most of each figure over all points.
+    /// The largest of each figure over all points.
     pub(crate) worst: Call,
-    /// What no call can exceed, of the library's kernels.
+    /// Upper bound of all calls, for the library's kernels.
     pub(crate) bound: Option<Bound>,
     /// Instructions on average.
     pub(crate) mean: f64,
-    /// Bytes of code, with all functions called.
+    /// Bytes of code, including all functions called.
     pub(crate) code: u32,
     /// Bytes of tables.
     pub(crate) table: usize,
@@ -41,7 +41,7 @@ impl Measurement {
     }
 }
 
-/// Everything that was measured.
+/// All measurements.
 #[derive(Default)]
 pub(crate) struct Report {
     pub(crate) measurements: Vec<Measurement>,
@@ -181,7 +181,7 @@ impl Report {
     }
 }
 
-/// Columns of equal width; the first two to the left.
+/// Columns of equal width; the first two left-aligned.
 fn aligned<const N: usize>(lines: impl Iterator<Item = [String; N]>) -> String {
     let lines: Vec<_> = lines.collect();
     let width = |column: usize| {
@@ -253,7 +253,7 @@ mod tests {
     fn the_text_has_a_line_for_each_measurement() {
         let text = report().text();
         assert_eq!(text.lines().count(), 1 + 4);
-        // No cycles where there are no timings.
+        // Without timings there are no cycles.
         assert_eq!(text.lines().filter(|line| line.contains(" - ")).count(), 2);
     }
 }

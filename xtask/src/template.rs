@@ -1,4 +1,4 @@
-//! `cargo xtask template`: what the whole firmware of `examples/template` takes.
+//! `cargo xtask template`: cost of the whole firmware of `examples/template`.
 
 use std::path::PathBuf;
 
@@ -19,12 +19,12 @@ pub(crate) struct Options {
     /// As `benches/ceilings.txt` names it.
     core: String,
     program: PathBuf,
-    /// What the program has printed: the cycles of its longest tick, and the stack that it has used.
+    /// The program's output, with the cycles of its longest tick and its used stack.
     #[arg(long)]
     output: Option<PathBuf>,
 }
 
-/// Bytes in the flash: code, constants, and the first values of variables.
+/// Bytes in flash: code, constants, and the initial values of variables.
 fn flash(file: &object::File<'_>) -> Result<u64> {
     let sizes = file
         .segments()
@@ -57,7 +57,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
     let file = object::File::parse(&*bytes)?;
     let mut figures = vec![("flash", flash(&file)?), ("ram", ram(&file))];
-    // In QEMU a tick waits in a loop, and on an M0 the compiler joins ends of ways in such a way that they cannot be followed.
+    // In QEMU a tick waits in a loop, and on an M0 the compiler merges ends of paths so that they cannot be followed.
     if options.output.is_none() && options.core != "cortex-m0" {
         let program = Program::read(path)?;
         let tick = Bounds::new(&program)?.containing("4Tick3run")?;

@@ -1,11 +1,11 @@
-//! Cycles of an executed instruction, from the timings that Arm publishes. Estimates: see [`Timing::cycles`].
+//! Cycles of an executed instruction, from Arm's published timings. Estimates: see [`Timing::cycles`].
 //!
 //! Sources: *Cortex-M0+ Technical Reference Manual* (DDI 0484C, table 3-1), *Cortex-M3 Processor TRM* (100165, table 3-1),
 //! *Cortex-M4 Processor TRM* (100166, tables 3-1 and 7-1).
 
 use crate::instruction::{Instruction, Kind};
 
-/// A core whose timings are published.
+/// A core with published timings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Timing {
     M0Plus,
@@ -13,29 +13,28 @@ pub(crate) enum Timing {
     M4,
 }
 
-/// An instruction in its place.
+/// An instruction with its neighbours.
 pub(crate) struct Step<'a> {
-    /// The one before it in the call.
+    /// The previous one in the call.
     pub(crate) before: Option<&'a Instruction>,
     pub(crate) this: &'a Instruction,
-    /// The one after it.
+    /// The next one.
     pub(crate) after: Option<&'a Instruction>,
-    /// Whether the next one is not the one that follows in memory.
+    /// Whether the next one does not follow in memory.
     pub(crate) taken: bool,
 }
 
-/// Division: 2 to 12 cycles, by the operands; the most is taken.
+/// Division: 2 to 12 cycles, depending on the operands; uses the largest.
 const DIVIDE: u32 = 12;
-/// A long multiplication of the M3: 3 to 5 cycles, 4 to 7 with an addition; the middle is taken.
+/// A long multiplication of the M3: 3 to 5 cycles, 4 to 7 with an addition; uses the middle.
 const LONG: [u32; 2] = [4, 5];
 
 impl Timing {
     /// Cycles of an instruction without wait states, interrupts or contention.
     ///
-    /// Where the manuals leave a choice: a taken branch refills in one cycle, a return or a branch to a register in two;
-    /// divisions take the most, long multiplications of the M3 the middle; a load after a load or store that does not
-    /// make its address takes one cycle; in an IT block only a branch is known to be skipped, and the rest is charged as
-    /// executed; nothing is folded.
+    /// Where the manuals leave a choice: a taken branch refills in one cycle, a return or a branch to a register in two; divisions take the most,
+    /// long multiplications of the M3 the middle; a load after a load or store that does not compute its address takes one cycle; in an IT block only
+    /// a branch is known to be skipped, and the rest counts as executed; no instructions are folded.
     pub(crate) fn cycles(self, step: &Step) -> u32 {
         match self {
             Self::M0Plus => m0plus(step),
@@ -82,10 +81,10 @@ fn m4(step: &Step) -> u32 {
     own + u32::from(arithmetic && awaited)
 }
 
-/// What the M3 and the M4 have in common.
+/// Common to the M3 and the M4.
 fn armv7m(step: &Step) -> u32 {
     match step.this.kind {
-        // In an IT block, and skipped.
+        // Skipped in an IT block.
         Kind::BranchRegister { .. } | Kind::PopPc(_) if !step.taken => 1,
         Kind::Load if follows_memory(step) => 1,
         Kind::Store if step.this.immediate_offset => 1,
@@ -100,7 +99,7 @@ fn armv7m(step: &Step) -> u32 {
     }
 }
 
-/// Whether a load follows a load or store and needs nothing of it.
+/// Whether a load follows a load or store and does not depend on it.
 fn follows_memory(step: &Step) -> bool {
     step.before.is_some_and(|before| {
         matches!(before.kind, Kind::Load | Kind::Store) && before.writes & step.this.reads == 0
@@ -113,7 +112,7 @@ mod tests {
     use crate::elf::Program;
     use crate::instruction::Decoder;
 
-    /// Cycles of a piece of code that runs from its start to its end.
+    /// Cycles of straight-line code.
     fn straight(timing: Timing, code: &[u8]) -> Vec<u32> {
         let program = Program::of(0, code, &[]);
         let mut decoder = Decoder::new(&program).unwrap();
@@ -151,7 +150,7 @@ mod tests {
             0x30, 0xee, 0x21, 0x0a, 0x40, 0xee, 0x01, 0x0a, 0x81, 0xee, 0x21, 0x0a, 0x91, 0xed,
             0x03, 0x7a, 0x37, 0xee, 0x21, 0x7a,
         ];
-        // The load is no arithmetic: no cycle more.
+        // The load is not arithmetic: no additional cycle.
         assert_eq!(straight(Timing::M4, &code), [2, 3, 14, 2, 1]);
     }
 

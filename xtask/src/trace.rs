@@ -1,7 +1,7 @@
 //! Execution in QEMU, every instruction or only the result.
 //!
-//! With one instruction a translation block, not chained, `-d exec` writes a line for every instruction that is executed, in
-//! order; those that an IT block skips are among them. A line holds the address as the second of four hexadecimal numbers:
+//! With one instruction per translation block, not chained, `-d exec` writes a line for every executed instruction, in order, including those that an
+//! IT block skips. In a line the address is the second of four hexadecimal numbers:
 //!
 //! ```text
 //! Trace 0: 0x7f29ac000b40 [00800408/0000040a/00000110/ff000201] Reset
@@ -15,7 +15,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use crate::cores::Core;
 
-/// How an emulator that lets each translation block hold one instruction is asked to: by its version.
+/// The option for one instruction per translation block, by the emulator's version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Emulator {
     /// Before 8.1.
@@ -25,11 +25,11 @@ pub(crate) enum Emulator {
 }
 
 const QEMU: &str = "qemu-system-arm";
-/// Instructions after which a program is taken to hang, as one with a fault does: twice what all kernels need.
+/// Limit of instructions after which a program counts as hanging, for example after a fault: twice the need of all kernels.
 const MOST: u32 = 40_000_000;
 
 impl Emulator {
-    /// The one that is installed.
+    /// The installed emulator.
     pub(crate) fn installed() -> Result<Self> {
         let output = Command::new(QEMU).arg("--version").output();
         let output =
@@ -83,7 +83,7 @@ impl Emulator {
             "-dfilter",
             &format!("{from:#x}..{:#x}", to - 1),
         ]);
-        // The log goes to standard error; so would a complaint of QEMU's or of the program.
+        // The log goes to standard error, like error messages of QEMU or of the program.
         let mut child = command.stderr(Stdio::piped()).spawn().context(QEMU)?;
         let mut log = BufReader::with_capacity(1 << 16, child.stderr.take().context("no log")?);
         let (mut line, mut other, mut count) = (Vec::new(), String::new(), 0u32);
@@ -115,7 +115,7 @@ impl Emulator {
         Ok(())
     }
 
-    /// Runs the program in `folder` with an instruction a nanosecond, so that SysTick counts instructions.
+    /// Runs the program in `folder` with one instruction per nanosecond, so that SysTick counts instructions.
     pub(crate) fn count(core: &Core, program: &Path, folder: &Path) -> Result<()> {
         let output = Self::command(core, program, folder)
             .args(["-icount", "shift=0"])

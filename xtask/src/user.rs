@@ -1,4 +1,4 @@
-//! A user's firmware, `benches/user`: the instructions that each of its functions can take at most.
+//! A user's firmware, `benches/user`: upper bounds of the instructions of each function.
 
 use std::path::PathBuf;
 use std::process::Stdio;
@@ -11,7 +11,7 @@ use crate::cores::{CORES, Core};
 use crate::elf::Program;
 use crate::program::{cargo, root, target_dir};
 
-/// How the program is compiled: core, profile, further options of rustc.
+/// Compilation of the program: core, profile, further options of rustc.
 struct Build {
     core: &'static str,
     profile: &'static str,
@@ -51,7 +51,7 @@ const BUILDS: [Build; 6] = [
     },
 ];
 
-/// The models of the program, and what a table calls them; in fixed point with 1/J.
+/// The models of the program, and their titles in a table; in fixed point with 1/J.
 const MODELS: [(&str, &str); 9] = [
     ("cubic_f32", "f32, cubic"),
     ("spline_f32", "f32, spline"),
@@ -73,7 +73,7 @@ const CALLS: [(&str, &str); 5] = [
     ("binary", "4096 counts → torque"),
 ];
 
-/// The other functions of the program, and what a table calls them.
+/// The other functions of the program, and their titles in a table.
 const FUNCTIONS: [(&str, &str); 20] = [
     ("counter_extend", "`Counter::extend`"),
     ("encoder_phase", "`Encoder::phase`"),
@@ -100,8 +100,7 @@ const FUNCTIONS: [(&str, &str); 20] = [
     ("q31_stop", "`LookAhead::stop`, q31"),
 ];
 
-/// They look for a place among points or nodes. With opt-level "s" the compiler keeps the loop, whose length is known to it but not to the
-/// bounds.
+/// They search for a place among points or nodes. With opt-level "s" the compiler keeps the loop, whose length the bounds do not know.
 const SEARCHES: [&str; 6] = [
     "f32_feasible",
     "f32_govern",
@@ -111,7 +110,7 @@ const SEARCHES: [&str; 6] = [
     "q31_stop",
 ];
 
-/// Every function, and what a table calls it.
+/// Every function with its title.
 fn functions() -> Vec<(String, String)> {
     let calls = MODELS.iter().flat_map(|(model, title)| {
         CALLS.map(|(call, what)| (format!("{model}_{call}"), format!("{title}: {what}")))
@@ -130,7 +129,7 @@ impl Build {
             .context("no such core")
     }
 
-    /// As `benches/ceilings.txt` names it.
+    /// Name in `benches/ceilings.txt`.
     fn name(&self) -> String {
         let options = if self.rustc.is_empty() { "" } else { "-tuned" };
         format!("user-{}{options}", self.profile)
@@ -170,7 +169,7 @@ impl Build {
     }
 }
 
-/// The bounds of every function that has one in this build.
+/// The bounds of all functions that have one in this build.
 fn bounds(build: &Build) -> Result<Vec<Option<u32>>> {
     let program = Program::read(&build.compile()?)?;
     let mut bounds = Bounds::new(&program)?;
@@ -183,7 +182,7 @@ fn bounds(build: &Build) -> Result<Vec<Option<u32>>> {
     functions().iter().map(|(name, _)| of(name)).collect()
 }
 
-/// Compiles the program, prints the table, and judges every figure; the number of those out of bounds.
+/// Compiles the program, prints the table, and checks every figure; returns the number of those out of bounds.
 pub(crate) fn run(markdown: bool) -> Result<u32> {
     let mut columns = Vec::new();
     for build in &BUILDS {

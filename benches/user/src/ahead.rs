@@ -1,4 +1,4 @@
-//! What the drive can do, now and ahead.
+//! Limits of the drive, now and ahead.
 
 use core::hint::black_box;
 

@@ -1,4 +1,4 @@
-//! What comes before and after the tick.
+//! Steps before and after the tick.
 
 use core::hint::black_box;
 
@@ -50,7 +50,7 @@ fn omega_q31(period: &Period<Q31>, tracked: Tracked) -> Outcome<Speed<Q31>> {
     period.omega(tracked)
 }
 
-/// SI in and out of fixed point.
+/// SI units to fixed point and back.
 #[unsafe(no_mangle)]
 #[inline(never)]
 fn si_q31(model: &Model<Quadratic<Q31>, FIXED>, phase: Phase, omega: f32, alpha: f32) -> f32 {

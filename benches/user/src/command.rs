@@ -1,4 +1,4 @@
-//! What may be put before and after the model, each for itself.
+//! The parts before and after the model, one by one.
 
 use core::hint::black_box;
 

@@ -1,7 +1,7 @@
-//! The calls of a drive's firmware, each a function of its own so that its instructions can be told.
+//! The calls of a drive's firmware, each a separate function so that its instructions can be counted.
 //!
-//! They are compiled as in firmware: several calls on one model, the image known only when the program runs, an encoder of 10 000 and one
-//! of 4096 counts. The program is never run; `cargo xtask perf` follows its code.
+//! They are compiled as in firmware: several calls on one model, the image known only at run time, an encoder of 10 000 and one of 4096 counts. The
+//! program is never run; `cargo xtask perf` follows its code.
 #![no_std]
 #![no_main]
 
@@ -39,13 +39,13 @@ const fn encoder(counts_per_turn: u32) -> Encoder {
 const TEN_THOUSAND: Encoder = encoder(10_000);
 const POWER_OF_TWO: Encoder = encoder(4096);
 
-/// A table image that comes from outside the program.
+/// A table image from outside the program.
 fn words() -> &'static [u32] {
     static mut IMAGE: [u32; 512] = [0; 512];
     for k in 0..512 {
         unsafe { write_volatile(&raw mut IMAGE[k], read(k)) }
     }
-    // Of any length: that a slider-crank of 512 words is refused is known when the program is compiled.
+    // Of any length: the compiler would know that a slider-crank of 512 words is refused.
     let image: &[u32] = unsafe { &*&raw const IMAGE };
     black_box(image)
 }

@@ -1,4 +1,4 @@
-//! Arguments come from and results go to where the compiler knows nothing about.
+//! Arguments come from, and results go to, places unknown to the compiler.
 
 use core::ptr::{read_volatile, write_volatile};
 

@@ -6,9 +6,9 @@
 //! scripts/test bits      on the host, on five Cortex-M cores, as WebAssembly and on AArch64
 //! ```
 //!
-//! A tick is a torque and an acceleration at a random phase, speed, acceleration and torque: of all that fixed point can hold, or
-//! up to twice the validity of a table in `f32`. Of a plan it is its state at a random time, and its follower's at a rate that changes. Every bit of their results counts. Digests are printed on the way, so that a
-//! core without a floating-point unit may stop early and still has something to compare.
+//! A tick is a torque and an acceleration at a random phase, speed, acceleration and torque: over the whole range of fixed point, or up to twice the
+//! validity of a table in `f32`. A plan's tick is its state at a random time, and its follower's state at a changing rate. Every bit of their results
+//! counts. Digests are printed on the way, so that a core without a floating-point unit can stop early and still be compared.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![forbid(unsafe_code)]
 
@@ -44,16 +44,16 @@ const FEEDER: Set = curves::LOAD
     | slider_crank::terms::LOAD_SIN
     | slider_crank::terms::LOAD_COS;
 
-/// Ticks of each model after which the digests are printed.
+/// Numbers of ticks of each model after which the digests are printed.
 const STAGES: [u32; 3] = [10_000, 100_000, 1_000_000];
-/// How many of the stages: one where single precision is software.
+/// Number of stages: one where single precision is software.
 const PRINTED: usize = if cfg!(all(target_os = "none", not(target_abi = "eabihf"))) {
     1
 } else {
     STAGES.len()
 };
 
-/// What remains from the ticks of a model.
+/// State after the ticks of a model.
 #[derive(Clone, Copy)]
 struct Run {
     random: u32,
@@ -80,7 +80,7 @@ impl Run {
         self.random
     }
 
-    /// FNV-1a of G. Fowler, L. C. Noll and K.-P. Vo, word by word: a single word that differs always shows.
+    /// FNV-1a of G. Fowler, L. C. Noll and K.-P. Vo, word by word: a single different word always shows.
     fn digest(&mut self, bits: u32) {
         self.digest = (self.digest ^ bits).wrapping_mul(16_777_619);
     }
@@ -90,7 +90,7 @@ impl Run {
 trait Word: Number {
     /// A random number: of its whole range and smaller ones down to 2⁻⁷ of it, or up to twice the limit.
     fn random(bits: u32, limit: f32) -> Self;
-    /// `None` if it is not a number.
+    /// `None` for NaN.
     fn bits(self) -> Option<u32>;
 }
 
@@ -121,7 +121,7 @@ impl Word for Q15 {
     }
 }
 
-/// A model: from its place in flash, ticks up to this many.
+/// A model: ticks from its place in flash, up to this number.
 type Ticks = fn(&mut Run, u32) -> Result<(), Failure>;
 
 /// A name, a format, its curves and its image.
@@ -167,7 +167,7 @@ fn of_model<F: Format<Number: Word>, const SET: Set>(
     )
 }
 
-/// The plan of the press, repeated at a rate that changes every so many ticks, and at random times.
+/// The plan of the press, repeated at a rate that changes every few ticks, and at random times.
 fn of_plan<F: Format<Number: Word>, const SET: Set>(
     image: &[u8],
     run: &mut Run,
@@ -186,7 +186,7 @@ fn of_plan<F: Format<Number: Word>, const SET: Set>(
             rate = Rate::percent(run.random() % 128);
         }
         let planned = follower.next(rate);
-        // Up to half a second, a little more than the plan takes.
+        // Up to half a second, slightly longer than the plan.
         let place = plan.at(u64::from(run.random()) << 7);
         for (motion, turns, limited) in [
             (planned.motion, planned.turns, planned.limited),

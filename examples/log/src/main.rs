@@ -4,8 +4,8 @@
 //! cargo run -p jred-log-example --profile firmware --target thumbv7em-none-eabihf
 //! ```
 //!
-//! The texts stay in the program file; only numbers travel, and `defmt-print` puts both together on the host. The level
-//! is fixed when the program is compiled, by `DEFMT_LOG` (see .cargo/config.toml).
+//! The texts stay in the program file; only numbers are sent, and `defmt-print` combines both on the host. `DEFMT_LOG` sets the level at compile time
+//! (see .cargo/config.toml).
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![forbid(unsafe_code)]
 
@@ -42,7 +42,7 @@ mod target {
             }
         }
 
-        // What goes wrong comes as data, so it can be logged as data.
+        // Errors are data, and can be logged as data.
         if let Err(error) = Image::from_bytes(bytes.get(..256).unwrap_or_default()) {
             defmt::warn!("cut off: {}", error);
         }

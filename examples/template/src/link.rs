@@ -1,19 +1,19 @@
-//! In place of a link (serial, CAN, a fieldbus), which brings the bytes of an image in pieces of its own length.
+//! A stand-in for a link (serial, CAN, a fieldbus), which brings the bytes of an image in pieces of its own length.
 
-/// An image on its way.
+/// An image in transfer.
 pub struct Transfer {
-    /// It begins in this turn of the machine.
+    /// Turn of the machine in which it begins.
     pub turn: u32,
     pub image: &'static [u8],
     /// A byte that the link damages.
     pub damaged: Option<usize>,
 }
 
-/// Most bytes in a piece.
+/// Greatest number of bytes in a piece.
 const PIECE: usize = 61;
 
 impl Transfer {
-    /// Hands every piece on.
+    /// Passes every piece on.
     pub fn pieces<E>(&self, mut receive: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         for (number, piece) in self.image.chunks(PIECE).enumerate() {
             let mut buffer = [0; PIECE];

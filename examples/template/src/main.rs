@@ -1,13 +1,13 @@
-//! A firmware to start from: feed-forward from an encoder's count in an interrupt, and a table that is exchanged while the machine runs.
+//! A firmware to start from: feed-forward from an encoder count in an interrupt, and a table that is exchanged while the machine runs.
 //!
 //! | file | content |
 //! |---|---|
-//! | `machine.rs` | your machine and its drive: what to change first |
+//! | `machine.rs` | your machine and its drive: change this first |
 //! | `board/` | clock, encoder and command of each board; QEMU's simulate a machine |
 //! | `tick.rs` | the interrupt |
 //! | `table.rs` | a table and the drive's figures in its units |
-//! | `exchange.rs` | what interrupt and background hand to each other |
-//! | `link.rs` | in place of a link that brings new tables |
+//! | `exchange.rs` | data exchanged between interrupt and background |
+//! | `link.rs` | a stand-in for a link that brings new tables |
 #![no_std]
 #![no_main]
 #![cfg_attr(not(feature = "stack"), forbid(unsafe_code))]
@@ -31,7 +31,7 @@ use machine::{TABLE, WORDS};
 use table::{Refused, Table};
 use tick::{Tick, With};
 
-/// Words whose CRC is computed at once in the background.
+/// Words added to the CRC in one step of the background.
 const SLICE: usize = 16;
 
 #[entry]
@@ -45,7 +45,7 @@ fn main() -> ! {
         table.insert(Table::new(memory)),
         spare.insert(Table::new(other)),
     );
-    // The first table comes as every other one does, but nothing ticks yet.
+    // The first table is loaded like all others, but nothing ticks yet.
     let first = Transfer {
         turn: 0,
         image: TABLE,
@@ -61,7 +61,7 @@ fn main() -> ! {
         spare = renew(spare, transfer);
     }
     wait_for(|| board::finish(status(|all| all.ticks.get())));
-    // At once, so that all belong to the same tick.
+    // Read together, so that all belong to the same tick.
     let (with, missed) = status(|all| (all.with.get(), all.missed.get()));
     let (longest, latest) = status(|all| (all.longest.get(), all.latest.get()));
     report(&with);
@@ -77,12 +77,12 @@ fn main() -> ! {
     stop();
 }
 
-/// Makes the interrupt the owner of the table, the board and the timer, and starts it.
+/// Makes the interrupt the owner of table, board and timer, and starts it.
 fn start(table: &'static mut Table) {
     let Some(core) = Peripherals::take() else {
         return;
     };
-    // An exception has the highest priority until a program gives it another one: nothing interrupts a tick. Give other interrupts lower ones.
+    // By default an exception has the highest priority: nothing interrupts a tick. Give other interrupts lower priorities.
     let Some(mut tick) = Tick::new(table, Board::start(), core.SYST) else {
         return;
     };
@@ -114,7 +114,7 @@ fn load(table: &mut Table, transfer: &Transfer) -> Result<(), Refused> {
     }
 }
 
-/// A new table for the tick; gives the memory that the tick does not use.
+/// A new table for the tick; returns the memory that the tick does not use.
 fn renew(spare: &'static mut Table, transfer: &Transfer) -> &'static mut Table {
     let ticks = || status(|all| all.ticks.get());
     let begin = ticks();
@@ -148,7 +148,7 @@ fn report(with: &With) {
     );
 }
 
-/// The background: whatever else the firmware does.
+/// The background: everything else that the firmware does.
 fn wait_for(condition: impl Fn() -> bool) {
     while !condition() {
         cortex_m::asm::wfi(); // until the next interrupt

@@ -1,4 +1,4 @@
-//! A table and what is computed from its machine units: exchanged as one.
+//! A table and the values computed from its machine units, exchanged together.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use crate::machine::{
     CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MACHINE, MOST_TORQUE, MotorTorque, Number, WORDS,
 };
 
-/// Memory for a table. There are two: the tick has the one that it reads, the background the other.
+/// Memory for a table. There are two: the tick owns the one that it reads, the background the other.
 pub struct Table {
     pub slot: ImageSlot<'static, Layout, CURVES>,
     pub units: Option<Units>,
@@ -20,7 +20,7 @@ pub struct Table {
 #[derive(Clone, Copy)]
 pub struct Units {
     pub tick: Period<Number>,
-    /// The largest step of the crank in a tick: at the greatest speed that the table was made for.
+    /// The largest step of the crank per tick, at the greatest speed of the table's validity.
     pub step: Phase,
     pub lead: Period<Number>,
     pub ramp: Ramp<Number>,
@@ -32,7 +32,7 @@ pub struct Units {
 pub enum Refused {
     /// The image.
     Image(ImageError),
-    /// A figure of the drive that does not suit its machine units.
+    /// A figure of the drive that does not fit its machine units.
     Drive(AxisError),
 }
 
@@ -58,7 +58,7 @@ impl Table {
         self.units = None;
     }
 
-    /// Checks so many more words; the verdict at the end.
+    /// Checks `words` more words; returns the verdict at the end.
     pub fn check(&mut self, words: usize) -> Option<Result<(), Refused>> {
         let verdict = self.slot.check(words)?.map_err(Refused::Image);
         Some(verdict.and_then(|()| self.convert().map_err(Refused::Drive)))

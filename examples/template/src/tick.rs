@@ -1,4 +1,4 @@
-//! The tick: from an encoder's count to the torque command, in an interrupt that nothing interrupts.
+//! The tick: from an encoder count to the torque command, in an interrupt that nothing interrupts.
 
 use core::cell::Cell;
 
@@ -12,30 +12,30 @@ use crate::exchange::{OFFERED, RETURNED, STATUS};
 use crate::machine::{BANDWIDTH, ENCODER, EXCHANGE_AT, HOME};
 use crate::table::Table;
 
-/// What the background sees of the ticks.
+/// The background's view of the ticks.
 pub struct Status {
     pub ticks: Cell<u32>,
     /// Turns of the crank since the start.
     pub turns: Cell<u32>,
-    /// Ticks that were not done when the next one was due.
+    /// Ticks that were not finished when the next one was due.
     pub missed: Cell<u32>,
-    /// Clock cycles of the longest tick, and those that one began too late.
+    /// Clock cycles of the longest tick, and of the latest start of a tick.
     pub longest: Cell<u32>,
     pub latest: Cell<u32>,
-    /// With the table in use, and with the last one.
+    /// With the current table, and with the previous one.
     pub with: Cell<With>,
     pub before: Cell<With>,
 }
 
-/// What was commanded with one table.
+/// Commands with one table.
 #[derive(Clone, Copy)]
 pub struct With {
     pub first_tick: u32,
     pub ticks: u32,
-    /// Ticks whose motion was beyond what the table was made for, or their numbers beyond its machine units, or whose count has jumped: they command the torque of the nearest
-    /// motion that the table was made for, so that a weight stays held.
+    /// Ticks whose motion is outside the validity of the table or beyond its machine units, or whose count has jumped: they command the torque of the
+    /// nearest valid motion, so that a weight is still carried.
     pub flagged: u32,
-    /// Ticks whose command the limits of the drive have cut.
+    /// Ticks whose command was cut by the drive's limits.
     pub clipped: u32,
     /// Largest command of the ticks that were not flagged (N·m).
     pub most: f32,
@@ -67,29 +67,29 @@ impl Status {
     }
 }
 
-/// All that the interrupt owns.
+/// Everything that the interrupt owns.
 pub struct Tick {
     table: &'static mut Table,
     board: Board,
     timer: SYST,
     counter: Counter<16>,
     tracker: Tracker,
-    /// Of the crank from the place of the exchange on, in this tick; and whether tables may be exchanged at its end.
+    /// Distance of the crank from the place of the exchange in this tick; and whether tables may be exchanged at its end.
     way: i32,
     may_exchange: bool,
-    /// Whether the last tick was not done when this one was due.
+    /// Whether the last tick was not finished when this one was due.
     missed: bool,
     ticks: u32,
     with: With,
 }
 
 impl Tick {
-    /// With a table that was checked.
+    /// A tick with a checked table.
     pub fn new(table: &'static mut Table, mut board: Board, timer: SYST) -> Option<Self> {
-        // The register has 16 bits: the machine is taken to be where it shows the count nearest to HOME.
+        // The register has 16 bits: the machine is assumed to be where it shows the count nearest to HOME.
         let mut counter = Counter::at(HOME);
         let count = counter.extend(board.count().into());
-        // From where the machine is: elsewhere the filter would start with a jump of the speed.
+        // Start at the machine's position, otherwise the filter would start with a jump of the speed.
         let phase = ENCODER.phase_wide(count);
         let tracker = Tracker::with_bandwidth(BANDWIDTH, 1.0 / RATE as f32)
             .ok()?
@@ -118,7 +118,7 @@ impl Tick {
         self.timer.enable_counter();
     }
 
-    /// One tick. A function of its own, so that its instructions and its stack can be told (`cargo xtask template` of jred does).
+    /// One tick. A separate function, so that its instructions and its stack can be measured (`cargo xtask template` of jred does).
     #[inline(never)]
     pub fn run(&mut self) {
         let reload = SYST::get_reload();
@@ -146,7 +146,7 @@ impl Tick {
         });
     }
 
-    /// Gives the drive its command; whether the crank has passed the place of the exchange.
+    /// Sends the command to the drive; returns whether the crank has passed the place of the exchange.
     fn command(&mut self) -> bool {
         let count = self.counter.extend(self.board.count().into());
         let measured = self.tracker.update(ENCODER.phase_wide(count));
@@ -154,14 +154,14 @@ impl Tick {
         self.ticks += 1;
         self.with.ticks += 1;
         let way = (measured.phase - EXCHANGE_AT).to_bits().cast_signed();
-        // From just before the place to just behind it, and not half a turn away from it, where the sign changes, too.
+        // From just before the place to just after it, but not half a turn away from it, where the sign changes, too.
         let passes = self.way < 0 && way >= 0 && way.wrapping_sub(self.way) >= 0;
         self.way = way;
         self.may_exchange = passes || wanted.speed == 0 && wanted.acceleration == 0;
 
         let (Some(press), Some(units)) = (self.table.slot.feed_forward(), &self.table.units) else {
             self.board.command(0.0);
-            return passes; // cannot be: the tick is only given tables that were checked
+            return passes; // cannot occur: the tick only gets checked tables
         };
         let alpha = units.tick.alpha(wanted);
         let reference = Motion {
@@ -169,7 +169,7 @@ impl Tick {
             omega: units.tick.omega(wanted).value,
             alpha: alpha.value,
         };
-        // Where the machine is, and will be when the torque acts; friction by the sign of the set-point.
+        // Position of the machine when the torque acts; friction by the sign of the set-point.
         let omega = units.tick.omega(measured);
         let later = units.lead.later(Motion {
             phase: measured.phase,
@@ -183,12 +183,12 @@ impl Tick {
             .gearbox
             .motor(needed.torque, reference.omega, reference.alpha);
         let limited = units.limits.limited(motor.value);
-        // In fixed point a number that does not fit is limited and marked.
+        // In fixed point a number out of range is limited and flagged.
         let beyond = omega.saturated || alpha.saturated || later.saturated || motor.saturated;
         let jumped = measured.jumped || wanted.jumped;
         let valid = needed.status.is_valid() && !beyond && !jumped;
         let with = &mut self.with;
-        // What is flagged is limited to the motions of the table, never dropped to 0: a vertical axis must not fall.
+        // A flagged motion is limited to the table's validity, never dropped to 0: a vertical axis must not fall.
         let torque = units.gearbox.torque_si(limited.torque);
         with.flagged += u32::from(!valid);
         with.clipped += u32::from(limited.clipped != Default::default());
@@ -199,8 +199,8 @@ impl Tick {
         passes
     }
 
-    /// Takes the table that the background offers, where the machine passes the place for it or is to be at rest, and gives back the one it had. Two
-    /// references change their owners: the next tick computes with the one or with the other, never with parts of both.
+    /// Takes the table offered by the background, where the machine passes the place for it or is to be at rest, and returns the previous one. Two
+    /// references change their owners: the next tick computes with one or the other, never with parts of both.
     fn exchange(&mut self, cs: CriticalSection<'_>) {
         if let Some(next) = OFFERED.borrow(cs).take() {
             if let Some(units) = next.units {

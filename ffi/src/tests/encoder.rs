@@ -1,4 +1,4 @@
-//! Encoders: what is made here, and what the header computes of it.
+//! Encoders: their creation here, and their conversions in the header.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -11,7 +11,7 @@ use jred::axis::{Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 use crate::status::Status;
 
-/// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003).
+/// A fixed sequence of numbers of every magnitude (xorshift; G. Marsaglia 2003).
 struct Numbers(u64);
 
 impl Numbers {
@@ -24,12 +24,12 @@ impl Numbers {
     fn below(&mut self, most: u64) -> u64 {
         self.next() % most
     }
-    /// Of any size, either sign.
+    /// Of any magnitude and sign.
     fn long(&mut self) -> i64 {
         let shift = self.below(64);
         self.next().cast_signed() >> shift
     }
-    /// Extremes, and anything.
+    /// Extremes, or any number.
     fn count(&mut self) -> i64 {
         const ENDS: [i64; 9] = [
             0,
@@ -79,7 +79,7 @@ fn field<T: Copy, E>(encoder: &E, offset: usize) -> T {
     }
 }
 
-/// What the program `tests/encoder.c` answers, a line each, with the products of this core or of the smallest ones.
+/// The answers of the program `tests/encoder.c`, one per line, with the products of this core or of the smallest cores.
 fn answers(asked: &str, short: bool) -> Vec<String> {
     let name = format!("jred-encoder-{}-{short}", std::process::id());
     let program = std::env::temp_dir().join(name);
@@ -129,7 +129,7 @@ fn the_header_computes_the_bits_of_rust() {
         let mut memory = MaybeUninit::uninit();
         let made = jred_encoder_make(Some(&mut memory), Some(&mounting));
         assert_eq!(made, Status::Ok);
-        // SAFETY: it was made.
+        // SAFETY: it was written.
         let encoder: Encoder = unsafe { memory.assume_init() };
         assert_eq!(encoder, Encoder::new(mounting.into()).unwrap());
         for _ in 0..8 {
@@ -161,7 +161,7 @@ fn the_header_computes_the_bits_of_rust() {
         let mut memory = MaybeUninit::uninit();
         let made = jred_stroke_encoder_make(Some(&mut memory), 0.0, span as f32, Some(&scaled));
         assert_eq!(made, Status::Ok);
-        // SAFETY: it was made.
+        // SAFETY: it was written.
         assert_eq!(unsafe { memory.assume_init() }, encoder);
         let fields = [0, 8, 16, 24, 32].map(|at| field::<i64, _>(&encoder, at));
         let (part, rest) = (field::<u32, _>(&encoder, 40), field::<i32, _>(&encoder, 44));
@@ -219,7 +219,7 @@ fn an_encoder_is_that_of_the_header() {
         ..Mounting::direct(10_000)
     };
     let encoder = Encoder::new(up).unwrap();
-    // A turn in units of 2⁻⁶⁴ over 10,000, to the nearest; half a unit of a phase at count 0.
+    // A turn in units of 2⁻⁶⁴ over 10,000, rounded; half a unit of a phase at count 0.
     let (lower, upper) = (field::<i32, _>(&encoder, 0), field::<u32, _>(&encoder, 4));
     assert_eq!(
         (i128::from(upper) << 32) + i128::from(lower),
@@ -319,7 +319,7 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         let mut memory = MaybeUninit::uninit();
         let made = jred_stroke_encoder_make(Some(&mut memory), from, to, Some(&wrong));
         assert_eq!(made, Status::Figure, "{from} {to} {wrong:?}");
-        // SAFETY: an encoder of no stroke was written.
+        // SAFETY: an encoder without a stroke was written.
         let encoder: StrokeEncoder = unsafe { memory.assume_init() };
         assert!(encoder.phase(77).saturated && encoder.phase_wide(77).saturated);
     }

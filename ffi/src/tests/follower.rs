@@ -1,4 +1,4 @@
-//! A plan is refused or followed with the bits of Rust.
+//! A plan is refused, or followed with the same bits as in Rust.
 
 use core::mem::{MaybeUninit, zeroed};
 use core::ptr::null;
@@ -75,7 +75,7 @@ fn plan() -> Vec<u32> {
     words(include_image!("../../../examples/data/press_plan.jred"))
 }
 
-/// What an operator commands in a tick (%).
+/// The operator's command in a tick (%).
 fn commanded(tick: u32) -> u32 {
     match tick {
         300..500 => 40,
@@ -258,7 +258,7 @@ fn a_follower_is_none_before_it_is_made() {
             refused(&plan, length - 1, 1e-3, 0.1),
             status(Status::Length)
         );
-        // A follower whose making failed is none.
+        // After a failed creation there is no follower.
         let mut found = CPlanned::default();
         assert_eq!(
             jred_f32_follower_next(follow, 100, &raw mut found),
@@ -274,7 +274,7 @@ fn a_follower_is_none_before_it_is_made() {
         jred_f32_follower_start(follow);
 
         assert_eq!(refused(&plan, length, 1e-3, 0.1), 0);
-        // The stroke of the press and a rest end a turn on, at rest.
+        // The stroke of the press and a rest end a turn later, at rest.
         jred_f32_follower_start(follow);
         assert_eq!(
             jred_f32_follower_next(follow, 100, &raw mut found),
@@ -302,7 +302,7 @@ fn a_follower_is_none_before_it_is_made() {
         encode(&open, Domain::Turn, 0, Errors::default(), &mut words).unwrap();
         assert_eq!(refused(&words, words.len(), 1e-3, 0.1), 0);
         assert_eq!(jred_f32_follower_repeat(follow), status(Status::Open));
-        // Nobody, and nowhere.
+        // Without a follower and without memory.
         assert_eq!(
             jred_f32_follower_next(core::ptr::null_mut(), 100, core::ptr::null_mut()),
             CStage::NoFollower

@@ -1,4 +1,4 @@
-//! The header declares what is exported.
+//! The header declares the exported functions.
 
 use core::ffi::{CStr, c_char};
 use core::mem::MaybeUninit;
@@ -33,7 +33,7 @@ c! {
     Option<&mut MaybeUninit<StrokeEncoder>>: "jred_stroke_encoder *", Option<&Scaled>: "const jred_scaled *",
 }
 
-/// Whether the header declares a function so, whatever its arguments are called.
+/// Whether the header declares a function with these types, whatever the names of its arguments.
 macro_rules! declared {
     ($name:ident($($argument:ty),* $(,)?) -> $result:ty) => {{
         let _: unsafe extern "C" fn($($argument),*) -> $result = $name;

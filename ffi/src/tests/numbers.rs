@@ -76,23 +76,23 @@ fn the_range_of_motion_is_that_of_an_image_and_nothing_else() {
     // SAFETY: words and their number.
     let read = unsafe { jred_image_info(words.as_ptr(), words.len(), Some(&mut info)) };
     assert_eq!(read, Status::Ok);
-    // SAFETY: it was read.
+    // SAFETY: it was written.
     let info = unsafe { info.assume_init() };
     let mut range = MaybeUninit::uninit();
     let made = jred_f32_motion_range_of(Some(&info), Some(&mut range));
     assert_eq!(made, Status::Ok);
-    // SAFETY: it was made.
+    // SAFETY: it was written.
     let found: CMotionRange<f32> = unsafe { range.assume_init() };
-    // 29.4524 rad/s and 226.725 rad/s², and a hundredth.
+    // 29.4524 rad/s and 226.725 rad/s², plus one hundredth.
     assert!(
         (found.omega - 1.01 * 29.4524).abs() < 1e-3 && (found.alpha - 1.01 * 226.725).abs() < 1e-2
     );
-    // Bases that are none, and no pointers: rest alone.
+    // Invalid bases, and null pointers: only rest.
     assert_eq!(
         jred_f32_motion_range_of(None, Some(&mut range)),
         Status::Null
     );
-    // SAFETY: it is written in any case.
+    // SAFETY: it is always written.
     assert_eq!(unsafe { range.assume_init() }, CMotionRange::default());
     assert_eq!(jred_f32_motion_range_of(Some(&info), None), Status::Null);
     assert_eq!(jred_q31_motion_range_of(Some(&info), None), Status::Null);

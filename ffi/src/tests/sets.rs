@@ -1,4 +1,4 @@
-//! Every set of curves that a format can have, or is likely to, has functions of its own.
+//! Every possible or likely set of curves of a format has its own functions.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! A slider-crank in closed form is refused or ticked with the bits of Rust.
+//! A slider-crank in closed form is refused, or ticked with the same bits as in Rust.
 
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
@@ -42,7 +42,7 @@ unsafe extern "C" {
     ) -> f32;
 }
 
-/// An image of a slider-crank in closed form with a constant load and constant frictions; other numbers may stand for its own.
+/// An image of a slider-crank in closed form with a constant load and constant frictions; `change` may replace its numbers.
 fn crank(change: impl FnOnce(&mut [f32])) -> Vec<u32> {
     const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let mut words = [0.25, -0.1, 0.02, 0.03, -0.004, 5.0, 0.5, 2.0];
@@ -88,7 +88,7 @@ fn a_closed_form_through_c_has_the_bits_of_one_in_rust() {
     }
 }
 
-/// Null pointers, every shorter length, every turned bit, images of another format or set, and numbers that are no slider-crank's.
+/// Null pointers, every shorter length, every flipped bit, images of another format or set, and numbers that do not form a slider-crank.
 #[test]
 fn what_is_no_closed_form_is_refused() {
     let (words, table) = (crank(|_| ()), press());
@@ -111,7 +111,7 @@ fn what_is_no_closed_form_is_refused() {
             damaged[bit / 32] ^= 1 << (bit % 32);
             assert!(load(49, &damaged, words.len()) > 1, "bit {bit}");
         }
-        // The CRC is right, and the numbers are not: a rod shorter than the crank, a negative inertia.
+        // The CRC is right, and the numbers are wrong: a rod shorter than the crank, a negative inertia.
         for (number, wrong, expected) in [(0, 1.25, Status::Table), (2, -1.0, Status::NoInertia)] {
             let words = crank(|words| words[number] = wrong);
             let found = load(49, &words, words.len());

@@ -1,4 +1,4 @@
-//! An image is refused or ticked with the bits of Rust.
+//! An image is refused, or ticked with the same bits as in Rust.
 
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
@@ -41,7 +41,7 @@ unsafe extern "C" {
 /// A function of C: phase and speed, and acceleration or torque.
 type Tick<'t> = &'t dyn Fn(u32, f32, f32) -> f32;
 
-/// A thousand ticks: torques and the acceleration of C have the bits of Rust, whose acceleration is that of the torque.
+/// A thousand ticks: torques and acceleration of C have the bits of Rust; the acceleration is computed from the torque.
 pub(super) fn same_bits<F: Format<Number = f32>, const SET: Set>(
     model: &Model<'_, F, SET>,
     torques: [Tick<'_>; 2],

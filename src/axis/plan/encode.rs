@@ -1,4 +1,4 @@
-//! Writing a plan: on a host, or in firmware with double precision.
+//! Writes a plan: on a host, or in firmware with double precision.
 
 use super::image::{HEADER_WORDS, MAGIC, MOST_ROWS, STROKE, TURN, VERSION, check_rows, fits};
 use super::row::{ROW_WORDS, Row, TIME_BITS, Units, Window, Words};
@@ -20,16 +20,17 @@ pub struct Knot {
     pub alpha: [f64; 2],
 }
 
-/// Words of the image of a plan through so many knots.
+/// Words of the image of a plan with `knots` knots.
 #[must_use]
 pub const fn image_len(knots: usize) -> usize {
     HEADER_WORDS + knots * ROW_WORDS + 1
 }
 
-/// Writes into the image of a plan the shortest ramp of the rate (s) with which it keeps the torque of its drive: 0 if that is not known, infinite if no ramp does.
+/// Writes into the image of a plan the shortest ramp of the rate (s) with which its drive has the torque: 0 if unknown, infinite if there is no such
+/// ramp.
 ///
 /// # Errors
-/// No image of a plan; a ramp that is negative or NaN.
+/// Not an image of a plan; a ramp that is negative or NaN.
 pub fn with_ramp(image: &mut [u32], ramp: f32) -> Result<(), PlanError> {
     if image.len() < image_len(2) || image.first() != Some(&MAGIC) {
         return Err(PlanError::NotAPlan(
@@ -52,17 +53,17 @@ const RAMP: usize = 13;
 /// 2³²
 const RANGE: f64 = 4_294_967_296.0;
 
-/// A plan is shorter (s), so that 2⁻⁴⁰ s count it in 64 bits.
+/// Limit of a plan's length (s), so that 2⁻⁴⁰ s count it in 64 bits.
 const LONGEST: f64 = 8_388_608.0;
 
-/// Least exponent of a unit.
+/// Smallest exponent of a unit.
 const LEAST: i32 = -64;
 
-/// Halvings of a part of a row in which its acceleration changes its sign: its speed is flat there.
+/// Halvings in the search for a sign change of the acceleration; the speed is flat there.
 const HALVINGS: u32 = 40;
 
-/// The polynomial between two knots over the time u = t/H: its speed (2⁻³² of the range a second) and its coefficients of u² to u⁵ over H², in 2⁻³² of the
-/// range a second squared.
+/// The polynomial between two knots over u = t/H: its speed (2⁻³² of the range per second), and its coefficients of u² to u⁵ over H², in 2⁻³² of the
+/// range per second squared.
 #[derive(Clone, Copy, Default)]
 struct Segment {
     speed: f64,
@@ -78,11 +79,12 @@ struct Count {
     alpha: [f64; 2],
 }
 
-/// Writes the plan through these knots, in the order of their times, the first at t = 0, and returns it. `machine` is the identifier of the machine, 0 if it has
-/// none; `errors` is what the plan will be off by, to be written into its header.
+/// Writes and returns the plan through these knots, which are in the order of their times, the first at t = 0. `machine` is the identifier of the
+/// machine, or 0; `errors` are the plan's errors, written into its header.
 ///
 /// # Errors
-/// Knots that are not finite, out of order or out of the stroke, or 65,536 of them and more; a polynomial between two of them that leaves the stroke; a buffer shorter than [`image_len`].
+/// Knots that are not finite, out of order or out of the stroke, or more than 65,535 of them; a polynomial between two knots that leaves the stroke;
+/// a buffer shorter than [`image_len`].
 pub fn encode<'b>(
     knots: &[Knot],
     domain: Domain,
@@ -99,7 +101,7 @@ pub fn encode<'b>(
     if !lasts || !(2..=MOST_ROWS).contains(&knots.len()) {
         return Err(PlanError::Order(0));
     }
-    // So that the last time has 31 bits.
+    // The last time must have 31 bits.
     let time = (30 - exponent(last)).clamp(0, TIME_BITS.cast_signed());
     let mut units = Units {
         time: time.cast_unsigned(),
@@ -119,7 +121,7 @@ pub fn encode<'b>(
         let faster = exponent(faster.max(math::abs(to.omega)));
         units.speed = units.speed.max(faster - 29);
     }
-    // What rounding a speed leaves is in the other coefficients: of a long row at constant speed nothing else.
+    // The other coefficients take the rounding of the speed: in a long row at constant speed they have nothing else.
     for (k, pair) in pairs(knots, domain, units) {
         let (_, exact) = from_rounded(k, pair?, units)?;
         let [_, raised] = exact.sums();
@@ -182,7 +184,7 @@ pub fn encode<'b>(
     Ok(image)
 }
 
-/// Two knots after each other, with the number of the first.
+/// Pairs of consecutive knots, with the index of the first.
 fn pairs(
     knots: &[Knot],
     domain: Domain,
@@ -212,7 +214,7 @@ fn count(k: u32, knot: &Knot, domain: Domain, units: Units) -> Result<Count, Pla
         .all(|x| x.is_finite());
     let limit = match domain {
         Domain::Turn => (-8_388_608.0 * RANGE..8_388_608.0 * RANGE).contains(&position),
-        // A last digit beyond an end is none.
+        // A last digit beyond an end is within it.
         Domain::Stroke { .. } => (-1.0..=RANGE + 1.0).contains(&position),
     };
     let start = math::rint(t * power_of_two(units.time.cast_signed()));
@@ -234,7 +236,7 @@ fn count(k: u32, knot: &Knot, domain: Domain, units: Units) -> Result<Count, Pla
     })
 }
 
-/// Length of the row, and of its window (s).
+/// Lengths of the row and of its window (s).
 fn window(k: u32, [from, to]: [Count; 2], units: Units) -> Result<(f64, f64), PlanError> {
     let length = to
         .start
@@ -246,7 +248,7 @@ fn window(k: u32, [from, to]: [Count; 2], units: Units) -> Result<(f64, f64), Pl
     Ok((seconds, power_of_two(window.exponent)))
 }
 
-/// The polynomial from one knot to the next, that begins with this speed and half of an acceleration.
+/// The polynomial between two knots that starts with this speed and half acceleration.
 fn segment([from, to]: [Count; 2], length: f64, window: f64, speed: f64, half: f64) -> Segment {
     let way = (to.position - from.position) as f64 - length * (speed + length * half);
     let gained = length * (to.omega - speed - 2.0 * length * half);
@@ -268,7 +270,7 @@ fn segment([from, to]: [Count; 2], length: f64, window: f64, speed: f64, half: f
 }
 
 impl Segment {
-    /// What the sums of the speed, over the window, and of the acceleration are at most, also within.
+    /// Upper bounds of the sums of the speed, over the window, and of the acceleration, including partial sums.
     fn sums(&self) -> [f64; 2] {
         let [a, b, c, d] = self.coefficients.map(math::abs);
         [
@@ -279,12 +281,12 @@ impl Segment {
 
     /// The greatest magnitudes of speed and acceleration up to this share of the window (s).
     ///
-    /// The acceleration is greatest at an end or where its derivative 6·(b + 4c·u + 10d·u²) is 0; between those places it goes one way, and the speed is greatest where
-    /// it passes 0, or at an end.
+    /// The acceleration is greatest at an end or where its derivative 6·(b + 4c·u + 10d·u²) is 0. Between those places it is monotonic, and the speed
+    /// is greatest at its zero, or at an end.
     fn most(&self, end: f64, window: f64) -> [f64; 2] {
         let [_, b, c, d] = self.coefficients;
         let root = math::sqrt((4.0 * c * c - 10.0 * b * d).max(0.0));
-        // Without cancellation; a root that is none becomes an end.
+        // Without cancellation; a missing root becomes an end.
         let sum = -2.0 * c - if c < 0.0 { -root } else { root };
         let [one, other] = [sum / (10.0 * d), b / sum].map(|u| u.max(0.0).min(end));
         let places = [0.0, one.min(other), one.max(other), end];
@@ -327,7 +329,7 @@ impl Segment {
     }
 }
 
-/// The speed of a row in whole numbers, and the polynomial that begins with it.
+/// The speed of a row as an integer, and the polynomial that starts with it.
 fn from_rounded(k: u32, pair: [Count; 2], units: Units) -> Result<(i32, Segment), PlanError> {
     let [from, _] = pair;
     let (length, window) = window(k, pair, units)?;
@@ -340,12 +342,12 @@ fn from_rounded(k: u32, pair: [Count; 2], units: Units) -> Result<(i32, Segment)
     ))
 }
 
-/// A row in whole numbers: what rounding the first of them leaves goes into those behind.
+/// A row in integers: each rounding is compensated by the coefficients after it.
 fn quantised(k: u32, pair: [Count; 2], units: Units) -> Result<Row, PlanError> {
     let [from, _] = pair;
     let (length, window) = window(k, pair, units)?;
     let (speed, exact) = from_rounded(k, pair, units)?;
-    // As fine as the greatest of its sums allows.
+    // As fine as its greatest sum allows.
     let [_, raised] = exact.sums();
     let finer = (29 + units.acceleration - exponent(raised)).clamp(0, 31);
     let unit = power_of_two(units.acceleration - finer);
@@ -379,7 +381,7 @@ fn rounded(k: u32, x: f64) -> Result<i32, PlanError> {
     }
 }
 
-/// ⌊log₂ x⌋ of a normal number; less than any other of 0.
+/// ⌊log₂ x⌋ of a normal number; for 0 less than any other.
 fn exponent(x: f64) -> i32 {
     ((x.to_bits() >> 52) as i32 & 0x7ff) - 1023
 }

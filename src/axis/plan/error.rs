@@ -1,4 +1,4 @@
-//! What can be wrong with a plan.
+//! Errors of a plan.
 
 use core::fmt;
 
@@ -6,28 +6,28 @@ use super::super::AxisError;
 use crate::number::error::{Curable, error};
 use crate::tick::ImageError;
 
-/// Why a plan is refused, or not written. Rows are counted from 0.
+/// Why a plan is refused, or not written. Rows count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum PlanError {
-    /// Length, version, CRC, a header field or the machine, as of a table image.
+    /// Length, version, CRC, a header field or the machine, as for a table image.
     Image(ImageError),
     /// The first word is not "JRPL".
     NotAPlan(u32),
-    /// Made for another range of the drive link than the model's.
+    /// Made for another range of the drive link than the model.
     Range,
-    /// The row does not begin after the one before, or not at 0 if it is the first.
+    /// The row does not begin after the one before, or, as the first, not at 0.
     Order(u32),
-    /// A number of the row is not finite, or does not fit.
+    /// A number of the row is not finite, or out of range.
     Number(u32),
-    /// The row does not end with the position and speed with which the next one begins.
+    /// The row does not end with the position and speed of the next row's start.
     Gap(u32),
     /// The row leaves the stroke between its ends.
     Stroke(u32),
-    /// The end is not where the start is, with its speed: it cannot be repeated.
+    /// The end has another position or speed than the start: the plan cannot be repeated.
     Open,
-    /// A figure beside the plan.
+    /// A figure outside the plan.
     Axis(AxisError),
 }
 

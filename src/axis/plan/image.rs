@@ -1,4 +1,4 @@
-//! The image of a plan: its header, and what is checked before it is followed.
+//! The image of a plan: its header, and the checks before use.
 
 use super::inside::stays_inside;
 use super::row::{Row, TIME_BITS, Units, Window, Words};
@@ -12,7 +12,7 @@ pub const VERSION: u16 = 1;
 pub const HEADER_WORDS: usize = 16;
 /// "JRPL" in the file's first four bytes.
 pub(super) const MAGIC: u32 = u32::from_le_bytes(*b"JRPL");
-/// Range codes, as of a table image.
+/// Range codes, as in a table image.
 pub(super) const TURN: u8 = 0;
 pub(super) const STROKE: u8 = 1;
 /// Most rows: 2 MB.
@@ -26,7 +26,7 @@ pub(super) const PLAN: Beginning = Beginning {
     header: HEADER_WORDS,
 };
 
-/// The header, read.
+/// The header, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Header {
     pub(super) domain: Domain<f32>,
@@ -37,13 +37,13 @@ pub(super) struct Header {
     pub(super) errors: Errors,
     /// The shortest ramp of the rate (s).
     pub(super) ramp: f32,
-    /// When it ends.
+    /// Time of the end.
     pub(super) last: u32,
     /// The first step of a bisection of the rows.
     pub(super) half: usize,
 }
 
-/// Header and rows of an image that was checked.
+/// Header and rows of an image, checked.
 pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
     let inside = covered(words, &PLAN).map_err(|error| match error {
         ImageError::NotAnImage(word) => PlanError::NotAPlan(word),
@@ -134,7 +134,7 @@ pub(super) fn checked(words: &[u32]) -> Result<(Header, &[Words]), PlanError> {
     Ok((header, rows))
 }
 
-/// That every row follows the one before, fits, ends where the next begins and stays within the stroke; when the last one begins.
+/// Checks that every row follows the one before, fits, ends where the next begins and stays within the stroke. Returns the start of the last row.
 pub(super) fn check_rows(
     rows: &[Words],
     units: Units,
@@ -161,7 +161,7 @@ pub(super) fn check_rows(
         let end = u64::from(next.start) << ((TIME_BITS - units.time) & 63);
         let reached = row.at(end, length, units);
         let [to_speed, to_position, moved] = window.shifts(&row, units);
-        // Coefficients are rounded to their unit, and products down; speeds as well.
+        // Coefficients and speeds are rounded to their unit, and products down.
         let slack = |shift: i32| 1_u64 << shift.clamp(0, 40);
         let position = reached.position.wrapping_sub(next.position).unsigned_abs();
         let speed = reached.speed.wrapping_sub(next.speed).unsigned_abs();
@@ -178,7 +178,7 @@ pub(super) fn check_rows(
     Ok(last)
 }
 
-/// Whether no sum of a row leaves its bits: those of coefficients and speeds 32, those of positions 56.
+/// Whether the sums of a row fit: for coefficients and speeds into 32 bits, for positions into 56.
 pub(super) fn fits(row: &Row, [to_speed, to_position, moved]: [i32; 3]) -> bool {
     let sum = |factors: [u64; 4]| -> u64 {
         let each = row.coefficients.iter().zip(factors);

@@ -1,24 +1,25 @@
-//! Whether a row stays within the stroke between its ends, too: by its Bernstein coefficients, in whole numbers.
+//! Whether a row stays within the stroke, also between its ends: by its Bernstein coefficients, in integers.
 
 use super::row::{Row, Units, Window, shifted};
 
-/// Bits of a position behind 2⁻³² of the range. With those of a row, 57, they are 63.
+/// Bits of a position below 2⁻³² of the range. With the 57 of a row they are 63.
 const FINER: i32 = 6;
 
-/// Halvings of the window: a part is then as long as the least time that a tick tells apart.
+/// Halvings of the window, down to the smallest time step of a tick.
 const DEEPEST: u32 = 32;
 
-/// Coefficients of Bernstein's polynomials of the fifth degree: the curve lies between the least and the greatest of them.
+/// Coefficients of Bernstein polynomials of degree five: the curve lies between the least and the greatest of them.
 type Hull = [i64; 6];
 
-/// Whether the position of the row, so many units of time long, is never more than `slack` below 0 or above the whole range.
+/// Whether the position of a row of `length` units of time is nowhere more than `slack` below 0 or above the whole range.
 ///
-/// The hull of the window is halved where it reaches too far, until the part lies inside, or begins outside. A part that begins behind the row's end does not matter.
+/// Where the hull of the window reaches too far, it is halved until the part lies inside, or begins outside. A part that begins after the row's end
+/// does not count.
 pub(super) fn stays_inside(row: &Row, length: u32, units: Units, slack: u64) -> bool {
     let whole = hull(row, Window::of(length, units).shifts(row, units));
     let slack = slack.min(1 << 32).cast_signed() << FINER;
     let inside = |position: i64| (-slack..=(1 << (32 + FINER)) + slack).contains(&position);
-    // The row ends at this share of the window, in units of 2⁻³².
+    // The end of the row as a share of the window, in units of 2⁻³².
     let end = u64::from(length) << length.leading_zeros();
     // The part from k/2ⁿ to (k + 1)/2ⁿ.
     let (mut k, mut n) = (0_u64, 0);
@@ -29,7 +30,7 @@ pub(super) fn stays_inside(row: &Row, length: u32, units: Units, slack: u64) -> 
             return false;
         }
         if n == DEEPEST || part.into_iter().all(inside) {
-            // On to the next part, as long as those before it allow.
+            // The next part, as large as the index allows.
             k += 1;
             let up = k.trailing_zeros().min(n);
             (k, n) = (k >> up, n - up);
@@ -43,7 +44,7 @@ pub(super) fn stays_inside(row: &Row, length: u32, units: Units, slack: u64) -> 
     true
 }
 
-/// Of the whole window.
+/// The hull of the whole window.
 fn hull(row: &Row, [_, to_position, moved]: [i32; 3]) -> Hull {
     let start = row.position << FINER;
     let even = shifted(row.speed.into(), moved + 32 + FINER);
@@ -63,13 +64,13 @@ fn hull(row: &Row, [_, to_position, moved]: [i32; 3]) -> Hull {
     ]
 }
 
-/// Of the part from k/2ⁿ to (k + 1)/2ⁿ.
+/// The hull of the part from k/2ⁿ to (k + 1)/2ⁿ.
 fn part(whole: Hull, k: u64, n: u32) -> Hull {
     let halves = (0..n).rev().map(|bit| k >> bit & 1 == 1);
     halves.fold(whole, half)
 }
 
-/// Of the left or the right half, after de Casteljau.
+/// The hull of the left or right half (de Casteljau).
 fn half([a, b, c, d, e, f]: Hull, right: bool) -> Hull {
     let middle = |[a, b]: [i64; 2]| (a + b) >> 1;
     let [ab, bc, cd, de, ef] = [[a, b], [b, c], [c, d], [d, e], [e, f]].map(middle);

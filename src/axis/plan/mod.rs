@@ -1,7 +1,7 @@
-//! A motion that was planned on a host, as a table over the time that a tick follows.
+//! A motion planned on a host: a table over time, followed by a tick.
 //!
-//! [`Plan`] reads an image that `jred fastest --plan` or `jred retime --plan` wrote; [`encode()`] writes one. The layout is documented word by
-//! word in `docs/table-image.md`.
+//! [`Plan`] reads an image written by `jred fastest --plan` or `jred retime --plan`; [`encode()`] writes one. `docs/table-image.md` documents the
+//! layout word by word.
 
 mod encode;
 mod error;
@@ -22,31 +22,31 @@ use image::Header;
 pub(super) use row::shifted;
 use row::{Row, State, TIME_BITS, Words};
 
-/// Units that a rounded position or speed may be off by.
+/// Tolerance of a rounded position or speed, in units.
 const NEAR: u64 = 16;
 
 /// 2⁻³²
 const UNIT: f32 = 1.0 / 4_294_967_296.0;
 
-/// A planned motion, in place in its image: position, speed and acceleration at any time of it.
+/// A planned motion, in place in its image: position, speed and acceleration at any time.
 ///
-/// Between two rows the position is the polynomial of the fifth degree through positions, speeds and accelerations of both; speed and acceleration are its
-/// derivatives, and where the motion's acceleration jumps, a row begins with the acceleration behind the jump. So the three always belong together:
+/// Between two rows the position is the polynomial of degree five through their positions, speeds and accelerations; speed and acceleration are its
+/// derivatives. Where the motion's acceleration jumps, a row begins with the acceleration after the jump. So the three are always consistent:
 ///
 /// ```text
 /// φ(u) = φ₀ + ω₀·H·u + H²·u²·(c₂ + c₃·u + c₄·u² + c₅·u³),   u = (t − t₀)/H
 /// ```
 ///
-/// A tick finds its row by bisection, and computes with integers alone, whatever the numbers of the model are: the same bits on every processor.
-/// The image is checked once; then no read can fail.
+/// A tick finds its row by bisection, and computes with integers only, for every number type of the model: the same bits on every processor. The
+/// image is checked once; then no read can fail.
 ///
 /// On a stroke a row that leaves it between its ends is refused, too.
 ///
-/// Accuracy: beside the motion that it was made of, what its header says ([`errors`](Self::errors)). The arithmetic is off by 2⁻²⁶ of the greatest sum of the
-/// polynomials' terms in the plan at most, of a position in its row; positions of rows are rounded to 2⁻³² of the range, and the time in a row to 2⁻³¹ of H (tests
-/// `a_plan_follows_its_polynomials`, `a_long_row_is_exact`). Beside the row's own words that is −10 … 0 units of the coefficients in the position, −8 … 0 in the speed and −7 … 0 units in the acceleration, as Gappa
-/// proves (`tests/proofs/plan.g`, test `a_plan_keeps_the_proven_bounds`), and a unit of the positions or speeds themselves for each shift. The factors to machine units have single
-/// precision.
+/// Accuracy: the error against the original motion is in the header ([`errors`](Self::errors)). The arithmetic adds at most 2⁻²⁶ of the greatest sum
+/// of the polynomials' terms in the plan, for a position in its row. Positions of rows are rounded to 2⁻³² of the range, and the time in a row to
+/// 2⁻³¹ of H (tests `a_plan_follows_its_polynomials`, `a_long_row_is_exact`). Against the row's own words that is −10 … 0 units of the coefficients
+/// in the position, −8 … 0 in the speed and −7 … 0 in the acceleration, as Gappa proves (`tests/proofs/plan.g`, test
+/// `a_plan_keeps_the_proven_bounds`), and one unit of position or speed for each shift. The factors to machine units have single precision.
 ///
 /// ```
 /// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
@@ -83,13 +83,13 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 pub struct Plan<'a, N> {
     rows: &'a [Words],
     header: Header,
-    /// Of speeds and accelerations to machine units.
+    /// Factors from speeds and accelerations to machine units.
     speed: Factor,
     acceleration: Factor,
     number: PhantomData<N>,
 }
 
-/// What a plan is off by at most, beside the motion that it was made of.
+/// Greatest errors of a plan against the motion that it was made from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Errors {
@@ -101,13 +101,13 @@ pub struct Errors {
     pub acceleration: f32,
 }
 
-/// Where a plan is, in machine units, and whole turns since φ = 0.
+/// The state of a plan at a time, in machine units, and whole turns since φ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Place<N: Number> {
     /// Position, speed and acceleration.
     pub motion: Motion<N>,
-    /// Whole turns; 0 on a stroke. Counted within the plan: the next repeat of a plan that goes on by whole turns begins with those of its start again.
+    /// Whole turns; 0 on a stroke. Counted within the plan: each repeat of a plan that advances by whole turns starts with the same turns again.
     pub turns: i32,
 }
 
@@ -115,7 +115,7 @@ impl<'a, N: Number> Plan<'a, N> {
     /// Checks a plan given as words, for a model with its range and machine units.
     ///
     /// # Errors
-    /// What [`PlanError`] lists; in fixed point a speed or an acceleration beyond its base, too.
+    /// As [`PlanError`] lists; in fixed point also a speed or an acceleration beyond its base.
     pub fn new(words: &'a [u32], model: &impl MachineUnits<Number = N>) -> Result<Self, PlanError> {
         let (header, rows) = image::checked(words)?;
         let (domain, scale) = (model.domain().to::<f32>(), model.scale());
@@ -160,7 +160,7 @@ impl<'a, N: Number> Plan<'a, N> {
     /// Checks a plan given as bytes, such as `include_image!` or a flash region.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the bytes must lie on a 4-byte boundary ([`include_image!`](crate::include_image) sees to it).
+    /// As [`new`](Self::new); also bytes that are not on a 4-byte boundary ([`include_image!`](crate::include_image) aligns them).
     pub fn from_bytes(
         bytes: &'a [u8],
         model: &impl MachineUnits<Number = N>,
@@ -172,7 +172,7 @@ impl<'a, N: Number> Plan<'a, N> {
         )
     }
 
-    /// The same, if it is of the machine with this identifier, which table images have, too.
+    /// The same, if it is for the machine with this identifier, which table images have, too.
     ///
     /// # Errors
     /// [`ImageError::Machine`](crate::ImageError::Machine).
@@ -187,39 +187,39 @@ impl<'a, N: Number> Plan<'a, N> {
         }
     }
 
-    /// The shortest ramp of the rate (s), from 0 to 100 %, with which the plan keeps the torque of its drive at every place and rate; 0 if its writer did not know the
-    /// drive. Infinite: it uses all of that torque, and no change of the rate keeps it.
+    /// The shortest ramp of the rate (s), from 0 to 100 %, with which the drive has the plan's torque at every place and rate; 0 if the drive was
+    /// unknown. Infinite: the plan uses all of the torque, and every change of the rate exceeds it.
     #[must_use]
     pub const fn least_ramp(&self) -> f32 {
         self.header.ramp
     }
 
-    /// The identifier of the machine; 0 if it has none.
+    /// The identifier of the machine, or 0.
     #[must_use]
     pub const fn machine(&self) -> u32 {
         self.header.machine
     }
 
-    /// What it is off by, beside the motion that it was made of.
+    /// Errors against the motion that it was made from.
     #[must_use]
     pub const fn errors(&self) -> Errors {
         self.header.errors
     }
 
-    /// Its greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²), as magnitudes: those of its polynomials, to single precision (test
+    /// Greatest magnitudes of its speed (rad/s, or m/s) and acceleration (rad/s², or m/s²): those of its polynomials, to single precision (test
     /// `the_greatest_rates_are_those_of_the_polynomials`).
     #[must_use]
     pub const fn most(&self) -> [f32; 2] {
         self.header.most
     }
 
-    /// Rows, with that of its end.
+    /// Number of rows, including the end.
     #[must_use]
     pub const fn rows(&self) -> usize {
         self.rows.len()
     }
 
-    /// How long it takes (s).
+    /// Duration (s).
     #[must_use]
     pub fn duration(&self) -> f32 {
         self.end() as f32 * (UNIT / 256.0)
@@ -232,7 +232,7 @@ impl<'a, N: Number> Plan<'a, N> {
         (self.header.last as u64) << ((TIME_BITS - self.header.units.time) & 63)
     }
 
-    /// Whether the end is the start, or whole turns from it, with the same speed: it can be repeated.
+    /// Whether the end has the position of the start, or whole turns from it, and the same speed, so that the plan can be repeated.
     pub(super) fn closes(&self) -> bool {
         let [first, .., last] = self.rows else {
             return false;
@@ -248,10 +248,10 @@ impl<'a, N: Number> Plan<'a, N> {
         apart.unsigned_abs() <= NEAR && u64::from(faster.unsigned_abs()) <= NEAR
     }
 
-    /// Position, speed and acceleration at a time after the start (units of 2⁻⁴⁰ s): behind the end those of the end, with its acceleration 0. Flagged, if in fixed point a
-    /// number was limited.
+    /// Position, speed and acceleration at a time after the start (units of 2⁻⁴⁰ s); after the end, position and speed of the end, with
+    /// acceleration 0. Flagged if in fixed point a number was limited.
     ///
-    /// For a time of one's own, such as that of a line shaft; [`Follower`](super::Follower) counts ticks.
+    /// For a program's own time, such as the position of a line shaft; [`Follower`](super::Follower) counts ticks.
     #[inline]
     #[must_use]
     pub fn at(&self, time: u64) -> Outcome<Place<N>> {
@@ -270,7 +270,7 @@ impl<'a, N: Number> Plan<'a, N> {
             let [start, ..] = *row;
             start <= whole
         };
-        // Bisection: as many steps as the number of rows has bits.
+        // Bisection, one step for each bit of the number of rows.
         let mut k = 0;
         let mut step = self.header.half;
         while step > 0 {
@@ -297,19 +297,19 @@ impl<'a, N: Number> Plan<'a, N> {
         unit(self.header.domain, self.header.units.speed)
     }
 
-    /// From accelerations in units of the plan to machine units.
+    /// Factor from accelerations in units of the plan to machine units.
     #[inline]
     pub(super) const fn of_acceleration(&self) -> &Factor {
         &self.acceleration
     }
 
-    /// In machine units, with this acceleration.
+    /// A state in machine units, with this acceleration.
     #[inline]
     pub(super) fn place(&self, state: State, alpha: Outcome<N>) -> Outcome<Place<N>> {
         let omega = N::of_count(state.speed, &self.speed);
         let (phase, turns) = match self.header.domain {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
-            // Every row has been shown to stay within the stroke, to some units.
+            // Every row has been checked to stay within the stroke, to some units.
             Domain::Stroke { .. } if state.position < 0 => (0, 0),
             Domain::Stroke { .. } => (u32::try_from(state.position).unwrap_or(u32::MAX), 0),
         };

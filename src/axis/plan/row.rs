@@ -2,13 +2,12 @@
 
 use crate::number::high;
 
-/// Words of a row.
 pub(super) const ROW_WORDS: usize = 8;
 
 /// A row as it lies in the image.
 pub(super) type Words = [u32; ROW_WORDS];
 
-/// Bits behind the point of a time: units of 2⁻⁴⁰ s.
+/// Fraction bits of a time: units of 2⁻⁴⁰ s.
 pub(super) const TIME_BITS: u32 = 40;
 
 /// Units of a plan, as powers of two.
@@ -23,7 +22,7 @@ pub(super) struct Units {
     pub(super) acceleration: i32,
 }
 
-/// Where a plan is at a time, in its units.
+/// The state of a plan at a time, in its units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct State {
     /// 2⁻³² of the range, and whole turns.
@@ -42,22 +41,22 @@ pub(in crate::axis) const fn shifted(x: i64, n: i32) -> i64 {
     }
 }
 
-/// x·u/2³² of an even u, up to two units too small; of an odd one as of the even one before it.
+/// x·u/2³² for an even u, up to two units too small; an odd u counts as u − 1.
 #[inline(always)]
 fn times(x: i32, u: u32) -> i32 {
     high(x, (u >> 1).cast_signed()) << 1
 }
 
-/// A row, read.
+/// A row, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
-    /// When it begins, in units of the plan.
+    /// Start, in units of the plan.
     pub(super) start: u32,
     /// Position there, in units of 2⁻³² of the range.
     pub(super) position: i64,
     /// Speed there.
     pub(super) speed: i32,
-    /// The unit of the coefficients is 2⁻ᵉ of that of accelerations.
+    /// Coefficients have 2⁻ᵉ of the unit of accelerations.
     pub(super) finer: u32,
     /// Coefficients of u², u³, u⁴ and u⁵.
     pub(super) coefficients: [i32; 4],
@@ -96,7 +95,7 @@ impl Row {
         ]
     }
 
-    /// The state at a time (2⁻⁴⁰ s) within the row, which is so many units long.
+    /// The state at a time (2⁻⁴⁰ s) within the row, which is `length` units long.
     #[inline(always)]
     pub(super) fn at(&self, time: u64, length: u32, units: Units) -> State {
         let window = Window::of(length, units);
@@ -108,7 +107,7 @@ impl Row {
     }
 }
 
-/// A power of two of seconds that is longer than a row, by less than twice: the time in the row is a fraction of it, found by a shift.
+/// A power of two of seconds, longer than a row, but less than twice as long: the time in the row is a fraction of it, found by a shift.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Window {
     /// Its length is 2ᵐ s.
@@ -123,7 +122,7 @@ impl Window {
         }
     }
 
-    /// Shifts that bring coefficients of a row to speeds and to positions, and its speed to a position.
+    /// Shifts from a row's coefficients to speeds and to positions, and from its speed to a position.
     #[inline(always)]
     pub(super) const fn shifts(self, row: &Row, units: Units) -> [i32; 3] {
         let Units {
@@ -143,7 +142,7 @@ impl Window {
     #[inline(always)]
     fn state(self, row: &Row, u: u32, units: Units) -> State {
         let [c2, c3, c4, c5] = row.coefficients;
-        // The check of the row has shown that no sum leaves 32 bits.
+        // The check of the row ensures that no sum exceeds 32 bits.
         let sum = |[a, b, c, d]: [i32; 4]| {
             let inner = c3.wrapping_mul(b).wrapping_add(times(
                 c4.wrapping_mul(c)

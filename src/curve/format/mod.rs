@@ -1,4 +1,4 @@
-//! How a table's curves lie in memory, and how they are evaluated.
+//! Table formats: memory layout and evaluation of curves.
 //!
 //! The polynomial formats have in each cell
 //!
@@ -6,18 +6,17 @@
 //! f(u) = p0 + u·(p1 + u·(p2 + u·p3)),   u in [0, 1) within the cell
 //! ```
 //!
-//! whose value and slope come from the same coefficients. All curves of a cell are stored side by side: one index, one
-//! contiguous read.
+//! whose value and slope use the same coefficients. All curves of a cell are stored side by side: one index, one contiguous read.
 //!
-//! | format | words a curve and cell | continuous | for |
+//! | format | words per curve and cell | continuous | for |
 //! |---|---|---|---|
 //! | [`Spline`] | 1 | value, slope, curvature | the smallest table |
-//! | [`Spline16`] | ½ | as [`Spline`] | less than half of that, to about 1e-4 |
-//! | [`Cubic`] | 4 | as the curve it was made from | the fastest tick |
+//! | [`Spline16`] | ½ | as [`Spline`] | less than half of that, down to an error of about 1e-4 |
+//! | [`Cubic`] | 4 | as the original curve | the fastest tick |
 //! | [`Quadratic`] | 3, rows padded to 4 | value, slope | the fastest tick without a long multiplication |
-//! | [`Rows16`] | 1, and 2 a cell | value, slope, but for the rounding of 16 bits | processors without a long multiplication |
+//! | [`Rows16`] | 1, plus 2 per cell | value, slope, except for 16-bit rounding | processors without a long multiplication |
 //!
-//! [`Harmonic`] holds no cells, but a short Fourier series of each curve; `SliderCrankForm` (feature `micromath`) the lengths and masses of a
+//! Without cells: [`Harmonic`] stores a short Fourier series of each curve, `SliderCrankForm` (feature `micromath`) the lengths and masses of a
 //! slider-crank.
 
 mod harmonic;
@@ -52,10 +51,10 @@ use crate::{Outcome, Phase, Scale};
 /// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;
 
-/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`], and
-/// with feature `micromath` `SliderCrankForm`.
+/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`], and with feature
+/// `micromath` `SliderCrankForm`.
 ///
-/// A program can be generic over it, for any number that the format has:
+/// A program can be generic over it, for any number type of the format:
 ///
 /// ```
 /// # use jred::table::{Format, words_len};
@@ -66,7 +65,7 @@ pub(crate) const CONSTANTS: usize = 11;
 /// let all = [bytes::<Spline<f32>>(64), bytes::<Cubic<Q31>>(64), bytes::<Rows16>(64), bytes::<Harmonic<f32>>(64)];
 /// ```
 ///
-/// Splines have no numbers of 16 bits, harmonics no fixed point, and nobody can add a format:
+/// Splines have no 16-bit numbers, harmonics no fixed point, and other crates cannot add a format:
 ///
 /// ```compile_fail,E0277
 /// # use jred::{Q15, Spline, curves, table::words_len};
@@ -85,42 +84,42 @@ pub(crate) const CONSTANTS: usize = 11;
 /// impl Format for Mine {}
 /// ```
 pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
-    /// Numbers that a tick takes and gives, as [`SpeedOf`], [`AccelerationOf`] and [`TorqueOf`] this format.
+    /// Numbers of a tick, as [`SpeedOf`], [`AccelerationOf`] and [`TorqueOf`] this format.
     type Number: Number;
     /// A word of the table.
     type Word: bytemuck::Pod + Default + core::fmt::Debug + PartialEq;
     /// Constants of a table, in addition to its rows.
     type Constants: Copy + core::fmt::Debug + Default + PartialEq;
-    /// What a tick needs in addition to the table: made once, by [`prepare`](Self::prepare).
+    /// Values that a tick needs in addition to the table, computed once by [`prepare`](Self::prepare).
     #[doc(hidden)]
     type Tick<'a>: Copy + core::fmt::Debug;
 
-    /// Name as the command line writes it.
+    /// Name in the command line.
     const NAME: &'static str;
-    /// Codes of number type and format in the image's header; `None`: not stored in images.
+    /// Codes of number type and format in the image's header; `None` if images do not store it.
     #[doc(hidden)]
     const CODES: Option<[u8; 2]>;
-    /// Whether its set of curves has terms of harmonics in its upper half.
+    /// Whether the upper half of its set of curves has terms of harmonics.
     #[doc(hidden)]
     const TERMS: bool = false;
-    /// How many words a table has.
+    /// Number of words of a table.
     #[doc(hidden)]
     const SIZE: Size;
-    /// Fewest and most cells.
+    /// Least and greatest number of cells.
     #[doc(hidden)]
     const CELLS: [u32; 2] = [MIN_CELLS as u32, MAX_CELLS];
-    /// Whether the machine units must suit the number of cells ([`Scale::for_cells`]).
+    /// Whether the machine units depend on the number of cells ([`Scale::for_cells`]).
     const WHOLE_FACTOR: bool;
-    /// Rounding of a tick in addition to that of the curves, in units of the torque base, if it counts.
+    /// Rounding of a tick in addition to the curves' rounding, in units of the torque base, if it is significant.
     #[doc(hidden)]
     const TICK_ROUNDING: f64 = 0.0;
 
     /// Whether a table of this format can have this set of [`curves`](crate::curves).
     fn accepts(set: Set) -> bool;
-    /// Whether the words are sound: checked once, when the table is built.
+    /// Checks the words, once, when the table is created.
     #[doc(hidden)]
     fn check(table: &Table<'_, Self>) -> Result<(), TableError>;
-    /// All curves in machine units, the slope by rad (or m).
+    /// All curves in machine units, the slope per rad (or m).
     #[doc(hidden)]
     fn read(table: &Table<'_, Self>, phase: Phase) -> CurveValues;
     /// All curves in SI units.
@@ -136,7 +135,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
             coulomb: read.coulomb * torque,
         }
     }
-    /// The curves of one cell as polynomials in SI units; `None` of a format without cells.
+    /// The curves of one cell as polynomials in SI units; `None` for a format without cells.
     #[doc(hidden)]
     fn cell_curves(
         _: &Table<'_, Self>,
@@ -148,7 +147,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// 1/J in machine units.
     #[doc(hidden)]
     fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64>;
-    /// What of 1/J is not that of J, of a table that has it.
+    /// Error of 1/J against J, for a table that has 1/J.
     #[doc(hidden)]
     fn reciprocal_error(table: &Table<'_, Self>) -> f32;
 
@@ -163,30 +162,30 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     #[doc(hidden)]
     fn base(curve: u8, set: Set) -> &'static str;
 
-    /// The constants as words of the image's header, and back.
+    /// The constants as words of the image's header, and the inverse.
     #[doc(hidden)]
     fn header(constants: &Self::Constants, set: Set) -> [u32; CONSTANTS];
     #[doc(hidden)]
     fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants;
-    /// The set of a table, of the lower bits that the header has of every format.
+    /// The set of a table, from the lower bits, which the header of every format has.
     #[doc(hidden)]
     fn set(_: &[u32; CONSTANTS], set: Set) -> Set {
         set
     }
 
-    /// What a table uses of the number range.
+    /// Used share of the number range.
     ///
     /// # Errors
-    /// The first cell in which something does not fit.
+    /// The first cell in which a quantity does not fit.
     #[doc(hidden)]
     fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError>;
-    /// Checks that a table can be ticked, and makes what a tick needs in addition to it.
+    /// Checks that a table can be ticked, and prepares the tick.
     #[doc(hidden)]
     fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
-    /// The same for the same table, whose words lie in another place or are borrowed anew; its set is `set`.
+    /// The same for the same table, whose words were moved or borrowed again; its set is `set`.
     #[doc(hidden)]
     fn moved<'a>(tick: &Self::Tick<'_>, table: &Table<'a, Self>, set: Set) -> Self::Tick<'a>;
-    /// Inverse dynamics, of a table whose set is `set`: a model knows it when it is compiled.
+    /// Inverse dynamics for a table whose set is `set`, which a model knows at compile time.
     #[doc(hidden)]
     fn torque(
         table: &Table<'_, Self>,
@@ -206,7 +205,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         motion: [Self::Number; 2],
         sliding: Sliding<Self::Number>,
     ) -> [Self::Number; 5];
-    /// Forward dynamics for several torques, as [`torque`](Self::torque).
+    /// Forward dynamics for two torques, as [`torque`](Self::torque).
     #[doc(hidden)]
     fn accelerations(
         table: &Table<'_, Self>,
@@ -219,16 +218,17 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     ) -> [Outcome<Self::Number>; 2];
 }
 
-/// What a model of this format takes for a speed: `f32` of `f32`, [`Speed<Q31>`](crate::Speed) of `Q31`.
+/// The speed type of this format's models: `f32` for `f32`, [`Speed<Q31>`](crate::Speed) for `Q31`.
 pub type SpeedOf<F> = <<F as Format>::Number as Number>::Speed;
 
-/// What a model of this format takes for an acceleration, and gives: `f32` of `f32`, [`Acceleration<Q31>`](crate::Acceleration) of `Q31`.
+/// The acceleration type of this format's models: `f32` for `f32`, [`Acceleration<Q31>`](crate::Acceleration) for `Q31`.
 pub type AccelerationOf<F> = <<F as Format>::Number as Number>::Acceleration;
 
-/// What a model of this format takes for a torque, and gives: `f32` of `f32`, [`Torque<Q31>`](crate::Torque) of `Q31`.
+/// The torque type of this format's models: `f32` for `f32`, [`Torque<Q31>`](crate::Torque) for `Q31`.
 pub type TorqueOf<F> = <<F as Format>::Number as Number>::Torque;
 
-/// A torque on the motor's shaft, behind a [`Transmission`](crate::axis::Transmission) of such a model: `f32` of `f32`, [`MotorTorque<Q31>`](crate::MotorTorque) of `Q31`.
+/// The type of torques on the motor's shaft, after a [`Transmission`](crate::axis::Transmission) of such a model: `f32` for `f32`,
+/// [`MotorTorque<Q31>`](crate::MotorTorque) for `Q31`.
 pub type MotorTorqueOf<F> = <<F as Format>::Number as Number>::MotorTorque;
 
 /// The bases of torque, speed and inertia in double precision.

@@ -1,4 +1,4 @@
-//! How many words a table has, and its rows.
+//! Number of words of a table, and its rows.
 
 use super::harmonic::{means, row};
 use crate::curve::curves::{Set, width};
@@ -37,7 +37,7 @@ pub struct Row {
     pub(super) halves: usize,
     /// Rows are padded to a multiple of four words.
     pub(super) padded: bool,
-    /// Rows beyond the cells.
+    /// Rows in addition to the cells.
     pub(super) more: usize,
 }
 
@@ -46,13 +46,13 @@ impl Row {
     #[inline]
     pub(crate) const fn pitch(&self, set: Set) -> usize {
         let words = self.head + (width(set) * self.halves).div_ceil(2);
-        // Without a division, which would have to fear a zero.
+        // By a mask: a division would need a check for zero.
         if self.padded { (words + 3) & !3 } else { words }
     }
 }
 
-/// The rows of a table, by their length: those of the length that is in use hold all words. So the compiler knows the length of a row, and a read
-/// from it needs no check; the number of rows is at hand without a division.
+/// The rows of a table, by their length: those of the length in use contain all words. So the compiler knows the length of a row, and a read from it
+/// needs no check; the number of rows is known without a division.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<
     'a,
@@ -70,17 +70,17 @@ pub struct Rows<
     pub(super) e: &'a [[T; E]],
 }
 
-/// Rows of whatever lengths.
+/// Rows of any length.
 pub trait Runs<'a, T>: Copy + core::fmt::Debug {
-    /// Of rows with `pitch` words.
+    /// Rows of `pitch` words.
     fn new(words: &'a [T], pitch: usize) -> Self;
-    /// The same of so many rows, at most 17 bits of them: without a division, for a tick.
+    /// The same for `rows` rows, at most 17 bits: without a division, for a tick.
     fn counted(words: &'a [T], pitch: usize, rows: u32) -> Self;
-    /// How many rows there are.
+    /// Number of rows.
     fn count(&self, pitch: usize) -> usize;
     /// A row.
     fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
-    /// Four rows, from the index-th on.
+    /// Four rows, from row `index` on.
     fn four(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
 }
 
@@ -180,7 +180,7 @@ where
     }
 }
 
-/// So many rows. The compiler sees that the product does not overflow, so that dividing by the same number gives it back.
+/// `rows` rows. The compiler sees that the product does not overflow, so that dividing by the same number inverts it.
 #[inline(always)]
 fn counted<T, const W: usize>(words: &[T], rows: u32) -> &[[T; W]] {
     let words = words.get(..(rows & 0x1_ffff) as usize * W);

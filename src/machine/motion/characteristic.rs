@@ -4,8 +4,8 @@ use super::law::Law;
 use super::sine_constant_cosine as scca;
 use crate::math::Real;
 
-/// The characteristic values of a motion law: a rise h in the time T has at most the speed C_v·h/T, the acceleration
-/// C_a·h/T² and the jerk C_j·h/T³. An inertia J that it moves takes at most the power C_Mdyn·J·h²/T³.
+/// The characteristic values of a motion law: a rise h in the time T has at most the speed C_v·h/T, the acceleration C_a·h/T² and the jerk C_j·h/T³.
+/// Moving an inertia J takes at most the power C_Mdyn·J·h²/T³.
 ///
 /// | law | C_v | C_a | C_j | C_Mdyn |
 /// |---|---|---|---|---|

@@ -7,40 +7,40 @@ use crate::number::error::RangeError;
 
 /// A motion law between two dwells: S(z) with S(0) = 0, S(1) = 1 and zero speed at both ends.
 ///
-/// `R` is the number type that it is evaluated in; [`cast`](Self::cast) makes one of the other.
+/// `R` is the number type of the evaluation; [`cast`](Self::cast) converts between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Law<R = f64> {
-    /// Constant acceleration, constant speed, constant deceleration. The fields are the shares of the time spent
-    /// accelerating and decelerating, in (0, 1] and together at most 1. Largest speed 1/(1 − (a + d)/2).
-    /// The acceleration jumps at [`breaks`](Self::breaks) (its value there is the one after the break).
+    /// Constant acceleration, constant speed, constant deceleration. The fields are the shares of the time for acceleration and deceleration, in (0,
+    /// 1] and together at most 1. Largest speed 1/(1 − (a + d)/2). The acceleration jumps at [`breaks`](Self::breaks), where it has the value after
+    /// the break.
     Trapezoid {
         /// Share of the time spent accelerating.
         accelerate: R,
         /// Share of the time spent decelerating.
         decelerate: R,
     },
-    /// 10z³ − 15z⁴ + 6z⁵: largest speed 1.875, largest acceleration 5.774. No sine: the law for small processors.
+    /// 10z³ − 15z⁴ + 6z⁵: largest speed 1.875, largest acceleration 5.774. Without a sine: the law for small processors.
     #[default]
     Polynomial345,
     /// z − sin(2πz)/2π (inclined sine, Bestehorn): largest speed 2, largest acceleration 2π.
     Cycloidal,
     /// Modified sine: largest speed 4π/(4 + π) = 1.760, largest acceleration 4π²/(4 + π) = 5.528.
     ModifiedSine,
-    /// ½·(1 − cos πz) (simple sine, simple harmonic motion): largest speed π/2, largest acceleration π²/2. The acceleration
-    /// jumps at both ends, so it belongs between reversals, not between dwells.
+    /// ½·(1 − cos πz) (simple sine, simple harmonic motion): largest speed π/2, largest acceleration π²/2. The acceleration jumps at both ends: use
+    /// it between reversals, not between dwells.
     SimpleSine,
     /// 35z⁴ − 84z⁵ + 70z⁶ − 20z⁷: largest speed 2.1875, largest acceleration 84/(5·√5) = 7.513; the jerk is continuous.
     Polynomial4567,
-    /// Modified trapezoid of the acceleration: largest speed 2, largest acceleration 8π/(2 + π) = 4.888, the smallest of
-    /// the laws without a jump of it.
+    /// Modified trapezoid of the acceleration: largest speed 2, largest acceleration 8π/(2 + π) = 4.888, the smallest of all laws without a jump of
+    /// the acceleration.
     ModifiedTrapezoid,
-    /// z − 15/(32π)·sin 2πz − 1/(96π)·sin 6πz (Gutman, first and third harmonic): largest speed 2, largest acceleration
-    /// 2π·√(2/3) = 5.130; it excites with two frequencies only.
+    /// z − 15/(32π)·sin 2πz − 1/(96π)·sin 6πz (Gutman, first and third harmonic): largest speed 2, largest acceleration 2π·√(2/3) = 5.130; it excites
+    /// only two frequencies.
     Gutman,
-    /// Sine, constant and cosine acceleration (SCCA): shares of the time, in both halves together, in which the acceleration goes up
-    /// by a quarter of a sine, is constant, and comes down by a quarter of a cosine; over the rest, around the middle, the speed is
-    /// constant. Each in [0, 1], together 0.01 to 1. Without a sine or without a cosine the acceleration jumps.
+    /// Sine, constant and cosine acceleration (SCCA): shares of the time, both halves together, in which the acceleration rises by a quarter of a
+    /// sine, is constant, and falls by a quarter of a cosine. In the rest, around the middle, the speed is constant. Each in [0, 1], together 0.01
+    /// to 1. Without a sine or without a cosine the acceleration jumps.
     SineConstantCosine {
         /// Share of the sine.
         sine: R,
@@ -86,11 +86,11 @@ impl<R: Real> Law<R> {
         }
     }
 
-    /// Checks the shares of a law that has them.
+    /// Checks the shares of a law.
     ///
     /// # Errors
-    /// A trapezoid with a share outside (0, 1], or the two together above 1; sine, constant part and cosine with a share outside [0, 1],
-    /// or together outside 0.01 to 1.
+    /// A trapezoid with a share outside (0, 1], or a sum above 1; sine, constant part and cosine with a share outside [0, 1], or a sum outside 0.01
+    /// to 1.
     #[inline] // so that a law without shares brings no double precision into single-precision firmware
     pub fn check(self) -> Result<(), RangeError> {
         let (accelerate, decelerate) = match self {
@@ -108,7 +108,7 @@ impl<R: Real> Law<R> {
         for (what, share) in [("accelerate", accelerate), ("decelerate", decelerate)] {
             crate::number::error::positive(what, share.to_f64())?;
         }
-        // Shares that are one together may be rounded up.
+        // Shares with the sum 1 may be rounded up.
         let sum = accelerate + decelerate;
         if sum > R::from_f64(1.0) + R::from_f64(4.0) * R::EPSILON {
             return Err(RangeError::OutOfRange {
@@ -210,8 +210,7 @@ impl<R: Real> Law<R> {
         }
     }
 
-    /// S‴ at the time `z`, without the pulses of a jumping acceleration; before 0 and after 1 zero, at a break the value
-    /// after it.
+    /// S‴ at the time `z`, without the pulses of a jumping acceleration; zero before 0 and after 1, at a break the value after it.
     #[must_use]
     pub fn jerk(self, z: R) -> R {
         use core::f64::consts::PI;
@@ -260,15 +259,15 @@ impl<R: Real> Law<R> {
     }
 }
 
-/// 1 − cos x and sin x, by the half angle: near a rest 1 − cos x itself would be rounded to zero, and a machine that moves a
-/// little would count as one that stands, without friction.
+/// 1 − cos x and sin x, by the half angle: near rest 1 − cos x itself would be rounded to zero, and a slowly moving machine would count as standing,
+/// without friction.
 pub(super) fn versine<R: Real>(x: R) -> [R; 2] {
     let c = R::from_f64;
     let (sin, cos) = (c(0.5) * x).sin_cos();
     [c(2.0) * sin * sin, c(2.0) * sin * cos]
 }
 
-/// The law of the first half for both: S(1 − z) = 1 − S(z). So its last instants are as exact as its first.
+/// Both halves from the first one: S(1 − z) = 1 − S(z). So the last instants are as accurate as the first.
 fn mirrored<R: Real>(z: R, half: impl Fn(R) -> [R; 3]) -> [R; 3] {
     let c = R::from_f64;
     if z > c(0.5) {
@@ -289,13 +288,12 @@ fn polynomial_4567<R: Real>(z: R) -> [R; 3] {
     ]
 }
 
-/// Quarter of a sine up to z = 1/8, constant to 3/8, quarter of a cosine to 1/2; in units of the largest acceleration,
-/// which makes S(1/2) = 1/2.
+/// Quarter of a sine up to z = 1/8, constant to 3/8, quarter of a cosine to 1/2, in units of the largest acceleration, with S(1/2) = 1/2.
 fn modified_trapezoid<R: Real>(z: R) -> [R; 3] {
     use core::f64::consts::PI;
     const MOST: f64 = 8.0 * PI / (2.0 + PI);
     const ARC: f64 = 1.0 / (4.0 * PI);
-    // Speed and way at z = 1/8 and 3/8.
+    // Speed and distance at z = 1/8 and 3/8.
     const V_1: f64 = MOST * ARC;
     const S_1: f64 = V_1 * (0.125 - ARC);
     const V_2: f64 = V_1 + MOST / 4.0;
@@ -336,7 +334,7 @@ fn trapezoid<R: Real>(z: R, accelerate: R, decelerate: R) -> [R; 3] {
     }
 }
 
-/// Quarter of a sine up to z = 1/8, then one that is three times slower up to the middle; in units that make S(1/2) = 1/2.
+/// Quarter of a sine up to z = 1/8, then a three times slower one up to the middle, in units with S(1/2) = 1/2.
 fn modified_sine<R: Real>(z: R) -> [R; 3] {
     use core::f64::consts::PI;
     let c = R::from_f64;

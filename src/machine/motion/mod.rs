@@ -38,7 +38,7 @@ impl<R: Real> Move<R> {
     /// A move from `start` over `distance` (rad) in `duration` (s).
     ///
     /// # Errors
-    /// A duration that is not positive, a value that is not finite, or a law that is not valid.
+    /// A duration that is not positive, a value that is not finite, or an invalid law.
     #[inline] // see `Law::check`
     pub fn new(law: Law<R>, start: R, distance: R, duration: R) -> Result<Self, RangeError> {
         let zero = R::from_f64(0.0);
@@ -81,7 +81,7 @@ impl<R: Real> Move<R> {
         self.law
     }
 
-    /// The state at `t` (s) after the start; before and after the move it is at rest at the ends.
+    /// The state at `t` (s) after the start; before and after the move it rests at the ends.
     #[must_use]
     pub fn at(&self, t: R) -> State<R> {
         let [s, v, a] = self.law.at(t / self.duration);

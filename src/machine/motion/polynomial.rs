@@ -1,9 +1,9 @@
-//! Polynomials between boundary conditions: VDI 2143 Blatt 1's general transition, of fifth to seventh degree.
+//! Polynomials between boundary conditions: the general transition of VDI 2143 Blatt 1, of fifth to seventh degree.
 
 use crate::math::Real;
 
-/// What a transition has at one of its ends: rest (R) is all zero, constant speed (G) has a speed, a reversal (U) an acceleration,
-/// motion (B) both.
+/// The derivatives at an end of a transition: all zero for rest (R), a speed for constant speed (G), an acceleration for a reversal (U), both for
+/// motion (B).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct End<R = f64> {
@@ -11,12 +11,12 @@ pub struct End<R = f64> {
     pub speed: R,
     /// Second derivative: the acceleration.
     pub acceleration: R,
-    /// Third derivative: the jerk; `None` leaves it to the other conditions, and the polynomial has a degree less.
+    /// Third derivative: the jerk; with `None` it follows from the other conditions, and the degree is one less.
     pub jerk: Option<R>,
 }
 
 impl<R: Real> End<R> {
-    /// Speed and acceleration; the jerk is left open.
+    /// Speed and acceleration; the jerk is not given.
     pub const fn new(speed: R, acceleration: R) -> Self {
         Self {
             speed,
@@ -26,7 +26,7 @@ impl<R: Real> End<R> {
     }
 }
 
-/// The most coefficients: those of seventh degree.
+/// Greatest number of coefficients: those of seventh degree.
 const COEFFICIENTS: usize = 8;
 
 /// s(t) = c₁·t + c₂·t² + … + c₇·t⁷.
@@ -37,8 +37,8 @@ pub struct Polynomial<R = f64> {
 }
 
 impl<R: Real> Polynomial<R> {
-    /// Constant jerk from the speed `v` and the acceleration `a` on: v·t + a·t²/2 + j·t³/6. With j = 0 it is constant
-    /// acceleration, with a = 0 as well constant speed.
+    /// Constant jerk from the speed `v` and the acceleration `a` on: v·t + a·t²/2 + j·t³/6. With j = 0 the acceleration is constant, with a = 0 as
+    /// well the speed.
     #[must_use]
     pub fn constant_jerk([v, a, j]: [R; 3]) -> Self {
         let c = R::from_f64;
@@ -49,15 +49,15 @@ impl<R: Real> Polynomial<R> {
         Self { coefficients }
     }
 
-    /// From s(0) = 0 to s(`span`) = `rise` with the derivatives given at both ends: the polynomial of fifth degree, of sixth if one end
-    /// has a jerk, of seventh if both have. The span is greater than zero.
+    /// From s(0) = 0 to s(`span`) = `rise` with the given derivatives at both ends: the polynomial of fifth degree, sixth if one end has a jerk,
+    /// seventh if both have. The span must be positive.
     ///
     /// Accuracy: it meets its conditions to 1e-13 of the largest of their terms (test `polynomials_meet_their_ends`).
     #[must_use]
     pub fn between(rise: R, span: R, start: End<R>, end: End<R>) -> Self {
         let c = R::from_f64;
         let zero = c(0.0);
-        // Derivatives by z = t/span, and how many of them are given, s included.
+        // Derivatives with respect to z = t/span, and the number of given ones, including s.
         let by_z = |s: R, end: End<R>| {
             let [v, a] = [end.speed * span, end.acceleration * span * span];
             let j = end.jerk.unwrap_or(zero) * span * span * span;
@@ -72,14 +72,14 @@ impl<R: Real> Polynomial<R> {
             coefficients[k] = derivative / c(factorial);
             factorial *= (k + 1) as f64;
         }
-        // … and z^m·Q(z) for what it misses at the end, where p^(i)(1) = missing[i].
+        // … and z^m·Q(z) for the difference at the end, where p^(i)(1) = missing[i].
         let mut missing = last;
         for (i, missing) in missing.iter_mut().enumerate().take(asked) {
             for (k, &coefficient) in coefficients.iter().enumerate().take(known).skip(i) {
                 *missing = *missing - coefficient * c(falling(k, i));
             }
         }
-        // Q = z^(−m)·p, by Leibniz' rule at z = 1: (z^(−m))^(l) = (−1)^l·m·(m + 1) … (m + l − 1).
+        // Q = z^(−m)·p, by Leibniz's rule at z = 1: (z^(−m))^(l) = (−1)^l·m·(m + 1) … (m + l − 1).
         let mut q = [zero; 4];
         for (i, q) in q.iter_mut().enumerate().take(asked) {
             let mut weight = 1.0;
@@ -125,7 +125,7 @@ impl<R: Real> Polynomial<R> {
     }
 }
 
-/// k·(k − 1) … (k − i + 1): what i derivatives make of the power k.
+/// k·(k − 1) … (k − i + 1): the factor of the i-th derivative of the power k.
 fn falling(k: usize, i: usize) -> f64 {
     ((k + 1 - i)..=k).fold(1.0, |product, factor| product * factor as f64)
 }

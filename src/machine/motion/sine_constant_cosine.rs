@@ -1,9 +1,8 @@
-//! The family of sine, constant and cosine acceleration (SCCA): a rise whose acceleration goes up by a quarter of a sine, stays,
-//! comes down by a quarter of a cosine, and is zero around the middle; the second half is the mirror image.
+//! The family of sine, constant and cosine acceleration (SCCA): a rise whose acceleration rises by a quarter of a sine, stays, falls by a quarter of
+//! a cosine, and is zero around the middle; the second half is the mirror image.
 //!
-//! The four shares of the time, both halves together, add up to one. Modified sine, modified trapezoid, cycloidal, simple sine,
-//! parabola and the modified sines with a stretch of constant speed belong to it (R. L. Norton, *Cam Design and Manufacturing
-//! Handbook*, chapter 3).
+//! The four shares of the time, both halves together, add up to one. The family contains modified sine, modified trapezoid, cycloidal, simple sine,
+//! parabola and the modified sines with an interval of constant speed (R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 3).
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -15,12 +14,11 @@ use crate::number::error::RangeError;
 /// The first half of a rise by 1 in the time 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Half<R> {
-    /// Where the sine, the constant part and the cosine end.
+    /// Ends of the sine, the constant part and the cosine.
     ends: [R; 3],
-    /// 2/π times the time of the sine and of the cosine: what a quarter of them adds to the speed, in units of the largest
-    /// acceleration.
+    /// 2/π times the time of the sine and of the cosine: the speed gained by a quarter of each, in units of the largest acceleration.
     arcs: [R; 2],
-    /// Speed and way at these ends, in the same units.
+    /// Speed and distance at these ends, in the same units.
     speeds: [R; 3],
     ways: [R; 3],
     /// The largest acceleration.
@@ -40,7 +38,7 @@ pub(super) fn check(shares: [f64; 3]) -> Result<(), RangeError> {
         }
     }
     let sum = shares.iter().sum::<f64>();
-    // Shares that are one together may be rounded up.
+    // Shares with the sum 1 may be rounded up.
     if !(LEAST..=1.0 + 4.0 * f64::EPSILON).contains(&sum) {
         return Err(RangeError::OutOfRange {
             what: "sine + constant + cosine",
@@ -52,7 +50,7 @@ pub(super) fn check(shares: [f64; 3]) -> Result<(), RangeError> {
     Ok(())
 }
 
-/// Smallest share of the time in which there is an acceleration.
+/// Smallest share of the time with an acceleration.
 const LEAST: f64 = 0.01;
 
 /// The places in (0, 1) where a derivative jumps.
@@ -62,28 +60,28 @@ pub(super) fn breaks(shares: [f64; 3]) -> [Option<f64>; 6] {
     let mut breaks = [None; 6];
     let mut last = 0.0;
     for (k, end) in ends.into_iter().enumerate() {
-        // Next to the start, to another end, or to the middle there is nothing between.
+        // No part remains next to the start, to another end, or to the middle.
         if end - last > ROUNDING && 0.5 - end > ROUNDING {
             breaks[k] = Some(end);
             breaks[5 - k] = Some(1.0 - end);
             last = end;
         }
     }
-    // A cosine goes on through the middle; without one the acceleration jumps there.
+    // A cosine continues through the middle; without one the acceleration jumps there.
     if cosine < ROUNDING && 0.5 - ends[2] <= ROUNDING {
         breaks[2] = Some(0.5);
     }
     breaks
 }
 
-/// Shares of the time below which a part is none.
+/// Shares of the time below which a part counts as absent.
 const ROUNDING: f64 = 1e-12;
 
 /// C_v, C_a, C_j and C_Mdyn.
 pub(super) fn characteristic(shares: [f64; 3]) -> Characteristic {
     let half = Half::<f64>::new(shares);
     let [sine, cosine] = half.arcs;
-    // Without a sine the acceleration jumps at the ends, without a cosine where it stops.
+    // Without a sine the acceleration jumps at the ends, without a cosine where it ends.
     let smooth = shares[0] > 0.0 && shares[2] > 0.0;
     // (v + q·sin θ)·cos θ over the cosine is largest at 2q·s² + v·s = q; before it S′·S″ rises.
     let v = half.speeds[1];
@@ -151,7 +149,7 @@ impl<R: Real> Half<R> {
         let c = R::from_f64;
         let second = z > c(0.5);
         let place = if second { c(1.0) - z } else { z };
-        // In the second half what comes after a break is what comes before it in the mirror.
+        // In the second half, after a break means before it in the mirror image.
         let before = |end: R| place < end || (second && place <= end);
         let [p, q] = self.arcs;
         if p > c(0.0) && before(self.ends[0]) {

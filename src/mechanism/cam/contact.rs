@@ -1,13 +1,12 @@
-//! The force between cam and follower, and the speed at which it vanishes.
+//! The contact force between cam and follower, and the speed at which it vanishes.
 //!
-//! At constant speed the contact force is a polynomial in ω, whose terms d'Alembert's principle gives at every φ:
+//! At constant speed the contact force is a polynomial in ω, with terms from d'Alembert's principle at every φ:
 //!
 //! ```text
 //! N(φ, ω) = a(φ) + c(φ)·ω + b(φ)·ω²        a: springs, weight, loads    c: dampers    b: inertia
 //! ```
 //!
-//! so the speed at which the follower lifts off at φ is its smallest positive root, and the machine's limit is the
-//! smallest of those over the turn.
+//! so that the follower lifts off at φ at the smallest positive root, and the machine's limit is the smallest root over the turn.
 
 use crate::machine::error::MachineError;
 use core::f64::consts::TAU;
@@ -20,14 +19,14 @@ use crate::machine::{Joint, Jointed};
 use crate::number::error::finite;
 use crate::{Machine, math};
 
-/// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.
+/// Limit of plausible speeds (rad/s); contact lost beyond it, by rounding, does not count as lost.
 const FASTEST: f64 = 1e6;
 
 /// The slowest constant speed at which the follower leaves the cam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LiftOff {
-    /// Where the contact force vanishes first (rad).
+    /// Angle at which the contact force vanishes first (rad).
     pub phi: f64,
     /// The speed (rad/s), not negative; zero if nothing presses the follower on the cam there even at rest.
     pub omega: f64,
@@ -51,11 +50,11 @@ impl fmt::Display for LiftOff {
     }
 }
 
-/// The force (N) with which the two bodies of joint number `contact` press on each other, positive when they press, at
-/// `phi` (rad) for the motion ω = `omega` (rad/s), α = `alpha` (rad/s²).
+/// The force (N) between the two bodies of joint number `contact`, positive for compression, at `phi` (rad) for the motion ω = `omega` (rad/s), α =
+/// `alpha` (rad/s²).
 ///
 /// # Errors
-/// A joint that does not exist or is no contact, and those of [`Machine::forces`].
+/// A joint that does not exist or is not a contact, and as [`Machine::forces`].
 pub fn contact_force<M: Jointed>(
     machine: &Machine<M>,
     contact: usize,
@@ -78,16 +77,14 @@ pub fn contact_force<M: Jointed>(
     Ok(reaction[0] * unit.force[0] + reaction[1] * unit.force[1])
 }
 
-/// The slowest constant speed, and its place, at which joint number `contact` loses contact; `None` if it keeps contact at any
-/// speed up to
-/// 1e6 rad/s. `pieces` are the smooth pieces of the turn, [`Program::pieces`](super::Program::pieces); the edges of loads
-/// that act over a part of the turn are added here. `direction` is that of the cam, +1 counter-clockwise.
+/// The slowest constant speed, and its place, at which joint number `contact` loses contact; `None` if it keeps contact at every speed up to 1e6
+/// rad/s. `pieces` are the smooth pieces of the turn, [`Program::pieces`](super::Program::pieces); the edges of loads that act over a part of the
+/// turn are added here. `direction` is the cam's, +1 counter-clockwise.
 ///
-/// Accuracy: the root at every φ is exact to rounding, φ is found to 1e-8 (tests `lift_off_of_a_circular_cam`,
-/// `contact_vanishes_at_lift_off`).
+/// Accuracy: the root at every φ is exact to rounding, φ is found to 1e-8 (tests `lift_off_of_a_circular_cam`, `contact_vanishes_at_lift_off`).
 ///
 /// # Errors
-/// Those of [`contact_force`].
+/// As [`contact_force`].
 pub fn lift_off<M: Jointed>(
     machine: &Machine<M>,
     contact: usize,
@@ -95,7 +92,7 @@ pub fn lift_off<M: Jointed>(
     direction: f64,
 ) -> Result<Option<LiftOff>, MachineError> {
     let direction = if direction < 0.0 { -1.0 } else { 1.0 };
-    // The three speeds that the polynomial is laid through should be near to the limit, where every term counts.
+    // The three speeds that define the polynomial should be near the limit, where every term is significant.
     let rough = first(machine, contact, pieces.clone(), 100.0 * direction)?;
     match rough {
         Some(LiftOff { omega, .. }) if omega > 0.0 => {
@@ -105,7 +102,7 @@ pub fn lift_off<M: Jointed>(
     }
 }
 
-/// The limit from the forces at half of, at and at twice the speed `scale`.
+/// The limit from the forces at ½, 1 and 2 times the speed `scale`.
 fn first<M: Jointed>(
     machine: &Machine<M>,
     contact: usize,
@@ -116,7 +113,7 @@ fn first<M: Jointed>(
     let slowness = |phi: f64| {
         let at = |speed: f64| contact_force(machine, contact, phi, speed, 0.0);
         let forces = [at(scale / 2.0)?, at(scale)?, at(2.0 * scale)?];
-        // Largest where the limit is lowest: smooth, and zero where there is none.
+        // Smallest where the limit is lowest: smooth, and zero without a limit.
         let limit = math::abs(scale) * vanishing(forces);
         Ok::<_, MachineError>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
     };
@@ -127,8 +124,8 @@ fn first<M: Jointed>(
     }))
 }
 
-/// The speed, in units of that of the second force, at which the polynomial through the forces at ½, 1 and 2 vanishes;
-/// zero if it is not positive at rest, infinite if it never vanishes.
+/// The speed, in units of the second force's speed, where the polynomial through the forces at ½, 1 and 2 vanishes; zero if it is not positive at
+/// rest, infinite if it never vanishes.
 fn vanishing([half, one, two]: [f64; 3]) -> f64 {
     let b = ((two - one) - 2.0 * (one - half)) / 1.5;
     let c = (two - one) - 3.0 * b;
@@ -150,7 +147,7 @@ fn vanishing([half, one, two]: [f64; 3]) -> f64 {
 
 type Edges = heapless::Vec<f64, { 4 * MAX_LOADS }>;
 
-/// The angles at which a load begins or ends to grow, within the turn, in order.
+/// The angles where a load begins or ends to change, within the turn, in order.
 fn load_edges<M: Jointed>(machine: &Machine<M>) -> Edges {
     let mut edges: Edges = machine.load_edges().map(within_turn).collect();
     edges.sort_unstable_by(f64::total_cmp);

@@ -1,8 +1,8 @@
-//! Extremes of a curve that is smooth piece by piece.
+//! Extremes of a piecewise smooth curve.
 
 use super::program::Piece;
 
-/// The extreme of a quantity over the turn, and where it is.
+/// The extreme of a quantity over the turn, and its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extreme {
@@ -12,14 +12,14 @@ pub struct Extreme {
     pub value: f64,
 }
 
-/// Samples of a piece. A dip narrower than a hundredth of a piece is not seen; laws and geometry have none.
+/// Samples per piece. A dip narrower than a hundredth of a piece is missed; laws and geometry have no such dips.
 const SAMPLES: u32 = 96;
 
-/// Steps of the golden section, each 0.618 of the one before: two sample distances become 1e-12 of a piece.
+/// Steps of the golden-section search, each 0.618 of the previous one: from two sample distances to 1e-12 of a piece.
 const STEPS: u32 = 52;
 
-/// The smallest value of `f` over the pieces: sampled, then refined by the golden section in each piece around its
-/// smallest sample. At the ends of a piece the value is that from inside.
+/// The smallest value of `f` over the pieces: sampled, then refined by golden-section search in each piece around its smallest sample. At the ends of
+/// a piece the value is the limit from inside.
 pub(crate) fn smallest<E>(
     pieces: impl IntoIterator<Item = Piece>,
     mut f: impl FnMut(f64) -> Result<f64, E>,
@@ -55,7 +55,7 @@ pub(crate) fn smallest<E>(
     Ok(best)
 }
 
-/// The golden section between two shares of a piece.
+/// Golden-section search between two shares of a piece.
 fn golden<E>(
     mut low: f64,
     mut high: f64,

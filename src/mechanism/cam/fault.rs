@@ -1,17 +1,17 @@
-//! What can be wrong with a cam.
+//! Errors of cams.
 
 use core::fmt;
 
 use crate::number::error::{Curable, RangeError, error};
 
-/// Why a cam program or a cam cannot be built. Segments are counted from 0 here, and from 1 in messages.
+/// Why a cam program or a cam cannot be created. Segments count from 0 here, and from 1 in messages.
 ///
-/// Displacements of a swinging follower are angles: read rad where a message of the program says m.
+/// Displacements of a swinging follower are angles: read rad for m in messages about the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum CamError {
-    /// A dimension outside its range, or more segments than fit.
+    /// A dimension outside its range, or too many segments.
     Range(RangeError),
     /// The program has no segment.
     Empty,
@@ -34,7 +34,7 @@ pub enum CamError {
         /// Its rise.
         rise: f64,
     },
-    /// The shares of the segment's trapezoid are not possible.
+    /// The shares of the segment's trapezoid are impossible.
     Shares {
         /// Index of the segment.
         segment: usize,
@@ -55,7 +55,7 @@ pub enum CamError {
     VelocityJump {
         /// Index of the segment.
         segment: usize,
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
         /// s′ at its end (m/rad, or rad/rad).
         from: f64,
@@ -73,49 +73,49 @@ pub enum CamError {
     Arm {
         /// Distance of the arm's pivot from the cam's (m).
         pivot_distance: f64,
-        /// Base radius + roller radius must be larger than the first and smaller than the second of these (m).
+        /// Base radius + roller radius must be between these two (m).
         reach: [f64; 2],
     },
-    /// The face that swings cannot lie on the base circle: its pivot is too near to the cam.
+    /// The swinging face cannot lie on the base circle: its pivot is too close to the cam.
     Face {
         /// Distance of the pivot from the cam's (m).
         pivot_distance: f64,
         /// It must be larger than this (m).
         least: f64,
     },
-    /// The swinging follower goes beyond the position where its arm and the line of the pivots are stretched or folded.
+    /// The swinging follower moves beyond the position where its arm and the line of the pivots are stretched or folded.
     Swing {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
     },
-    /// The follower would come down to the cam's axis.
+    /// The follower would reach down to the cam's axis.
     BelowAxis {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
     },
-    /// The cam would have to be cut away: the roller or the face does not touch it where it should.
+    /// Undercut: the roller or the face does not touch the cam where it should.
     Undercut {
-        /// Where it is worst (rad).
+        /// Angle of the worst place (rad).
         phi: f64,
         /// Radius of curvature there (m): of the pitch curve for a roller, of the profile for a flat face.
         radius: f64,
         /// The radius of curvature must be larger than this (m): the roller's radius, or zero.
         limit: f64,
-        /// The smallest base radius that cures it (m); `None` if none does.
+        /// The smallest sufficient base radius (m); `None` if there is no such radius.
         base_radius: Option<f64>,
     },
-    /// The cam is so large that it would cover the axis about which its follower swings.
+    /// The cam is so large that it would cover the axis of its swinging follower.
     CoversPivot {
-        /// Where the profile is farthest from the cam's axis (rad).
+        /// Angle of the profile's farthest point from the cam's axis (rad).
         phi: f64,
-        /// How far (m).
+        /// That distance (m).
         reach: f64,
         /// Distance of the two axes (m).
         pivot: f64,
     },
-    /// A swinging face turns with the cam as fast as the cam itself, so it touches in no single point.
+    /// A swinging face turns as fast as the cam, so that there is no single point of contact.
     FaceTooFast {
-        /// Where (rad).
+        /// Angle (rad).
         phi: f64,
         /// dψ/dφ of the face, which must be below 1.
         ratio: f64,
@@ -134,7 +134,7 @@ impl fmt::Display for CamError {
 }
 
 impl CamError {
-    /// The segment that alone is to blame.
+    /// The segment at fault, if it is a single one.
     const fn segment(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { segment }
@@ -147,7 +147,7 @@ impl CamError {
     }
 }
 
-/// What is wrong, without the segment.
+/// The error, without the segment.
 struct Cause<'a>(&'a CamError);
 
 impl fmt::Display for Cause<'_> {

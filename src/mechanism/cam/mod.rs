@@ -1,4 +1,4 @@
-//! Cams: the follower's displacement over a turn of the cam, and whether the follower stays on it.
+//! Cams: the follower's displacement over a turn of the cam, and whether the follower stays in contact.
 //!
 //! ```text
 //! Law, quintic ─► Segment ─► Program s(φ) ─► DiscCam ─► Machine ─► contact force, lift-off

@@ -9,16 +9,16 @@ use crate::math;
 use crate::mechanism::cam::CamError;
 use crate::number::transfer::Transfer;
 
-/// The most segments of a program.
+/// Greatest number of segments of a program.
 pub const MAX_SEGMENTS: usize = 16;
 
-/// Relative slip that is taken for rounding: of a turn, of the largest displacement, of the largest velocity.
+/// Relative difference that counts as rounding: of a turn, of the largest displacement, of the largest velocity.
 const CLOSED: f64 = 1e-9;
 
-/// s(φ) over one turn of the cam, from φ = 0 on: segments one after another, repeated every turn.
+/// s(φ) over one turn of the cam, from φ = 0 on: consecutive segments, repeated every turn.
 ///
-/// s, s′, s″ and s‴ are exact, as a [`Transfer`]. s and s′ are continuous; s″ may jump at the ends of a segment or at a
-/// break of its law, which [`acceleration_jumps`](Self::acceleration_jumps) tells.
+/// s, s′, s″ and s‴ are exact, as a [`Transfer`]. s and s′ are continuous; s″ may jump at the ends of a segment or at a break of its law: see
+/// [`acceleration_jumps`](Self::acceleration_jumps).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     segments: heapless::Vec<Placed, MAX_SEGMENTS>,
@@ -36,27 +36,27 @@ struct Placed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Piece {
-    /// Where it begins (rad).
+    /// Start (rad).
     pub from: f64,
-    /// Where it ends (rad).
+    /// End (rad).
     pub to: f64,
 }
 
 impl Piece {
-    /// φ at a share (0 to 1) of the piece; at its ends a hair inside, so that what jumps there has this piece's value.
+    /// φ at a share (0 to 1) of the piece, with a margin at its ends, so that jumping quantities have this piece's value there.
     pub(crate) fn inside(self, share: f64) -> f64 {
-        // The hair is larger than the roundings of φ within a turn.
+        // The margin is larger than the rounding of φ within a turn.
         let hair = (1e-12 * (self.to - self.from)).max(4e-15);
         (self.from + share * (self.to - self.from)).clamp(self.from + hair, self.to - hair)
     }
 }
 
-/// A jump of the follower's acceleration: an infinite jerk, which makes the machine ring.
+/// A jump of the follower's acceleration: an infinite jerk, which excites vibrations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct AccelerationJump {
-    /// Where (rad).
+    /// Angle (rad).
     pub phi: f64,
     /// s″ before it (m/rad², or rad/rad²).
     pub from: f64,
@@ -65,12 +65,11 @@ pub struct AccelerationJump {
 }
 
 impl Program {
-    /// The program of these segments. The first begins at φ = 0, where s = 0: the position in which the roller or
-    /// the face touches the base circle.
+    /// The program of these segments. The first begins at φ = 0, where s = 0: there the roller or the face touches the base circle.
     ///
     /// # Errors
-    /// No or too many segments; a segment that is not valid; angles that do not add up to one turn, or rises that do not
-    /// add up to zero, to 1e-9; a velocity that jumps. The error names the segment.
+    /// No segments or too many; an invalid segment; angles that do not add up to one turn, or rises that do not add up to zero, to 1e-9; a velocity
+    /// that jumps. The error names the segment.
     pub fn new(segments: &[Segment]) -> Result<Self, CamError> {
         if segments.is_empty() {
             return Err(CamError::Empty);
@@ -99,7 +98,7 @@ impl Program {
         for (index, segment) in segments.iter().enumerate() {
             let mut segment = *segment;
             segment.angle *= TAU / sum;
-            // What is left of the gap is a rounding.
+            // The remaining gap is rounding.
             if Some(index) == last_move {
                 segment.rise -= gap;
             }
@@ -121,7 +120,7 @@ impl Program {
         Ok(program)
     }
 
-    /// Checks that s′ goes on from segment to segment.
+    /// Checks that s′ is continuous from segment to segment.
     fn check_speeds(&self, tolerance: f64) -> Result<(), CamError> {
         let next = self.segments.iter().cycle().skip(1);
         for (index, (placed, next)) in self.segments.iter().zip(next).enumerate() {
@@ -143,7 +142,7 @@ impl Program {
         self.segments.iter().map(|placed| &placed.segment)
     }
 
-    /// s(φ) (m, or rad) with s′, s″, s‴. Where one of them jumps, its value is the one after the jump.
+    /// s(φ) (m, or rad) with s′, s″, s‴. At a jump, the value after it.
     #[must_use]
     pub fn displacement(&self, phi: f64) -> Transfer {
         let into = within_turn(phi);
@@ -174,9 +173,9 @@ impl Program {
         })
     }
 
-    /// Where s″ jumps, as laws such as the trapezoid or the simple sine let it.
+    /// The jumps of s″, which laws such as the trapezoid or the simple sine have.
     pub fn acceleration_jumps(&self) -> impl Iterator<Item = AccelerationJump> + '_ {
-        // Of the size of the accelerations: anything smaller is the rounding of a place next to the jump.
+        // Scale of the accelerations: smaller jumps are rounding of a place next to a jump.
         let size = self.segments().fold(0.0_f64, |most, segment| {
             most.max(math::abs(segment.rise) / (segment.angle * segment.angle))
         });
@@ -205,7 +204,7 @@ impl Program {
         [signed(1.0), signed(-1.0)]
     }
 
-    /// The largest |s′|, |s″| and |s‴|: per rad, rad² and rad³. Jumps of s″ are no part of s‴.
+    /// The largest |s′|, |s″| and |s‴|: per rad, rad² and rad³. s‴ excludes jumps of s″.
     #[must_use]
     pub fn peaks(&self) -> [Extreme; 3] {
         let most = |f: fn(Transfer) -> f64| {

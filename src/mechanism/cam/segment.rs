@@ -4,7 +4,7 @@ use crate::machine::motion::{End, Law, Polynomial};
 use crate::mechanism::cam::CamError;
 use crate::number::transfer::Transfer;
 
-/// How the follower gets from one end of a segment to the other.
+/// The follower's motion between the ends of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Shape {
@@ -12,8 +12,8 @@ pub enum Shape {
     Dwell,
     /// By a motion law, from rest to rest (R-R).
     Law(Law),
-    /// By the polynomial of fifth degree with the given s′ and s″ at both ends: every transition between rest (R: 0, 0),
-    /// constant velocity (G: s′, 0), reversal (U: 0, s″) and motion (B: s′, s″).
+    /// By the polynomial of fifth degree with the given s′ and s″ at both ends: every transition between rest (R: 0, 0), constant velocity (G: s′,
+    /// 0), reversal (U: 0, s″) and motion (B: s′, s″).
     Polynomial {
         /// s′ (m/rad, or rad/rad) and s″ at the start.
         start: [f64; 2],
@@ -22,7 +22,7 @@ pub enum Shape {
     },
 }
 
-/// A part of the turn of a cam: an angle of the cam, and how far the follower rises in it.
+/// A part of the turn of a cam: an angle of the cam, and the follower's rise in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Segment {
@@ -30,7 +30,7 @@ pub struct Segment {
     pub angle: f64,
     /// Rise of the follower (m; rad for one that swings); negative for a return.
     pub rise: f64,
-    /// How.
+    /// The motion in it.
     pub shape: Shape,
 }
 
@@ -55,7 +55,7 @@ impl Segment {
         }
     }
 
-    /// A transition over `angle` (rad) with [s′, s″] given at both ends.
+    /// A transition over `angle` (rad) with given [s′, s″] at both ends.
     #[must_use]
     pub const fn polynomial(angle: f64, rise: f64, start: [f64; 2], end: [f64; 2]) -> Self {
         Self {
@@ -102,7 +102,7 @@ impl Segment {
         }
     }
 
-    /// The shares of its angle at which a derivative jumps, but its ends.
+    /// The shares of its angle where a derivative jumps, excluding its ends.
     pub(in crate::mechanism) fn breaks(&self) -> [Option<f64>; 6] {
         match self.shape {
             Shape::Law(law) => law.breaks(),

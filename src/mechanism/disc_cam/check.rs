@@ -1,4 +1,4 @@
-//! Whether a cam with this program can be made.
+//! Whether a cam with this program can be manufactured.
 
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};
@@ -25,7 +25,7 @@ pub(super) fn checked(
     Ok(geometry)
 }
 
-/// The cam must not reach the axis about which its follower swings.
+/// Checks that the cam does not reach the axis of its swinging follower.
 fn clear_of_pivot(program: &Program, geometry: &Geometry) -> Result<(), CamError> {
     let Some(([x, y], _)) = geometry.follower.pivot() else {
         return Ok(());
@@ -43,7 +43,7 @@ fn clear_of_pivot(program: &Program, geometry: &Geometry) -> Result<(), CamError
     })
 }
 
-/// The geometry with every position of the follower possible by itself.
+/// The geometry, with every position of the follower checked separately.
 fn placed(program: &Program, follower: Follower, base_radius: f64) -> Result<Geometry, CamError> {
     let geometry = Geometry::new(base_radius, follower)?;
     geometry.check_range(program.range())?;
@@ -59,7 +59,7 @@ fn placed(program: &Program, follower: Follower, base_radius: f64) -> Result<Geo
     Ok(geometry)
 }
 
-/// The smallest base radius above `from` (m) without undercut: grown until it fits, then halved.
+/// The smallest base radius above `from` (m) without undercut: increased until it fits, then bisected.
 fn cure(program: &Program, follower: Follower, from: f64) -> Option<f64> {
     const GROWTH: f64 = 1.02;
     const STEPS: u32 = 400;

@@ -1,11 +1,11 @@
-//! The part that runs on the cam.
+//! The part in contact with the cam.
 
 use crate::machine::link::{Link, MassProperties};
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive};
 
-/// Which way an oscillating follower turns when it rises.
+/// Direction of rotation of an oscillating follower when it rises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Swing {
@@ -35,7 +35,7 @@ pub struct RollerDimensions {
     pub radius: f64,
     /// Mass (kg).
     pub mass: f64,
-    /// Inertia about its own axis (kg·m²): what turns with it.
+    /// Inertia about its own axis (kg·m²), of everything that turns with it.
     pub inertia: f64,
 }
 
@@ -50,7 +50,7 @@ impl Roller {
     /// A roller of these dimensions.
     ///
     /// # Errors
-    /// A radius that is not positive, a mass or an inertia that is negative, or anything not finite.
+    /// A radius that is not positive, a mass or an inertia that is negative, or a value not finite.
     pub fn new(dimensions: RollerDimensions) -> Result<Self, RangeError> {
         Ok(Self {
             radius: positive("roller radius", dimensions.radius)?,
@@ -73,7 +73,7 @@ impl Roller {
     }
 }
 
-/// The follower: how it is guided and what touches the cam. The cam's pivot is the origin.
+/// The follower: its guide and its contact with the cam. The cam's pivot is the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Follower {
     /// Slides along x = offset, upwards when it rises; a roller touches the cam.
@@ -94,7 +94,7 @@ pub enum Follower {
         pivot: [f64; 2],
         /// From the pivot to the roller's centre (m).
         arm: f64,
-        /// Which way it turns when it rises.
+        /// Direction of rotation when it rises.
         swing: Swing,
         /// The roller.
         roller: Roller,
@@ -103,15 +103,15 @@ pub enum Follower {
     OscillatingFace {
         /// The follower's pivot A (m).
         pivot: [f64; 2],
-        /// How far the face's plane lies from the pivot towards the cam (m); negative: away from it.
+        /// Distance of the face's plane from the pivot towards the cam (m); negative: away from it.
         offset: f64,
-        /// Which way it turns when it rises.
+        /// Direction of rotation when it rises.
         swing: Swing,
     },
 }
 
 impl Follower {
-    /// The roller, if it has one.
+    /// The roller; `None` for a face.
     #[must_use]
     pub const fn roller(&self) -> Option<&Roller> {
         match self {
@@ -122,7 +122,7 @@ impl Follower {
         }
     }
 
-    /// Pivot and swing of one that oscillates.
+    /// Pivot and swing of an oscillating follower.
     #[must_use]
     pub const fn pivot(&self) -> Option<([f64; 2], Swing)> {
         match self {
@@ -132,7 +132,7 @@ impl Follower {
         }
     }
 
-    /// Radius of the roller, zero of a face.
+    /// Radius of the roller; zero for a face.
     pub(super) const fn roller_radius(&self) -> f64 {
         match self.roller() {
             Some(roller) => roller.radius,
@@ -140,7 +140,7 @@ impl Follower {
         }
     }
 
-    /// Checks every number on its own.
+    /// Checks each number separately.
     pub(super) fn check(&self) -> Result<(), RangeError> {
         match *self {
             Self::TranslatingRoller { offset, .. } | Self::TranslatingFace { offset } => {

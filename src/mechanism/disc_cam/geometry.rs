@@ -1,23 +1,22 @@
-//! Where the follower is for a displacement s, and where and how it touches the cam.
+//! Position of the follower for a displacement s, and its contact with the cam.
 //!
-//! Seen from the cam, which turns counter-clockwise, the follower goes round clockwise. With B the centre of the roller
-//! the velocity of B against the cam, for ω = 1, is
+//! Relative to the cam, which turns counter-clockwise, the follower moves around it clockwise. With B the centre of the roller, the velocity of B
+//! relative to the cam, for ω = 1, is
 //!
 //! ```text
 //! w = B′ − e_z × B          n = e_z × w/|w|          P = B − r_r·n
 //! κ = −(w × a)/|w|³         a = w′ − e_z × w          κ_P = κ/(1 − r_r·κ)
 //! ```
 //!
-//! n is the normal from the cam to the follower, P the point of contact, κ the curvature of the pitch curve (positive
-//! where it is convex), κ_P that of the profile. A flat face is the envelope of a line: with ν the direction of its
-//! normal in the cam and p its distance from the cam's pivot
+//! n is the normal from the cam to the follower, P the point of contact, κ the curvature of the pitch curve (positive where it is convex), κ_P the
+//! curvature of the profile. A flat face is the envelope of a line: with ν the direction of its normal in the cam and p its distance from the cam's
+//! pivot
 //!
 //! ```text
 //! P = p·n + p_ν·e_z × n     ρ = p + p_νν     p_ν = p′/ν′
 //! ```
 //!
-//! R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 7; the support function of an envelope: any text on
-//! plane differential geometry.
+//! R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 7; the support function of an envelope: any text on plane differential geometry.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -36,22 +35,22 @@ pub(super) struct Geometry {
     zero: f64,
 }
 
-/// How the follower touches the cam.
+/// The contact of follower and cam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touch {
     /// Point of contact, global (m).
     pub(super) point: [f64; 2],
     /// Unit normal from the cam to the follower, global.
     pub(super) normal: [f64; 2],
-    /// From the direction in which the follower gives way to the normal (rad).
+    /// From the direction in which the follower yields to the normal (rad).
     pub(super) pressure_angle: f64,
     /// Curvature of the profile (1/m), positive where it is convex.
     pub(super) curvature: f64,
-    /// Radius of curvature that must be larger than the roller's, of the pitch curve, or than zero, of the profile (m).
+    /// Radius of curvature (m): of the pitch curve, which must exceed the roller's radius, or of the profile, which must exceed zero.
     pub(super) radius: f64,
     /// Negative or zero where the cam is undercut.
     pub(super) margin: f64,
-    /// Speed at which the centre of a roller goes along the pitch curve (m/rad), with two derivatives.
+    /// Speed of a roller's centre along the pitch curve (m/rad), with two derivatives.
     pub(super) pitch_speed: Transfer,
 }
 
@@ -129,20 +128,18 @@ impl Geometry {
         }
     }
 
-    /// The follower's coordinate for the displacement s: the height of one that translates, the angle of the arm or the
-    /// face of one that oscillates.
+    /// The follower's coordinate for the displacement s: the height of a translating one, the angle of the arm or the face of an oscillating one.
     pub(super) fn coordinate(&self, s: Transfer) -> Transfer {
         let Some(([x, y], swing)) = self.follower.pivot() else {
             return s + Transfer::constant(self.zero);
         };
-        // From the follower's pivot towards the cam's.
-        // 0 − y, as −y of a zero is a negative zero, whose angle is −π.
+        // From the follower's pivot towards the cam's. 0 − y, because −y of a zero is a negative zero, with the angle −π.
         let towards_cam = math::atan2(0.0 - y, 0.0 - x);
         Transfer::constant(towards_cam) + (s + Transfer::constant(self.zero)) * swing.sign()
     }
 
-    /// The follower's frame. Translating: origin at the roller's centre, or where the guide's axis meets the face, axes
-    /// parallel to the global ones. Oscillating: origin at the pivot, u along the arm, or along the face.
+    /// The follower's frame. Translating: origin at the roller's centre, or where the guide's axis meets the face, axes parallel to the global ones.
+    /// Oscillating: origin at the pivot, u along the arm, or along the face.
     pub(super) fn frame(&self, s: Transfer) -> Frame {
         match self.follower {
             Follower::TranslatingRoller { offset, .. } | Follower::TranslatingFace { offset } => {
@@ -162,7 +159,7 @@ impl Geometry {
         }
     }
 
-    /// How the follower touches the cam.
+    /// The contact of follower and cam.
     pub(super) fn touch(&self, s: Transfer) -> Touch {
         match self.follower.roller() {
             Some(roller) => self.touch_roller(s, roller.radius()),
@@ -194,7 +191,7 @@ impl Geometry {
         }
     }
 
-    /// Speed of the roller's centre along the pitch curve (m/rad) without its derivatives: |w| by the law of cosines.
+    /// Speed of the roller's centre along the pitch curve (m/rad), without derivatives: |w| by the law of cosines.
     pub(super) fn pitch_speed(&self, s: Transfer) -> f64 {
         let (rise, speed) = (self.zero + s.value, s.d1);
         let square = match self.follower {
@@ -216,7 +213,7 @@ impl Geometry {
     }
 
     fn touch_face(&self, s: Transfer) -> Touch {
-        // Distance from the cam's pivot, turning of the normal in the cam, and the normal.
+        // Distance from the cam's pivot, rotation of the normal in the cam, and the normal.
         let (p, turning, normal) = match self.follower {
             Follower::OscillatingFace {
                 pivot,
@@ -255,7 +252,7 @@ impl Geometry {
         }
     }
 
-    /// From the velocity of the follower's point `at`, when it rises, to the normal, counter-clockwise.
+    /// Angle from the velocity of the follower's point `at`, when it rises, to the normal, counter-clockwise.
     fn pressure_angle(&self, at: [f64; 2], normal: [f64; 2]) -> f64 {
         let way = match self.follower.pivot() {
             Some((pivot, swing)) => [

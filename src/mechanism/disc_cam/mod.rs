@@ -1,6 +1,6 @@
-//! The disc cam with a translating or oscillating follower, whose motion s(φ) is given.
+//! The disc cam with a translating or oscillating follower with given motion s(φ).
 //!
-//! The cam turns about O = (0, 0); in the follower's lowest position, s = 0, roller or face touch the base circle r_b.
+//! The cam turns about O = (0, 0); in the follower's lowest position, s = 0, roller or face touches the base circle r_b.
 //!
 //! ```text
 //! translating, roller    B = (e, √((r_b + r_r)² − e²) + s)                     e: offset of the guide
@@ -9,7 +9,7 @@
 //! oscillating, face      line through A, h nearer    ψ = δ ± (γ₀ + s)          sin γ₀ = (r_b + h)/d
 //! ```
 //!
-//! d and δ are length and direction of the line from the follower's pivot A to O; the sign is that of the swing.
+//! d and δ are length and direction of the line from the follower's pivot A to O; the sign is the swing's.
 
 mod check;
 mod follower;
@@ -37,14 +37,12 @@ use spin::Spin;
 
 /// A disc cam, driven at the cam, with its follower.
 ///
-/// Links: [`CAM`](Self::CAM) (frame at O, turned by φ), [`FOLLOWER`](Self::FOLLOWER) (translating: frame at the roller's
-/// centre, or where the guide's axis meets the face, parallel to the global axes; oscillating: at the pivot A, u along the
-/// arm to the roller's centre, or along the face), and with a roller [`ROLLER`](Self::ROLLER) (frame at its centre; it
-/// rolls on the cam without slip).
+/// Links: [`CAM`](Self::CAM) (frame at O, turned by φ), [`FOLLOWER`](Self::FOLLOWER) (translating: frame at the roller's centre, or where the guide's
+/// axis meets the face, parallel to the global axes; oscillating: at the pivot A, u along the arm to the roller's centre, or along the face), and
+/// with a roller [`ROLLER`](Self::ROLLER) (frame at its centre; it rolls on the cam without slip).
 ///
-/// Accuracy: the drive torque that follows from the point and the normal of contact is that of the reduced equation to
-/// 1e-10 (test `joints_close_and_forces_balance`); the roller touches the profile to 1e-12 of its radius (test
-/// `roller_touches_the_profile_all_round`).
+/// Accuracy: the drive torque from the point and the normal of contact agrees with the reduced equation to 1e-10 (test
+/// `joints_close_and_forces_balance`); the roller touches the profile to 1e-12 of its radius (test `roller_touches_the_profile_all_round`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscCam {
     profile: CamProfile,
@@ -59,15 +57,14 @@ impl DiscCam {
     pub const FOLLOWER: usize = 1;
     /// Index of the roller, if the follower has one.
     pub const ROLLER: usize = 2;
-    /// Index of the joint in which cam and follower press on each other, for
-    /// [`contact_force`](crate::mechanism::cam::contact_force) and [`lift_off`](crate::mechanism::cam::lift_off).
+    /// Index of the contact joint of cam and follower, for [`contact_force`](crate::mechanism::cam::contact_force) and
+    /// [`lift_off`](crate::mechanism::cam::lift_off).
     pub const CONTACT: usize = 2;
 
-    /// A cam with the base radius r_b (m) that moves the follower by the program; `links` are cam and follower, without
-    /// its roller.
+    /// A cam with the base radius r_b (m) that moves the follower by the program; `links` are cam and follower, without its roller.
     ///
     /// # Errors
-    /// Those of [`CamProfile::new`].
+    /// As [`CamProfile::new`].
     pub fn new(
         program: Program,
         base_radius: f64,
@@ -98,20 +95,20 @@ impl DiscCam {
         self.profile.base_radius()
     }
 
-    /// Where and how cam and follower touch at `phi` (rad).
+    /// The contact of cam and follower at `phi` (rad).
     #[must_use]
     pub fn contact(&self, phi: f64) -> CamContact {
         self.profile.contact(phi)
     }
 
-    /// The point [u, v] (m) of the profile, in the cam's frame, that touches the follower at `phi`. Over a turn they run
-    /// round the cam clockwise; the distances between points of equal steps of φ vary.
+    /// The point [u, v] (m) of the profile, in the cam's frame, that touches the follower at `phi`. Over a turn the points go around the cam
+    /// clockwise; for equal steps of φ their distances vary.
     #[must_use]
     pub fn profile(&self, phi: f64) -> [f64; 2] {
         self.equidistant(phi, 0.0)
     }
 
-    /// The point of the pitch curve, in the cam's frame: where the roller's centre is at `phi`. For a face the profile.
+    /// The point of the pitch curve, in the cam's frame: the roller's centre at `phi`. For a face the profile.
     #[must_use]
     pub fn pitch_curve(&self, phi: f64) -> [f64; 2] {
         self.equidistant(phi, self.follower().roller_radius())
@@ -124,27 +121,25 @@ impl DiscCam {
         self.profile.equidistant(phi, distance)
     }
 
-    /// The smallest and the largest pressure angle (rad), with sign, and where they occur. Customary limits of the size
-    /// are 30° for translating and 45° for oscillating followers.
+    /// The smallest and the largest pressure angle (rad), with sign, and their places. Customary limits of the magnitude are 30° for translating and
+    /// 45° for oscillating followers.
     #[must_use]
     pub fn pressure_angles(&self) -> [Extreme; 2] {
         self.profile.pressure_angles()
     }
 
-    /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius
-    /// of a convex part; if the smallest is negative, its reciprocal is the radius of the sharpest hollow, which a grinding
-    /// wheel must be smaller than.
+    /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius of a convex part. If the
+    /// smallest is negative, its reciprocal is the radius of the sharpest hollow, an upper limit for a grinding wheel.
     #[must_use]
     pub fn curvatures(&self) -> [Extreme; 2] {
         self.profile.curvatures()
     }
 
-    /// A spring that presses the follower on the cam with `preload` in its lowest position, s = 0, and `stiffness`·s more
-    /// above it. Translating: a compression spring on the guide's axis (N, N/m). Oscillating: a torsion spring about the
-    /// pivot (N·m, N·m/rad).
+    /// A spring that presses the follower on the cam with `preload` in its lowest position, s = 0, and with `stiffness`·s more above it. Translating:
+    /// a compression spring on the guide's axis (N, N/m). Oscillating: a torsion spring about the pivot (N·m, N·m/rad).
     ///
     /// # Errors
-    /// A stiffness that is not positive, a preload that is negative.
+    /// A stiffness that is not positive, or a negative preload.
     pub fn closing_spring(&self, stiffness: f64, preload: f64) -> Result<Element, RangeError> {
         let stiffness = positive("spring stiffness", stiffness)?;
         let squeeze = not_negative("preload of the spring", preload)? / stiffness;
@@ -152,7 +147,7 @@ impl DiscCam {
         let on_follower = Marker::on(Self::FOLLOWER, [0.0, 0.0]);
         match self.follower().pivot() {
             None => {
-                // Any seat beyond the highest position does: only the change of length counts.
+                // Any seat beyond the highest position works: only the change of length matters.
                 let length = 2.0 * self.program().range()[1].value + self.base_radius();
                 let seat = [rest.x.value, rest.y.value + length];
                 Element::spring(
@@ -171,9 +166,8 @@ impl DiscCam {
 }
 
 impl Jointed for DiscCam {
-    /// Cam pivot: ground and cam; guide or pivot: ground and follower; contact: cam and roller, or follower; with a
-    /// roller its pin: follower and roller; and rolling: cam and roller, the friction along the profile that turns the
-    /// roller.
+    /// Cam pivot: ground and cam; guide or pivot: ground and follower; contact: cam and roller, or follower; with a roller its pin: follower and
+    /// roller; and rolling: cam and roller, the friction along the profile that turns the roller.
     fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let touch = self.profile.touch(phi);
         let origin = [0.0, 0.0];
@@ -223,7 +217,7 @@ impl Mechanism for DiscCam {
         Domain::Turn
     }
 
-    /// Where a piece of the program begins.
+    /// Starts of the program's pieces.
     fn edge(&self, k: usize) -> Option<f64> {
         self.program().pieces().nth(k).map(|piece| piece.from)
     }

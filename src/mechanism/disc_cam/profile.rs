@@ -1,4 +1,4 @@
-//! The cam itself: its program, its base circle and its follower determine its shape.
+//! The cam itself: program, base circle and follower determine its shape.
 
 use super::check;
 use super::follower::Follower;
@@ -9,7 +9,7 @@ use crate::mechanism::cam::{Extreme, Program};
 use crate::number::error::positive;
 use crate::number::transfer::Transfer;
 
-/// Where and how cam and follower touch.
+/// The contact of cam and follower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -37,10 +37,9 @@ impl CamProfile {
     /// A cam with the base radius r_b (m) that moves the follower by the program.
     ///
     /// # Errors
-    /// Dimensions that are not finite or not positive; a follower that cannot be placed on the base circle, or goes out of
-    /// its range; undercut, with the smallest base radius that cures it. A steep pressure angle is no error:
-    /// [`pressure_angles`](Self::pressure_angles). That distant parts of a profile cut each other is not looked for; with a
-    /// curvature that fits everywhere it takes a deep hollow and a large roller.
+    /// Dimensions that are not finite or not positive; a follower that cannot be placed on the base circle, or leaves its range; undercut, with the
+    /// smallest sufficient base radius. A steep pressure angle is not an error: see [`pressure_angles`](Self::pressure_angles). Intersection of
+    /// distant parts of a profile is not checked; if the curvature fits everywhere, that requires a deep hollow and a large roller.
     pub fn new(program: Program, base_radius: f64, follower: Follower) -> Result<Self, CamError> {
         let base_radius = positive("base radius", base_radius)?;
         follower.check()?;
@@ -67,7 +66,7 @@ impl CamProfile {
         &self.geometry
     }
 
-    /// Where and how cam and follower touch at the cam's angle `theta` (rad).
+    /// The contact of cam and follower at the cam's angle `theta` (rad).
     #[must_use]
     pub fn contact(&self, theta: f64) -> CamContact {
         let touch = self.touch(theta);
@@ -79,8 +78,8 @@ impl CamProfile {
         }
     }
 
-    /// The follower's coordinate for the displacement s: height above the cam's axis (m) of the roller's centre or the face
-    /// of one that translates; angle of the arm or the face (rad) of one that oscillates.
+    /// The follower's coordinate for the displacement s: translating: height above the cam's axis (m) of the roller's centre or the face;
+    /// oscillating: angle of the arm or the face (rad).
     pub(crate) fn coordinate(&self, s: Transfer) -> Transfer {
         self.geometry.coordinate(s)
     }
@@ -98,16 +97,15 @@ impl CamProfile {
         [cos * x + sin * y, cos * y - sin * x]
     }
 
-    /// The smallest and the largest pressure angle (rad), with sign, and where they occur. Customary limits of the size
-    /// are 30° for translating and 45° for oscillating followers.
+    /// The smallest and the largest pressure angle (rad), with sign, and their places. Customary limits of the magnitude are 30° for translating and
+    /// 45° for oscillating followers.
     #[must_use]
     pub fn pressure_angles(&self) -> [Extreme; 2] {
         check::pressure_angles(&self.program, &self.geometry)
     }
 
-    /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius
-    /// of a convex part; if the smallest is negative, its reciprocal is the radius of the sharpest hollow, which a grinding
-    /// wheel must be smaller than.
+    /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius of a convex part. If the
+    /// smallest is negative, its reciprocal is the radius of the sharpest hollow, an upper limit for a grinding wheel.
     #[must_use]
     pub fn curvatures(&self) -> [Extreme; 2] {
         check::curvatures(&self.program, &self.geometry)

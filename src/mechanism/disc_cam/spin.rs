@@ -1,14 +1,14 @@
-//! The turning of a roller that rolls on the cam.
+//! The rotation of a roller that rolls on the cam.
 //!
-//! Without slip the roller's rim has at the point of contact the velocity of the cam. Against the cam its centre goes
-//! along the pitch curve with |w| (see the geometry), so that
+//! Without slip the roller's rim has the velocity of the cam at the point of contact. Relative to the cam its centre moves along the pitch curve with
+//! |w| (see the geometry), so that
 //!
 //! ```text
 //! ψ_r = φ − L(φ)/r_r        ψ_r′ = 1 − |w|/r_r        L: length of the pitch curve from φ = 0
 //! ```
 //!
-//! The transfer functions are exact. The angle itself is integrated by Gauss's formula piece by piece; nothing depends on it,
-//! because the roller is round and balanced.
+//! The transfer functions are exact. The angle itself is integrated by Gauss's formula piece by piece; nothing depends on it, because the roller is
+//! round and balanced.
 
 use core::convert::Infallible;
 use core::f64::consts::TAU;
@@ -22,7 +22,7 @@ use crate::number::transfer::Transfer;
 /// A segment has at most five pieces.
 const MAX_PIECES: usize = 5 * MAX_SEGMENTS;
 
-/// Widest panel (rad), each with five nodes: the fastest law within 60° leaves an error of 1e-11 of the length.
+/// Widest panel (rad), with five nodes each: for the fastest law within 60° the error is 1e-11 of the length.
 const PANEL: f64 = 0.25;
 
 /// The length of the pitch curve up to each piece.
@@ -46,7 +46,7 @@ impl Spin {
         Self { starts, turn }
     }
 
-    /// ψ_r at `phi`, where the pitch curve is run along with `pitch_speed`.
+    /// ψ_r at `phi`, with the speed `pitch_speed` along the pitch curve.
     pub(super) fn angle(
         &self,
         program: &Program,

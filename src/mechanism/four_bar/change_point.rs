@@ -7,13 +7,12 @@
 //! f² − (b − c)² = (a − d)² − (b − c)² + 4·a·d·sin² θ/2      |a − d| = |b − c|: its root is 2·√(a·d)·sin θ/2
 //! ```
 //!
-//! These roots, signed, are smooth through zero: the linkage leaves the flat position on the other side of AC, with all
-//! transfer functions finite. The root of the sum without a sign would turn the rocker's speed round with a blow. If both are equal,
-//! q = ±a·d·sin θ: a parallelogram (+), an antiparallelogram (−) or a kite. If A meets C (a = d, b = c: kite, Galloway's
-//! mechanism), f itself is 2·a·sin θ/2, signed.
+//! These signed roots are smooth through zero: the linkage leaves the flat position on the other side of AC, with all transfer functions finite. An
+//! unsigned root of the product would reverse the rocker's speed abruptly. If both are equal, q = ±a·d·sin θ: a parallelogram (+), an
+//! antiparallelogram (−) or a kite. If A meets C (a = d, b = c: kite, Galloway's mechanism), f itself is 2·a·sin θ/2, signed.
 //!
-//! K. Luck, K.-H. Modler, *Getriebetechnik*, on linkages that go through; E. A. Dijksman, *Motion Geometry of Mechanisms*, on
-//! Galloway's.
+//! K. Luck, K.-H. Modler, *Getriebetechnik*, on linkages that pass change points; E. A. Dijksman, *Motion Geometry of Mechanisms*, on Galloway's
+//! mechanism.
 
 use core::f64::consts::{PI, TAU};
 
@@ -33,7 +32,7 @@ pub(super) struct Kept {
     stretched: bool,
     /// |a − d| = |b − c|: flat at θ = 0, coupler and rocker folded.
     folded: bool,
-    /// Of q, where the roots are positive.
+    /// Sign of q, where the roots are positive.
     sign: f64,
 }
 
@@ -54,24 +53,24 @@ impl Kept {
 }
 
 impl FourBar {
-    /// How close to a change point (rad) the forces in the joints are not given. They grow in proportion to 1/distance, and there they
-    /// are a matter of play and stiffness, and of what guides the linkage: a second crank, teeth, another coupler.
+    /// Distance from a change point (rad) within which the forces in the joints are not determined. They grow in proportion to 1/distance, and depend
+    /// there on play and stiffness, and on the linkage's guide: a second crank, teeth, another coupler.
     pub const FLAT: f64 = 1e-3;
 
-    /// A four-bar that can lie flat, s + l = p + q, and is guided so that it stays on its branch: parallelogram and
-    /// antiparallelogram, kite, Galloway's mechanism, and any other of [`Grashof::ChangePoint`](crate::mechanism::Grashof).
+    /// A four-bar that can lie flat, s + l = p + q, and is guided so that it stays on its branch: parallelogram and antiparallelogram, kite,
+    /// Galloway's mechanism, and any other of [`Grashof::ChangePoint`](crate::mechanism::Grashof).
     ///
-    /// `side` says on which side of AC the pin B lies where the crank is first to the left of OC from the start on, 0 < φ − γ < π; beyond
-    /// the flat position it is on the other one. [`Side::Left`] makes a parallelogram of a = c, b = d, [`Side::Right`] an
-    /// antiparallelogram. A linkage with two change points a turn comes back after a turn, one with a single one after
-    /// two: it is driven over a stroke.
+    /// `side` is the side of AC with the pin B in the first half turn, from the start on, with the crank to the left of OC, 0 < φ − γ < π; beyond the
+    /// flat position it is the other side. With a = c, b = d, [`Side::Left`] gives a parallelogram, [`Side::Right`] an antiparallelogram. A linkage
+    /// with two change points per turn returns after a turn. One with a single change point returns after two turns, and can only be driven over a
+    /// stroke.
     ///
-    /// Accuracy: the parallelogram's links translate and turn exactly; joints close to 1e-12 at and beside change points
-    /// (test `joints_close_through_change_points`).
+    /// Accuracy: the parallelogram's links translate and turn exactly; joints close to 1e-12 at and near change points (test
+    /// `joints_close_through_change_points`).
     ///
     /// # Errors
-    /// Those of [`over_stroke`](Self::over_stroke), with a dead point that is no change point; a linkage that never lies flat; a
-    /// full turn of one that comes back after two; the branch of a kite on which the rocker stands still.
+    /// As [`over_stroke`](Self::over_stroke), with a dead point that is not a change point; a linkage that never lies flat; a full turn of one that
+    /// returns after two; the branch of a kite with a stationary rocker.
     pub fn through_change_points(
         dimensions: FourBarDimensions,
         side: Side,
@@ -117,7 +116,7 @@ impl FourBar {
         }
         let mut ends = heapless::Vec::<[f64; 2], 2>::new();
         let [inner, outer] = bare.limits();
-        // Pushes cannot fail: two places.
+        // Pushes cannot fail: capacity of two.
         if !folded {
             let _ = ends.push([least, inner]);
         }
@@ -159,13 +158,13 @@ impl FourBar {
         bare.with_angles_from(from)
     }
 
-    /// The crank angles (rad, 0 to 2π) of the change points through which the linkage is kept on its branch; none of other linkages.
+    /// The crank angles (rad, 0 to 2π) of the change points through which the linkage is kept on its branch; empty for other linkages.
     #[must_use]
     pub fn change_points(&self) -> heapless::Vec<f64, 2> {
         let mut found = heapless::Vec::new();
         let gamma = self.ground_angle();
         if let Some(kept) = &self.kept {
-            // Pushes cannot fail: two places.
+            // Pushes cannot fail: capacity of two.
             if kept.folded {
                 let _ = found.push(beyond(gamma));
             }
@@ -176,7 +175,7 @@ impl FourBar {
         found
     }
 
-    /// The side of AC on which B lies at a crank angle, +1 for left; 0 at a change point.
+    /// The side of AC with B at a crank angle, +1 for left; 0 at a change point.
     pub(super) fn side_at(&self, phi: f64) -> f64 {
         match &self.kept {
             Some(kept) => kept.side(phi - self.ground_angle()),
@@ -210,7 +209,7 @@ impl FourBar {
         let scale = 2.0 * math::sqrt(crank * d);
         let root = |square: Transfer| (square.value > 0.0).then(|| square.sqrt());
         if kept.folded && same(crank, d) {
-            // A meets C: AC = f·e with a signed f and e = (cos, sin) of (φ + γ)/2 − π/2.
+            // A meets C: AC = f·e with signed f, and e = (cos, sin) of (φ + γ)/2 − π/2.
             let span = sin * (2.0 * crank);
             let height = root(Transfer::constant(sum * sum) - span * span)? * (0.5 * kept.sign);
             let line = (phi + Transfer::constant(gamma - PI)) * 0.5;
@@ -241,8 +240,8 @@ impl FourBar {
         };
         let q = first * second * (0.5 * kept.sign);
         let [from_a, from_c] = dyad::placed([a, c], ([x, y], square), [b, rocker], q);
-        // The half angle of a link with AC has the tangent ±√((c − b + f)·(c + b − f))/√((b + f − c)·(b + f + c)), and its two roots
-        // have the signs of those of q.
+        // The half angle of a link with AC has the tangent ±√((c − b + f)·(c + b − f))/√((b + f − c)·(b + f + c)), and its two roots have the signs
+        // of q's.
         let half = |own: f64, other: f64| match (kept.folded && other > own, kept.stretched) {
             (false, _) => 0.0,
             (true, false) => 0.5 * PI,

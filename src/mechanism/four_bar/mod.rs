@@ -10,9 +10,9 @@
 //!
 //! The upper sign is [`Side::Left`]: B to the left of the directed line from A to C.
 //!
-//! The crank turns fully if a + d < b + c and |a − d| > |b − c| (see [`Grashof`]). Over a part of the turn it may be driven
-//! as long as it meets no dead point, f = b + c or f = |b − c|, where coupler and rocker are stretched or folded. Where the whole
-//! linkage lies flat there, it is a change point, and a linkage that is guided through it goes on.
+//! The crank turns fully if a + d < b + c and |a − d| > |b − c| (see [`Grashof`]). Over a part of the turn it may be driven as long as it meets no
+//! dead point, f = b + c or f = |b − c|, where coupler and rocker are stretched or folded. Where the whole linkage lies flat, that is a change point,
+//! and a guided linkage passes through it.
 
 mod change_point;
 mod transmission;
@@ -32,7 +32,7 @@ use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 use change_point::Kept;
 
-/// Distance kept from a dead point, as a share of b + c, so that no position within the range fails by a rounding.
+/// Margin to a dead point, as a share of b + c, so that rounding does not make a position within the range fail.
 const HAIR: f64 = 1e-12;
 
 /// Dimensions of a four-bar linkage (m).
@@ -45,15 +45,14 @@ pub struct FourBarDimensions {
     pub coupler: f64,
     /// Rocker length c > 0.
     pub rocker: f64,
-    /// The rocker's pivot C = [x, y], the crank's being [0, 0]; not at it.
+    /// The rocker's pivot C = [x, y], with the crank's at [0, 0]; not at the same point.
     pub pivot: [f64; 2],
 }
 
 /// A four-bar linkage driven at the crank.
 ///
-/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`COUPLER`](Self::COUPLER) (frame at A along AB),
-/// [`ROCKER`](Self::ROCKER) (frame at C along CB). Angles are continuous in φ over any number of turns; at φ = 0 (at the
-/// start of a stroke) those of coupler and rocker lie in (−π, π].
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`COUPLER`](Self::COUPLER) (frame at A along AB), [`ROCKER`](Self::ROCKER) (frame at C along
+/// CB). Angles are continuous in φ over any number of turns; at φ = 0 (at the start of a stroke) those of coupler and rocker lie in (−π, π].
 ///
 /// Accuracy: positions and transfer functions agree with 50-digit golden data to 1e-12, the reduction to 1e-11 of the
 /// column's largest value (test `four_bar_golden`); joint reactions to 1e-10 (test `four_bar_reactions_golden`).
@@ -78,12 +77,12 @@ impl FourBar {
     /// Index of the rocker.
     pub const ROCKER: usize = 2;
 
-    /// A four-bar whose crank turns fully: crank-rocker or double-crank (drag link). B lies on the `side` of AC; the links
-    /// are crank, coupler, rocker.
+    /// A four-bar whose crank turns fully: crank-rocker or double-crank (drag link). B lies on the `side` of AC; the links are crank, coupler,
+    /// rocker.
     ///
     /// # Errors
-    /// A length that is not positive; C at O; a link longer than the other three together; a crank that cannot turn
-    /// fully, with the reason and the angles that it reaches.
+    /// A length that is not positive; C at O; a link longer than the other three together; a crank that cannot turn fully, with the reason and the
+    /// angles that it reaches.
     pub fn new(
         dimensions: FourBarDimensions,
         side: Side,
@@ -102,12 +101,12 @@ impl FourBar {
         bare.with_angles_from(0.0)
     }
 
-    /// A four-bar whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths that can be assembled, as long as
-    /// no dead point lies in the stroke. The rest as for [`new`](Self::new).
+    /// A four-bar whose crank only swings over a `stroke` `[from, to]` (rad): any lengths that can be assembled, if no dead point lies in the stroke.
+    /// The rest as for [`new`](Self::new).
     ///
     /// # Errors
-    /// A length that is not positive; C at O; a link longer than the other three together; a stroke that is empty; a
-    /// start where coupler and rocker do not meet; a dead point in the stroke, with its angle.
+    /// A length that is not positive; C at O; a link longer than the other three together; an empty stroke; a start where coupler and rocker do not
+    /// meet; a dead point in the stroke, with its angle.
     pub fn over_stroke(
         dimensions: FourBarDimensions,
         side: Side,
@@ -169,7 +168,7 @@ impl FourBar {
         Ok(bare)
     }
 
-    /// Fixes the whole turns of the angles: within (−π, π] at `phi`.
+    /// Sets the whole turns of the angles: within (−π, π] at `phi`.
     fn with_angles_from(mut self, phi: f64) -> Result<Self, BuildError> {
         let [_, coupler, rocker] = self.place(phi)?;
         self.turns = [coupler, rocker].map(|frame| math::floor(0.5 - frame.psi.value / TAU) * TAU);
@@ -192,20 +191,20 @@ impl FourBar {
         self.dimensions
     }
 
-    /// On which side of AC the pin B lies; of a linkage that is kept on its branch
-    /// [through change points](Self::through_change_points), while the crank is to the left of OC.
+    /// The side of AC with the pin B; for a linkage kept on its branch [through change points](Self::through_change_points), while the crank is to
+    /// the left of OC.
     pub const fn side(&self) -> Side {
         self.side
     }
 
-    /// Which links turn fully.
+    /// The kind of the linkage: which links turn fully.
     #[must_use]
     pub fn grashof(&self) -> Grashof {
         Grashof::of(self.lengths())
     }
 
-    /// The crank angles (rad, 0 to 2π) at which the rocker reverses: crank and coupler stretched, and folded. None if the
-    /// rocker turns fully, or over a stroke.
+    /// The crank angles (rad, 0 to 2π) where the rocker reverses: crank and coupler stretched, and folded. `None` if the rocker turns fully, or over
+    /// a stroke.
     #[must_use]
     pub fn rocker_dead_centres(&self) -> Option<[f64; 2]> {
         if self.domain != Domain::Turn || self.grashof() != Grashof::CrankRocker {
@@ -224,8 +223,8 @@ impl FourBar {
         Some([beyond(stretched), beyond(folded)])
     }
 
-    /// The crank angles (rad, 0 to 2π) at which the rocker has the angle `psi` (rad): none, one or two. Of a linkage that comes
-    /// back after two turns, those of its first.
+    /// The crank angles (rad, 0 to 2π) where the rocker has the angle `psi` (rad): zero, one or two. For a linkage that returns after two turns,
+    /// those of the first.
     #[must_use]
     pub fn crank_angles(&self, psi: f64) -> heapless::Vec<f64, 2> {
         let (sin, cos) = math::sin_cos(psi);
@@ -271,7 +270,7 @@ impl FourBar {
         [math::abs(b - c), b + c]
     }
 
-    /// f between which coupler and rocker can move, kept off the dead points by a hair.
+    /// The range of f in which coupler and rocker can move, with a margin to the dead points.
     fn reach(&self) -> [f64; 2] {
         let [folded, stretched] = self.limits();
         let hair = HAIR * stretched;
@@ -288,7 +287,7 @@ impl FourBar {
         math::sqrt(x * x + y * y)
     }
 
-    /// The first crank angle from `from` on at which |AC| has one of some lengths; infinite if there is none.
+    /// The first crank angle from `from` on where |AC| has one of these lengths; infinite if there is no such angle.
     fn first(&self, spans: &[f64], from: f64) -> f64 {
         let places = spans.iter().filter_map(|span| self.crank_angle_of(*span));
         places
@@ -302,7 +301,7 @@ impl FourBar {
         math::atan2(self.dimensions.pivot[1], self.dimensions.pivot[0])
     }
 
-    /// The crank angles γ ∓ θ at which |AC| is `span`, if there are any.
+    /// The crank angles γ ∓ θ where |AC| is `span`, if there are any.
     fn crank_angle_of(&self, span: f64) -> Option<[f64; 2]> {
         let (a, d) = (self.dimensions.crank, self.ground);
         let cos = (a * a + d * d - span * span) / (2.0 * a * d);
@@ -313,8 +312,8 @@ impl FourBar {
         })
     }
 
-    /// The crank angles [from, to] between which a linkage that cannot turn moves; where it has two such ranges, mirror
-    /// images at the ground line, the one to the left of OC.
+    /// The crank angles [from, to] between which a linkage that cannot turn moves; if there are two such ranges, symmetric about the ground line, the
+    /// one to the left of OC.
     fn crank_range(&self) -> [f64; 2] {
         let [folded, stretched] = self.limits().map(|span| self.crank_angle_of(span));
         let gamma = self.ground_angle();
@@ -326,7 +325,7 @@ impl FourBar {
         }
     }
 
-    /// Crank, coupler and rocker, the angles continuous in φ.
+    /// Crank, coupler and rocker, with angles continuous in φ.
     fn place(&self, phi: f64) -> Result<[Frame; 3], PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
@@ -338,7 +337,7 @@ impl FourBar {
         } else {
             let lengths = [self.dimensions.coupler, self.dimensions.rocker];
             let [coupler, rocker] = dyad::pinned(a, c, lengths, self.side).ok_or(dead)?;
-            // Coupler and rocker stay on one side of AC, so their angles follow without a jump.
+            // Coupler and rocker stay on one side of AC, so that their angles do not jump.
             let (line, quarter) = (self.line(phi, [a, c]), 0.5 * PI * self.side.sign());
             [(coupler, line + quarter), (rocker, line + PI - quarter)]
         };
@@ -362,7 +361,7 @@ impl FourBar {
     }
 }
 
-/// The angle that is equal to `angle` but for whole turns and lies in [0, 2π).
+/// The equivalent of `angle` in [0, 2π).
 pub(super) fn beyond(angle: f64) -> f64 {
     let rest = angle - math::floor(angle / TAU) * TAU;
     if rest < TAU { rest } else { 0.0 }
@@ -390,7 +389,7 @@ impl Jointed for FourBar {
         ]))
     }
 
-    /// Not within [`FLAT`](Self::FLAT) of a change point.
+    /// False within [`FLAT`](Self::FLAT) of a change point.
     fn determined(&self, phi: f64) -> bool {
         self.kept
             .is_none_or(|kept| !kept.is_flat(phi - self.ground_angle()))

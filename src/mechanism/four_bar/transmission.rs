@@ -1,4 +1,4 @@
-//! How well the coupler pushes the rocker.
+//! Transmission of force from the coupler to the rocker.
 
 use crate::machine::error::PoseError;
 use core::f64::consts::{PI, TAU};
@@ -8,21 +8,20 @@ use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
 impl FourBar {
-    /// Transmission angle μ (rad) between coupler and rocker at B, 0 to π, with its derivatives by φ:
+    /// Transmission angle μ (rad) between coupler and rocker at B, 0 to π, with its derivatives with respect to φ:
     ///
     /// ```text
     /// cos μ = (b² + c² − f²)/(2·b·c)
     /// ```
     ///
-    /// The rocker is pushed best at 90° and not at all at 0° and 180°, as at a change point. Rule of thumb (H. Alt, 1932): not below 40° and not
-    /// above 140°.
+    /// The transmission is best at 90°, and zero at 0° and 180°, as at a change point. Rule of thumb (H. Alt, 1932): between 40° and 140°.
     ///
     /// # Errors
     /// No position at `phi`.
     pub fn transmission_angle(&self, phi: f64) -> Result<Transfer, PoseError> {
         let [_, coupler, rocker] = self.place(phi)?;
         let turned = rocker.psi - coupler.psi;
-        // From BA to BC as from AB to CB; which way round depends on the side.
+        // From BA to BC as from AB to CB; the direction depends on the side.
         let angle = turned * self.side_at(phi);
         let whole = math::floor(angle.value / TAU) * TAU;
         Ok(angle - Transfer::constant(whole))
@@ -33,7 +32,7 @@ impl FourBar {
     pub fn transmission_angle_range(&self) -> [f64; 2] {
         let (b, c) = (self.dimensions.coupler, self.dimensions.rocker);
         let [folded, stretched] = self.reach();
-        // At a dead point, where only a linkage lies that goes through it, the arc cosine would make a rounding its root.
+        // At a dead point, which only a linkage with change points reaches, the arc cosine would return the square root of a rounding error.
         let angle = |span: f64| {
             if span <= folded {
                 0.0

@@ -1,4 +1,4 @@
-//! The linkage as a mechanism: assembled, followed over its range, and kept there.
+//! The linkage as a mechanism: assembled, and followed over its range.
 
 use core::f64::consts::TAU;
 
@@ -16,30 +16,27 @@ use super::solver::Solved;
 use super::walk::{Gait, TRUSTED};
 use super::{Linkage, Pair, Pose};
 
-/// Largest gap (rad, or of the linkage's size) between the ends of a turn that closes.
+/// Largest gap (rad, or relative to the linkage's size) between the ends of a turn that closes.
 const CLOSED: f64 = 1e-9;
-/// The same of one that begins in the window about a change point.
+/// The same for a turn that begins in the window around a change point.
 const CLOSED_FLAT: f64 = 1e-6;
-/// How close to a change point the forces in the joints are not given (rad, or of the linkage's size).
+/// Distance from a change point within which the forces in the joints are not determined (rad, or relative to the linkage's size).
 const FLAT: f64 = 0.01;
 
-/// A coordinate at a station: its value and its first transfer function.
+/// The coordinates of all links at a station: value and first transfer function.
 type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
 
 /// A linkage that was assembled and followed over the drive's whole range: a mechanism.
 ///
-/// `STATIONS` positions (at least two) are kept, evenly spaced; a position between two is found from both of them. More of
-/// them cost memory, 48 bytes a link, and save steps of Newton's method: from about 200 on, one step is enough for usual
-/// linkages.
+/// `STATIONS` positions (at least two) are stored, evenly spaced; a position between two is computed from both. More stations cost memory, 48 bytes
+/// per link each, and save steps of Newton's method: from about 200 on, one step is enough for usual linkages.
 ///
-/// Accuracy: positions 1e-12, transfer functions and reduced inertia 1e-11 of the largest value, against closed forms and
-/// golden data (tests `four_bar_golden_as_a_linkage` and those of `library_as_linkages.rs`). Cost: proportional to the number
-/// of positions; in each, the sum over the [groups](Linkage::group_sizes), one of which costs at most the cube of its size
-/// (bench `linkage`, docs/performance.md).
+/// Accuracy: positions 1e-12, transfer functions and reduced inertia 1e-11 of the largest value, against closed forms and golden data (tests
+/// `four_bar_golden_as_a_linkage` and those of `library_as_linkages.rs`). Cost: proportional to the number of positions; for each, the sum over the
+/// [groups](Linkage::group_sizes), each at most the cube of its size (bench `linkage`, docs/performance.md).
 ///
-/// `FLATS` is the most change points in its range, and 0 for a linkage that passes none.
-/// In a window about a change point, at most 0.3 rad to either side, the coordinates are interpolated; how well, says
-/// [`assemble_through_change_points`](Linkage::assemble_through_change_points).
+/// `FLATS` is the greatest number of change points in its range, 0 for a linkage that passes none. In a window around a change point, at most 0.3 rad
+/// to each side, the coordinates are interpolated; [`assemble_through_change_points`](Linkage::assemble_through_change_points) gives the accuracy.
 #[derive(Clone, Debug)]
 pub struct Assembly<
     const LINKS: usize,
@@ -53,19 +50,19 @@ pub struct Assembly<
     stations: [Station<LINKS>; STATIONS],
     /// Signs of the determinants on this branch, below the first change point.
     signs: u64,
-    /// The change points whose windows reach into the domain, one after the other.
+    /// The change points with windows that reach into the domain, in order.
     crossings: heapless::Vec<Crossing<LINKS>, FLATS>,
-    /// How far each link's angle advances in a turn (rad).
+    /// Advance of each link's angle per turn (rad).
     turn: [f64; LINKS],
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
-    /// Assembles the linkage at the drive's position `phi` (rad, or m) from an approximate drawing, one pose a link, and
-    /// follows it over the `domain`.
+    /// Assembles the linkage at the drive's position `phi` (rad, or m) from an approximate drawing, one pose per link, and follows it over the
+    /// `domain`.
     ///
     /// # Errors
-    /// A drawing far outside the domain, or one from which no position is found: which pair stays open and how far. A dead point of the drive or a change
-    /// of branch: where, and at which pair. A turn after which a link is not where it was.
+    /// A drawing far outside the domain, or without a position nearby: with the pair that stays open and its gap. A dead point of the drive or a
+    /// change of branch: with its place and pair. A link that is in another place after a turn.
     pub fn assemble<const STATIONS: usize>(
         self,
         domain: Domain,
@@ -75,23 +72,23 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         self.assemble_along(domain, phi, drawing)
     }
 
-    /// Assembles a linkage as [`assemble`](Self::assemble) does, and follows it through its change points, on its branch.
+    /// Assembles a linkage like [`assemble`](Self::assemble), and follows it through its change points, on its branch.
     ///
-    /// In a change point bodies come into line so that the linkage could go on in two ways: antiparallelogram, kite, a slider-crank with
-    /// crank and rod of the same length. Something guides the linkage there, so that it goes on smoothly: a second crank, teeth,
-    /// another coupler. The drawing names the branch, so it must not be drawn in a change point. All transfer functions are finite;
-    /// the forces in the joints grow towards it without bound and are [not determined](Jointed::determined) within [`flat`](Assembly::flat).
+    /// At a change point bodies are in line, so that the linkage could continue in two ways: antiparallelogram, kite, a slider-crank with crank and
+    /// rod of the same length. A guide makes the linkage continue smoothly: a second crank, teeth, another coupler. The drawing determines the
+    /// branch, and must not be drawn at a change point. All transfer functions are finite. The forces in the joints grow without bound towards the
+    /// change point, and are [not determined](Jointed::determined) within [`flat`](Assembly::flat).
     ///
-    /// `FLATS` is the most change points in the range; one at the start of a turn counts twice. In a window about each the coordinates are
-    /// interpolated: positions to 1e-12, first, second and third transfer functions to 1e-11, 5e-9 and 1e-6 (of 1 or the value), for lengths that
-    /// differ by half or more, against the closed forms of parallelogram, antiparallelogram, kite, Galloway's mechanism and folded slider-crank (tests of
-    /// `linkage_change_points.rs`).
-    /// Lengths count as equal if they are to 1e-12 of themselves; where they differ by more, the linkage has a dead point or a
-    /// steep place instead, and no change point. Towards equal lengths of crank and ground an antiparallelogram becomes steep, and the
-    /// accuracy less: 2e-10 in position and 1e-5 of the largest third transfer function at 0.28 m and 0.3 m (test `a_steep_antiparallelogram_is_less_exact`).
+    /// `FLATS` is the greatest number of change points in the range; one at the start of a turn counts twice. In a window around each, the
+    /// coordinates are interpolated: positions to 1e-12, first, second and third transfer functions to 1e-11, 5e-9 and 1e-6 (relative to 1 or the
+    /// value), for lengths that differ by half or more, against the closed forms of parallelogram, antiparallelogram, kite, Galloway's mechanism and
+    /// folded slider-crank (tests of `linkage_change_points.rs`). Lengths count as equal to a relative 1e-12; with a larger difference the linkage
+    /// has a dead point or a steep place instead of a change point. Towards equal lengths of crank and ground an antiparallelogram becomes steep and
+    /// less accurate: 2e-10 in position and 1e-5 of the largest third transfer function at 0.28 m and 0.3 m (test
+    /// `a_steep_antiparallelogram_is_less_exact`).
     ///
     /// # Errors
-    /// Those of [`assemble`](Self::assemble), with a dead point that is no change point; more change points than `FLATS`; none
+    /// As [`assemble`](Self::assemble), with a dead point that is not a change point; more change points than `FLATS`; no change point
     /// ([`LinkageError::NoChangePoint`]).
     pub fn assemble_through_change_points<const STATIONS: usize, const FLATS: usize>(
         self,
@@ -107,7 +104,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Ok(assembly)
     }
 
-    /// Out of line, so that its places leave the stack with it.
+    /// Not inlined, so that its places leave the stack with it.
     #[inline(never)]
     fn assemble_along<const STATIONS: usize, const FLATS: usize>(
         self,
@@ -196,9 +193,8 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         })
     }
 
-    /// How far a link's angle has advanced in a turn, if the link has returned: the same place, the same angle except for whole
-    /// turns, the same first transfer functions. A balanced wheel that only rolls with other
-    /// wheels may stop at any angle.
+    /// Advance of a link's angle per turn, if the link has returned: the same position, the same angle except for whole turns, the same first
+    /// transfer functions. A balanced wheel that only rolls with other wheels may stop at any angle.
     fn closes(
         &self,
         link: usize,
@@ -227,7 +223,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
     }
 
-    /// Whether nothing but the angles of other wheels depends on the angle of this link, and that in proportion.
+    /// Whether only the angles of other wheels depend on the angle of this link, in proportion.
     fn only_rolls(&self, link: usize) -> bool {
         let is_cam = |pair: usize| matches!(self.pairs.get(pair), Some(Pair::Cam { .. }));
         let mut held = self.structure.with_angle_of(link);
@@ -248,7 +244,7 @@ impl<
         &self.linkage
     }
 
-    /// Another mass of a link: a new payload. The positions stay.
+    /// Sets another mass of a link: a new payload. The positions stay the same.
     ///
     /// # Errors
     /// A link that does not exist.
@@ -256,12 +252,11 @@ impl<
         self.linkage.set_link(index, link)
     }
 
-    /// How well the drive moves the linkage at `phi`: the smallest |det A|/Π‖column‖ over the groups' Jacobians A, with
-    /// the index of the pair that it belongs to. 0 at a dead point, 1 at best; of a two-link group with pins at the
-    /// frames' origins it is the sine of the transmission angle.
+    /// Quality of transmission at `phi`: the smallest |det A|/Π‖column‖ over the groups' Jacobians A, with the index of its pair. 0 at a dead point,
+    /// 1 at best; for a two-link group with pins at the frames' origins it is the sine of the transmission angle.
     ///
     /// # Errors
-    /// Those of [`frames`](Mechanism::frames).
+    /// As [`frames`](Mechanism::frames).
     pub fn quality(&self, phi: f64) -> Result<(f64, usize), PoseError> {
         let mut frames = Frames::new();
         let (solved, _) = self.solved(phi, &mut frames)?;
@@ -303,7 +298,7 @@ impl<
         Ok((place.solved, turns))
     }
 
-    /// A position as whole turns and one in the domain.
+    /// A position as whole turns, and a position in the domain.
     fn within(&self, phi: f64) -> (f64, f64) {
         match self.domain {
             Domain::Turn => {
@@ -328,8 +323,8 @@ impl<
             .map(move |phi| phi.clamp(from, to))
     }
 
-    /// How close to a change point (rad, or m) the forces in the joints are not given: they grow in proportion to 1/distance, and there
-    /// they are a matter of play and stiffness, and of what guides the linkage. 0.01 rad, or as much of the linkage's size.
+    /// Distance from a change point (rad, or m) within which the forces in the joints are not determined: they grow in proportion to 1/distance, and
+    /// depend there on play and stiffness, and on the linkage's guide. 0.01 rad, or that share of the linkage's size.
     pub fn flat(&self) -> f64 {
         FLAT * self.linkage.unit()
     }
@@ -403,7 +398,7 @@ impl<
         self.linkage.drive
     }
 
-    /// Not within [`flat`](Self::flat) of a change point.
+    /// False within [`flat`](Self::flat) of a change point.
     fn determined(&self, phi: f64) -> bool {
         let (_, phi) = self.within(phi);
         let mut all = self.crossings.iter();

@@ -5,13 +5,12 @@ use crate::machine::link::Frame;
 use crate::mechanism::CamProfile;
 use crate::number::transfer::Transfer;
 
-/// The cams of a linkage.
 pub(super) type Cams<const CAMS: usize> = heapless::Vec<PlacedCam, CAMS>;
 
-/// A cam and its follower, placed in a linkage: [`Pair::Cam`](super::Pair::Cam) refers to it.
+/// A cam and its follower, placed in a linkage, for [`Pair::Cam`](super::Pair::Cam).
 ///
-/// The base is a marker on the body that carries the bearings of both, mostly the ground: its point is the cam's axis, the
-/// origin of the [`CamProfile`], and its direction the profile's +x.
+/// The base is a marker on the body with the bearings of both, usually the ground: its point is the cam's axis, the origin of the [`CamProfile`], and
+/// its direction the profile's +x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedCam {
     profile: CamProfile,
@@ -19,7 +18,7 @@ pub struct PlacedCam {
 }
 
 impl PlacedCam {
-    /// The cam with its axis at the point of `base`, the whole arrangement turned into its direction.
+    /// The cam with its axis at the point of `base`, with the whole arrangement turned into its direction.
     #[must_use]
     pub const fn new(profile: CamProfile, base: Marker) -> Self {
         Self { profile, base }
@@ -35,12 +34,12 @@ impl PlacedCam {
         &self.base
     }
 
-    /// The cam's angle θ, by which the program goes.
+    /// The cam's angle θ, the argument of the program.
     fn angle(&self, cam: &Marker, frames: &[Frame]) -> Transfer {
         cam.direction(frames) - self.base.direction(frames)
     }
 
-    /// The follower's coordinate less that which belongs to the displacement `s`(θ): height above the cam's axis, or angle.
+    /// The follower's coordinate minus its value for the displacement `s`(θ): height above the cam's axis, or angle.
     pub(super) fn equation(
         &self,
         [cam, follower]: [&Marker; 2],
@@ -55,7 +54,7 @@ impl PlacedCam {
         coordinate - self.profile.coordinate(s(self.angle(cam, frames)))
     }
 
-    /// s by the program.
+    /// s from the program.
     pub(super) fn displacement(&self, theta: Transfer) -> Transfer {
         self.profile
             .program()

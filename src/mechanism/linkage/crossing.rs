@@ -1,12 +1,12 @@
-//! Through change points: positions in which two branches of a linkage cross.
+//! Passing change points: positions where two branches of a linkage cross.
 //!
-//! On each branch the coordinates are smooth functions of φ there, but the Jacobian of a group is singular: its determinant passes zero
-//! and changes its sign (at a dead point it only touches zero, and there is no position beyond). So a change point is found as a place
-//! that the walk along φ cannot pass, with a solution on either side on which the determinants have opposite signs, and in a
-//! window about it the coordinates are Hermite's polynomial of degree 7 through their values and three derivatives at both ends.
+//! On each branch the coordinates are smooth functions of φ there, but the Jacobian of a group is singular: its determinant passes zero and changes
+//! sign. (At a dead point it only touches zero, and there is no position beyond.) So a change point is a place that the walk along φ cannot pass,
+//! with solutions on both sides whose determinants have opposite signs. In a window around it the coordinates are Hermite polynomials of degree 7
+//! through their values and three derivatives at both ends.
 //!
-//! The width of the window is a compromise: the polynomial's error grows as h⁸ (h⁵ in the third derivative), that of the positions at its
-//! ends, which the solver finds by that Jacobian, falls as 1/h (1/h⁴). It is the width at which two polynomials agree best.
+//! The width of the window is a compromise. The error of the polynomial grows as h⁸ (h⁵ in the third derivative); the error of the positions at its
+//! ends, which the solver finds by that Jacobian, falls as 1/h (1/h⁴). The width used is that with the best agreement of two polynomials.
 
 use core::f64::consts::SQRT_2;
 
@@ -20,21 +20,22 @@ use super::Linkage;
 use super::solver::Solved;
 use super::walk::{Gait, Place, TRUSTED, predicted};
 
-/// Half the first window, which finds the branch on the far side (rad, or of the linkage's size).
+/// Half the first window, which finds the branch on the far side (rad, or relative to the linkage's size).
 const FIRST: f64 = 2e-3;
-/// Half the window in which the change point is placed.
+/// Half the window that locates the change point.
 const NARROW: f64 = 1e-4;
-/// Half the narrowest and the widest window in which the coordinates are interpolated.
+/// Half the narrowest and the widest window for interpolation.
 const WIDTHS: [f64; 2] = [8e-3, 0.3];
-/// Two windows' third derivatives agree so well (of the largest, at least of 1) where branches cross; not where they only come close.
+/// Agreement of two windows' third derivatives (relative to the largest, at least 1) where branches cross; branches that only come close do not reach
+/// it.
 const AGREED: f64 = 1e-4;
 
-/// A change point with the window about it.
+/// A change point with its window.
 #[derive(Clone, Debug)]
 pub(super) struct Crossing<const LINKS: usize> {
-    /// Where the branches cross (rad, or m).
+    /// Crossing of the branches (rad, or m).
     pub(super) phi: f64,
-    /// The ends of the window.
+    /// Ends of the window.
     ends: [f64; 2],
     solved: [Solved; 2],
     /// x, y and ψ of each link at both ends.
@@ -42,7 +43,7 @@ pub(super) struct Crossing<const LINKS: usize> {
 }
 
 impl<const LINKS: usize> Crossing<LINKS> {
-    /// Between two places on one branch.
+    /// The crossing between two places on one branch.
     fn between(phi: f64, sides: [&Place; 2]) -> Self {
         let mut coordinates = [[[Transfer::constant(0.0); 3]; LINKS]; 2];
         for (end, side) in coordinates.iter_mut().zip(sides) {
@@ -73,12 +74,12 @@ impl<const LINKS: usize> Crossing<LINKS> {
         self.solved[1].signs
     }
 
-    /// How far the window reaches to either side.
+    /// Half the width of the window.
     fn half(&self) -> f64 {
         0.5 * (self.ends[1] - self.ends[0])
     }
 
-    /// The upper end of the window, of a linkage of `count` links.
+    /// The upper end of the window, for a linkage of `count` links.
     pub(super) fn upper(&self, count: usize) -> Place {
         self.end(1, count)
     }
@@ -86,7 +87,7 @@ impl<const LINKS: usize> Crossing<LINKS> {
     fn end(&self, end: usize, count: usize) -> Place {
         let links = self.coordinates[end].iter().take(count);
         let frames = links.map(|[x, y, psi]| Frame::turned([*x, *y], *psi));
-        // A window ends so far from where the determinants are zero that the first step of the way may do without them.
+        // A window ends far enough from the zero of the determinants that the first step can do without them.
         let unknown = [0.0; _];
         Place::new(self.ends[end], self.solved[end], frames.collect(), &unknown)
     }
@@ -116,7 +117,7 @@ impl<const LINKS: usize> Crossing<LINKS> {
         }
     }
 
-    /// How much two windows about the same change point differ there: in the third derivatives, of 1 or their largest.
+    /// Difference of two windows around the same change point: in the third derivatives there, relative to 1 or their largest.
     fn differs(&self, other: &Self, count: usize, unit: f64) -> f64 {
         let [mut here, mut there] = [Frames::new(), Frames::new()];
         self.place(self.phi, count, &mut here);
@@ -133,14 +134,14 @@ impl<const LINKS: usize> Crossing<LINKS> {
     }
 }
 
-/// The polynomial of degree 7 through values and three derivatives by φ at the ends of a window, at u = 0 to 1 of its `width`: Taylor's
-/// of third order at u = 0, and u⁴ times one that makes up the difference at u = 1.
+/// The polynomial of degree 7 through values and three derivatives with respect to φ at the ends of a window, at u = 0 to 1 of its `width`: the
+/// third-order Taylor polynomial at u = 0, plus u⁴ times a polynomial for the difference at u = 1.
 fn hermite([from, to]: [Transfer; 2], width: f64, u: Transfer) -> Transfer {
     let taylor = |f: Transfer| {
         let (w2, w3) = (width * width, width * width * width);
         [f.value, f.d1 * width, f.d2 * w2 / 2.0, f.d3 * w3 / 6.0]
     };
-    // From the value at the lower end, so that large angles cost no digits.
+    // Relative to the value at the lower end, so that large angles lose no digits.
     let base = from.value;
     let [_, a1, a2, a3] = taylor(from);
     let [b0, b1, b2, b3] = taylor(to);
@@ -167,7 +168,7 @@ fn hermite([from, to]: [Transfer; 2], width: f64, u: Transfer) -> Transfer {
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
-    /// The change point just ahead of a place, on the way up (`way` = 1) or down (−1); none where the way ends, or only becomes steep.
+    /// The change point directly ahead of a place, upwards (`way` = 1) or downwards (−1); `None` where the way ends, or only becomes steep.
     pub(super) fn cross(&self, stalled: &Place, way: f64, span: f64) -> Option<Crossing<LINKS>> {
         let unit = self.unit();
         let gait = Gait::strict(span);
@@ -216,13 +217,13 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         (crossed && far.solved.correction <= TRUSTED).then_some(far)
     }
 
-    /// Where branches cross close ahead of a place, on the way up (`way` = 1) or down (−1).
+    /// The crossing of branches directly ahead of a place, upwards (`way` = 1) or downwards (−1).
     pub(super) fn flat_ahead(&self, place: &Place, way: f64) -> Option<f64> {
         let far = self.beyond(place, place.phi + way * NARROW * self.unit())?;
         Some(root(place, &far))
     }
 
-    /// From a place to another φ, over the change points on the way, which are kept. Ends in the last window if that holds `to`.
+    /// Walks from a place to another φ, through the change points on the way, which are stored. Ends in the last window if it contains `to`.
     pub(super) fn walk_through<const FLATS: usize>(
         &self,
         place: &mut Place,
@@ -241,7 +242,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
                 return Err(stopped.into());
             }
             let Some(crossing) = self.cross(place, way, span) else {
-                // Not a change point: as close to it as without one.
+                // Not a change point: walk as close to it as without change points.
                 self.walk(place, to, Gait::strict(span))?;
                 break;
             };
@@ -256,13 +257,13 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Ok(())
     }
 
-    /// What an angle of 1 rad is for the drive: 1, or the linkage's size (m) if it slides.
+    /// The drive's equivalent of an angle of 1 rad: 1, or the linkage's size (m) if it slides.
     pub(super) fn unit(&self) -> f64 {
         if self.slides() { self.size } else { 1.0 }
     }
 }
 
-/// Why a way was not found.
+/// Why the walk failed.
 pub(super) enum PassError {
     Pose(PoseError),
     TooMany,
@@ -274,7 +275,7 @@ impl From<PoseError> for PassError {
     }
 }
 
-/// Where the determinant of a group is zero between two places close to that.
+/// The zero of a group's determinant between two places close to it.
 fn root(near: &Place, far: &Place) -> f64 {
     let group = (near.solved.signs ^ far.solved.signs).trailing_zeros() as usize;
     let [near_to, far_to] = [near, far].map(|side| {

@@ -1,26 +1,26 @@
-//! Why links and joints are no linkage, or a linkage does not go through its range.
+//! Why links and joints do not form a linkage, or a linkage cannot move through its range.
 
 use core::fmt;
 
 use crate::machine::{MachineError, PoseError};
 use crate::number::error::{Curable, RangeError, error};
 
-/// Why a linkage cannot be built, or not be followed over its drive's range. Joints are counted from 0.
+/// Why a linkage cannot be created, or not be followed over its drive's range. Joints count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum LinkageError {
     /// A quantity outside its range.
     Range(RangeError),
-    /// A position that cannot be taken: where, and at which joint.
+    /// An impossible position: its place and joint.
     Pose(PoseError),
-    /// Links and joints that are no machine: another number of freedoms than one, a link or a joint that does not exist.
+    /// Links and joints that do not form a machine: not exactly one degree of freedom, a link or a joint that does not exist.
     Machine(MachineError),
-    /// The joint holds links that other joints hold already, while other links are free.
+    /// The joint constrains links that other joints constrain already, while other links are free.
     OverConstrained {
         /// Index of the joint.
         joint: usize,
-        /// Index of a link that is free.
+        /// Index of a free link.
         free: usize,
     },
     /// A transmission was given as a pair of a linkage.
@@ -32,9 +32,9 @@ pub enum LinkageError {
     },
     /// A pair refers to a cam that the linkage does not have.
     NoSuchCam {
-        /// The index asked for, from 0.
+        /// The requested index, from 0.
         cam: usize,
-        /// How many cams there are.
+        /// Number of cams.
         cams: usize,
     },
     /// The base of a cam is on the cam itself, or on its follower.
@@ -42,14 +42,14 @@ pub enum LinkageError {
         /// Index of the cam.
         cam: usize,
     },
-    /// After a full turn of the drive link, a link is not where it was.
+    /// After a full turn of the drive link, a link is in another place.
     NotClosed {
         /// Index of the link.
         link: usize,
-        /// How far off it is (m, or rad).
+        /// Its gap (m, or rad).
         gap: f64,
     },
-    /// A linkage that is to be kept on its branch through change points passes none.
+    /// A linkage that is to be kept on its branch through change points has none.
     NoChangePoint,
 }
 

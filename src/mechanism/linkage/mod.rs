@@ -1,9 +1,9 @@
 //! Linkages: planar mechanisms of any topology, by continuation along φ.
 //!
-//! Every link has the coordinates x, y, ψ; every pair adds its constraint equations f(q, φ) = 0, (76), the drive one more.
-//! From an approximate drawing Newton's method finds the first position. From there the linkage is followed along φ (79):
-//! a predictor from the transfer functions, Newton's method as corrector, the step halved until it converges on the same
-//! branch. The transfer functions come from the differentiated constraints (77), (78), never from differences.
+//! Every link has the coordinates x, y, ψ; every pair adds its constraint equations f(q, φ) = 0, (76), the drive one more. From an approximate
+//! drawing Newton's method finds the first position. From there the linkage is followed along φ (79): a predictor from the transfer functions,
+//! Newton's method as corrector, the step halved until it converges on the same branch. The transfer functions come from the differentiated
+//! constraints (77), (78), not from differences.
 //!
 //! Kinematics chapter (equations (73)-(84)) of the lecture notes on planar mechanisms; the equations are solved group by
 //! group, the groups of L. V. Assur.
@@ -34,10 +34,10 @@ use crate::number::transfer::Transfer;
 use cam::Cams;
 use structure::{Equation, Structure};
 
-/// s′ of a cam for the structure alone, where any does but 0 and ±1.
+/// s′ of a cam for the analysis of the structure, where any value except 0 and ±1 works.
 const SLOPE: f64 = 0.618_033_988_749_895;
 
-/// Where a link is: origin of its frame (m) and angle (rad).
+/// Position of a link: origin of its frame (m) and angle (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pose {
@@ -50,7 +50,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// A link that stands there.
+    /// The frame of a link in this pose, at rest.
     #[must_use]
     pub fn frame(&self) -> Frame {
         Frame::turned(
@@ -60,8 +60,7 @@ impl Pose {
     }
 }
 
-/// Links and the pairs that connect them, one of them driven: the topology, checked. At most `LINKS` ≤ 16
-/// links, `PAIRS` pairs and `CAMS` cams.
+/// Links and the pairs that connect them, one of them driven: the checked topology. At most `LINKS` ≤ 16 links, `PAIRS` pairs and `CAMS` cams.
 ///
 /// [`assemble`](Self::assemble) turns it into a [`Mechanism`](crate::machine::Mechanism).
 #[derive(Clone, Debug)]
@@ -71,33 +70,31 @@ pub struct Linkage<const LINKS: usize, const PAIRS: usize, const CAMS: usize = 0
     cams: Cams<CAMS>,
     drive: usize,
     structure: Structure<LINKS>,
-    /// Largest distance in a link or between markers of the ground (m): what lengths are measured by.
+    /// Largest distance in a link or between markers of the ground (m): the scale of lengths.
     size: f64,
 }
 
 impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
-    /// A linkage of `links`, held by `pairs` and driven in pair number `drive`, a pin or a guide, whose free coordinate is
-    /// φ: the angle (rad) or way (m) of its second marker against its first.
+    /// A linkage of `links`, connected by `pairs` and driven in pair number `drive`, a pin or a guide, whose free coordinate is φ: the angle (rad) or
+    /// displacement (m) of its second marker against its first.
     ///
     /// # Errors
-    /// Too many links or pairs; a number that is not finite; a pair on a link that does not exist; a drive that is no pin
-    /// or guide; more or fewer than one degree of freedom, 3·n − Σ constraints ≠ 1; a link left free while others are held
-    /// twice.
+    /// Too many links or pairs; a number that is not finite; a pair on a link that does not exist; a drive that is neither pin nor guide; more or
+    /// fewer than one degree of freedom, 3·n − Σ constraints ≠ 1; a link left free while others are constrained twice.
     pub fn new(links: &[Link], pairs: &[Pair], drive: usize) -> Result<Self, LinkageError> {
         Self::with_cams(links, pairs, &[], drive)
     }
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
-    /// A linkage with cams, which [`Pair::Cam`] refers to; else as [`new`](Linkage::new).
+    /// A linkage with cams, for [`Pair::Cam`]; otherwise as [`new`](Linkage::new).
     ///
-    /// A cam's bearings are pairs of their own: the cam turns about the point of its base, and the follower is guided as its
-    /// [`CamProfile`](super::CamProfile) has it, seen from there. The force of the pair acts along the common normal at the
-    /// point of contact; a negative one, for [`contact_force`](crate::mechanism::cam::contact_force), would need a groove.
+    /// A cam's bearings are separate pairs: the cam turns about the point of its base, and the follower is guided as in its
+    /// [`CamProfile`](super::CamProfile), relative to that point. The force of the pair acts along the common normal at the point of contact; a
+    /// negative force (see [`contact_force`](crate::mechanism::cam::contact_force)) would need a groove.
     ///
     /// # Errors
-    /// Those of [`new`](Linkage::new); too many cams; a pair of a cam that does not exist, or one with its base on the cam
-    /// or the follower.
+    /// As [`new`](Linkage::new); too many cams; a pair of a cam that does not exist, or a cam with its base on the cam or the follower.
     pub fn with_cams(
         links: &[Link],
         pairs: &[Pair],
@@ -158,7 +155,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             }) = pairs.get(usize::from(equation.pair))
                 && let Some(placed) = cams.get(*place)
             {
-                // A dwell would hide that the follower depends on the cam.
+                // A dwell would hide the follower's dependence on the cam.
                 let sloped = |theta: Transfer| theta * SLOPE;
                 return placed.equation([cam, follower], frames, sloped).d1;
             }
@@ -180,7 +177,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         &self.links
     }
 
-    /// The same linkage with other masses: a new payload. The geometry stays.
+    /// Sets another mass of a link: a new payload. The geometry stays the same.
     ///
     /// # Errors
     /// A link that does not exist.
@@ -206,7 +203,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         self.structure.groups().map(|group| group.size.into())
     }
 
-    /// Checks an approximate drawing: one pose a link.
+    /// Checks an approximate drawing: one pose per link.
     fn drawing(&self, drawing: &[Pose]) -> Result<Frames, LinkageError> {
         if drawing.len() != self.links.len() {
             return Err(RangeError::BufferTooShort {
@@ -224,7 +221,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 }
 
-/// Largest distance between two markers of the same body, the ground among them (m).
+/// Largest distance between two markers of the same body, including the ground (m).
 fn largest_distance(pairs: &[Pair]) -> f64 {
     let markers = || pairs.iter().flat_map(Pair::markers);
     let mut largest = 0.0_f64;

@@ -1,8 +1,7 @@
 //! Kinematic pairs: the constraint equations f(q, φ) = 0 of a linkage, (76).
 //!
-//! Each equation is written once, with [`Transfer`] arithmetic. Its value is the residual of (76); with the derivatives of
-//! the links' coordinates put in, its derivatives are those of (77), (78) and one order more; with a single derivative
-//! seeded it gives a column of the Jacobian.
+//! Each equation is written once, with [`Transfer`] arithmetic. Its value is the residual of (76). With the derivatives of the links' coordinates
+//! inserted, its derivatives are those of (77), (78) and one order higher; with a single derivative seeded it gives a column of the Jacobian.
 
 use crate::machine::joint::{Body, Joint, Marker, Wrench};
 use crate::machine::link::Frame;
@@ -17,8 +16,7 @@ use super::cam::{Cams, PlacedCam};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Pair {
-    /// A pin, a guide, a rigid connection or a pin in a slot. A [`Joint::Transmission`] is not a pair: its geometry is not
-    /// known.
+    /// A pin, a guide, a rigid connection or a pin in a slot. A [`Joint::Transmission`] is not a pair, because its geometry is unknown.
     Joint(Joint),
     /// Two gears that roll on each other.
     Gears {
@@ -28,7 +26,7 @@ pub enum Pair {
         carrier: Body,
         /// Pitch radii (m); the radius of a ring gear is negative. Their sum is the distance of the centres.
         radii: [f64; 2],
-        /// r₁·(ψ₁ − ψ_c) + r₂·(ψ₂ − ψ_c) (m): which teeth mesh.
+        /// r₁·(ψ₁ − ψ_c) + r₂·(ψ₂ − ψ_c) (m): the phase of the mesh.
         phase: f64,
     },
     /// A pinion that rolls on a rack.
@@ -39,7 +37,7 @@ pub enum Pair {
         rack: Marker,
         /// Pitch radius (m); positive when the pinion lies to the left of the direction.
         radius: f64,
-        /// a·(C − R) + r·(ψ_pinion − ψ_rack) (m): which teeth mesh.
+        /// a·(C − R) + r·(ψ_pinion − ψ_rack) (m): the phase of the mesh.
         phase: f64,
     },
     /// An open belt (or a chain) between two pulleys that turn in the ground.
@@ -51,19 +49,19 @@ pub enum Pair {
         /// r₁·ψ₁ − r₂·ψ₂ (m).
         phase: f64,
     },
-    /// A disc cam that moves a follower, roller or flat face. The roller is part of the follower; its spin is left out.
+    /// A disc cam that moves a follower, roller or flat face. The roller is part of the follower; its spin is not modelled.
     Cam {
-        /// A point of the cam with the direction from which its angle is counted.
+        /// A point of the cam with the zero direction of its angle.
         cam: Marker,
-        /// A point of a follower that translates: the roller's centre, or where the guide's axis meets the face. Of one that
-        /// oscillates the direction: of the arm from its pivot to the roller's centre, or of the face.
+        /// For a translating follower a point: the roller's centre, or where the guide's axis meets the face. For an oscillating one the direction:
+        /// of the arm from its pivot to the roller's centre, or of the face.
         follower: Marker,
         /// Index of the [`PlacedCam`] in the linkage.
         place: usize,
     },
 }
 
-/// From the first marker's point to the second's.
+/// Vector from the first marker's point to the second's.
 #[inline(always)]
 fn apart(a: &Marker, b: &Marker, frames: &[Frame]) -> [Transfer; 2] {
     let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
@@ -71,7 +69,7 @@ fn apart(a: &Marker, b: &Marker, frames: &[Frame]) -> [Transfer; 2] {
 }
 
 impl Pair {
-    /// Gears with the teeth in mesh as they are at `frames`.
+    /// Gears with the phase of the mesh at `frames`.
     #[must_use]
     pub fn gears(centres: [Marker; 2], carrier: Body, radii: [f64; 2], frames: &[Frame]) -> Self {
         let open = Self::Gears {
@@ -83,7 +81,7 @@ impl Pair {
         open.meshing_at(frames)
     }
 
-    /// The same pair, meshing as its links are at `frames`.
+    /// The same pair, with the phase of the mesh at `frames`.
     #[must_use]
     pub fn meshing_at(mut self, frames: &[Frame]) -> Self {
         let now = self.equation(0, frames, &Cams::<0>::new()).value;
@@ -96,7 +94,7 @@ impl Pair {
         self
     }
 
-    /// The two markers; a transmission, which is not a pair, counts as two points of the ground.
+    /// The two markers; for a transmission, which is not a pair, two points of the ground.
     #[must_use]
     pub const fn markers(&self) -> [Marker; 2] {
         match self {
@@ -117,7 +115,7 @@ impl Pair {
         [a.body, b.body]
     }
 
-    /// How many freedoms the pair takes: the number of its equations.
+    /// Number of degrees of freedom that the pair removes: the number of its equations.
     #[must_use]
     pub const fn constraints(&self) -> usize {
         match self {
@@ -198,7 +196,7 @@ impl Pair {
         }
     }
 
-    /// The pair as a joint that carries forces, where the links are at `frames`.
+    /// The pair as a joint that carries forces, with the links at `frames`.
     pub(super) fn joint<const CAMS: usize>(&self, frames: &[Frame], cams: &Cams<CAMS>) -> Joint {
         let values = |v: [Transfer; 2]| v.map(|c| c.value);
         match self {
@@ -241,7 +239,7 @@ impl Pair {
                 place,
             } => match cams.get(*place) {
                 Some(placed) if CAMS > 0 => placed.joint([cam, follower], frames),
-                // Cannot be: checked when the linkage was built.
+                // Cannot occur: checked when the linkage was created.
                 _ => Joint::contact([cam.body, follower.body], [0.0; 2], [0.0; 2]),
             },
         }
@@ -266,7 +264,7 @@ fn joint_equation(joint: &Joint, component: usize, frames: &[Frame]) -> Transfer
     }
 }
 
-/// The left-hand side of a cam's equation. A linkage that has no room for cams has no code for them.
+/// The left-hand side of a cam's equation. A linkage without memory for cams has no code for them.
 #[inline(always)]
 fn cam_equation<const CAMS: usize>(
     markers: [&Marker; 2],
@@ -276,18 +274,18 @@ fn cam_equation<const CAMS: usize>(
 ) -> Transfer {
     match cams.get(place) {
         Some(placed) if CAMS > 0 => moved(placed, markers, frames),
-        // Cannot be: checked when the linkage was built.
+        // Cannot occur: checked when the linkage was created.
         _ => Transfer::constant(f64::NAN),
     }
 }
 
-/// Out of line: all orders at once, as the program gives them.
+/// Not inlined: all orders at once, from the program.
 #[inline(never)]
 fn moved(placed: &PlacedCam, markers: [&Marker; 2], frames: &[Frame]) -> Transfer {
     placed.equation(markers, frames, |theta| placed.displacement(theta))
 }
 
-/// How far the point of `point` is to the left of the line through `line` along its direction.
+/// Distance of the point of `point` to the left of the line through `line` along its direction.
 #[inline(always)]
 pub(super) fn off_line(line: &Marker, point: &Marker, frames: &[Frame]) -> Transfer {
     let [cos, sin] = line.axis(frames);

@@ -9,39 +9,39 @@ use super::cam::Cams;
 use super::structure::{Coordinate, Equation, Group, Method, PSI};
 use super::{Linkage, Pair};
 
-/// Most steps of Newton's method.
+/// Greatest number of steps of Newton's method.
 const MOST_STEPS: usize = 30;
-/// A step smaller than this (rad, or of the linkage's size) is the last: the error after it is its square, below rounding.
+/// A step smaller than this (rad, or relative to the linkage's size) is the last: the remaining error is its square, below rounding.
 const LAST_STEP: f64 = 1e-9;
-/// A step smaller than this leaves even the Jacobian as it was, to rounding.
+/// A step smaller than this leaves even the Jacobian unchanged, to rounding.
 const NO_STEP: f64 = 1e-15;
-/// No step turns a link further (rad): Newton's method from a rough drawing.
+/// Limit of a link's rotation per step (rad): Newton's method from a rough drawing.
 const LONGEST_TURN: f64 = 0.5;
 /// A group whose columns span less than this is at a dead point.
 const DEAD: f64 = 1e-9;
 
-/// How well the drive moves the links where they were placed.
+/// Quality of a solution.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Solved {
     /// The smallest |det A|/Π‖column‖ of a group's Jacobian A: 0 at a dead point, at most 1.
     pub(super) quality: f64,
-    /// The pair where it is smallest.
+    /// The pair with the smallest quality.
     pub(super) weakest: usize,
     /// Bit k: the determinant of group k is negative. It changes only through a dead point.
     pub(super) signs: u64,
-    /// How far Newton's method moved a coordinate in all (rad, or of the linkage's size).
+    /// Total movement of a coordinate by Newton's method (rad, or relative to the linkage's size).
     pub(super) correction: f64,
 }
 
-/// |det A| of each group, 1 of an explicit one: zero where branches meet.
+/// |det A| of each group, 1 for an explicit one: zero where branches meet.
 pub(super) type Determinants = [f64; 3 * MAX_LINKS];
 
 /// Why there is no solution near the start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unsolved {
-    /// The pair that stays open widest, or locks.
+    /// The pair with the largest gap, or the pair that locks.
     pub(super) pair: usize,
-    /// How far it stays open (m, or rad); zero where it locks.
+    /// Its gap (m, or rad); zero where it locks.
     pub(super) gap: f64,
 }
 
@@ -59,11 +59,11 @@ pub(super) fn evaluate<const CAMS: usize>(
             joint.coordinate(frames) - phi
         }
         Some(pair) => pair.equation(equation.component.into(), frames, cams),
-        None => Transfer::constant(f64::NAN), // cannot be: the structure was made from these pairs
+        None => Transfer::constant(f64::NAN), // cannot occur: the structure was made from these pairs
     }
 }
 
-/// Memory for the factors of all groups, one after the other.
+/// Memory for the factors of all groups, in order.
 struct Factors<'a> {
     matrices: &'a mut [f64],
     pivots: &'a mut [usize],
@@ -86,12 +86,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
     }
 
-    /// Positions and transfer functions at `phi`, of links that are nearly there.
+    /// Positions and transfer functions at `phi`, starting from nearby links.
     pub(super) fn solve(&self, phi: f64, frames: &mut [Frame]) -> Result<Solved, Unsolved> {
         self.solve_noting(phi, frames, &mut [])
     }
 
-    /// As [`solve`](Self::solve), and notes the groups' determinants where there is room.
+    /// As [`solve`](Self::solve); also stores the groups' determinants if there is memory for them.
     pub(super) fn solve_noting(
         &self,
         phi: f64,
@@ -100,7 +100,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     ) -> Result<Solved, Unsolved> {
         let mut pivots = [[0; 3]; LINKS];
         let pivots = pivots.as_flattened_mut();
-        // Small groups, as nearly always, or one of all coordinates, whose memory takes longer to clear than they to solve.
+        // Small groups, as almost always; otherwise one group of all coordinates, with memory that takes longer to clear than small groups to solve.
         let mut matrices = [[0.0; 9]; LINKS];
         let matrices = matrices.as_flattened_mut();
         if self.structure.entries() <= matrices.len() {
@@ -248,7 +248,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
                 frames[usize::from(c.link)].shift(c.axis, damping * value);
             }
             placed.correction += damping * largest;
-            // The Jacobian of a linear group does not depend on where its links are.
+            // The Jacobian of a linear group is independent of the positions.
             if linear || largest < NO_STEP {
                 return Ok(placed);
             }
@@ -257,15 +257,15 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Err(widest)
     }
 
-    /// Transfer functions of first, second and third order: (77), (78) and one order more, group by group. With the
-    /// order sought still zero, an equation's derivative of that order is the right-hand side, with the opposite sign.
+    /// Transfer functions of first, second and third order: (77), (78) and one order higher, group by group. While the unknown order is zero, an
+    /// equation's derivative of that order is the right-hand side, with the opposite sign.
     fn differentiate(&self, phi: f64, frames: &mut [Frame], factors: &Factors<'_>) {
         let phi = Transfer::variable(phi);
         let (mut matrices, mut pivots) = (&*factors.matrices, &*factors.pivots);
         for group in self.structure.groups() {
             if let Some((equation, c, sign)) = self.explicit(group) {
                 let frame = usize::from(c.link);
-                // Nothing else in the equation is unknown.
+                // All other quantities in the equation are known.
                 let f = evaluate(&self.pairs, &self.cams, equation, frames, phi);
                 frames[frame].differ(c.axis, [f.d1, f.d2, f.d3].map(|d| sign * d));
                 continue;
@@ -304,7 +304,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
     }
 
-    /// The equation and the coordinate of an explicit group, and the sign with which the one's value moves the other.
+    /// The equation and the coordinate of an explicit group, and the sign of the coordinate's change for the equation's value.
     #[inline]
     fn explicit(&self, group: Group) -> Option<(Equation, Coordinate, f64)> {
         let Method::Explicit { negative } = group.method else {
@@ -315,27 +315,27 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Some((*equation, *coordinate, if negative { 1.0 } else { -1.0 }))
     }
 
-    /// How far a step moves a coordinate (rad, or of the linkage's size).
+    /// Movement of a coordinate by a step (rad, or relative to the linkage's size).
     #[inline]
     fn moved(&self, c: Coordinate, step: f64) -> f64 {
         let unit = if c.axis == PSI { 1.0 } else { self.size };
         crate::math::abs(step) / unit
     }
 
-    /// The pair to name when something is wrong with the group of this number.
+    /// The pair named in errors of the group with this number.
     pub(super) fn pair_of_group(&self, k: usize) -> usize {
         let group = self.structure.groups().nth(k);
         group.map_or(self.drive, |group| self.pair_of(group))
     }
 
-    /// The pair to name when something is wrong with a group.
+    /// The pair named in errors of a group.
     fn pair_of(&self, group: Group) -> usize {
         let first = self.structure.equations(group).first();
         first.map_or(self.drive, |e| e.pair.into())
     }
 }
 
-/// How a group was placed.
+/// Result of placing a group.
 #[derive(Clone, Copy, Debug, Default)]
 struct Placed {
     quality: f64,

@@ -1,8 +1,8 @@
-//! Structure of a linkage: which equations determine which coordinates, and in what order.
+//! Structure of a linkage: which equations determine which coordinates, and in which order.
 //!
-//! The links' coordinates x, y, ψ and as many equations, the drive's among them, fall apart into groups that can be solved
-//! one after the other: the Assur groups of the theory of mechanisms, and smaller ones for single coordinates. A
-//! group of k coordinates costs about k³ operations, a chain of groups no more than their sum.
+//! The links' coordinates x, y, ψ and as many equations, including the drive's, are split into groups that can be solved one after the other: the
+//! Assur groups of the theory of mechanisms, and smaller ones for single coordinates. A group of k coordinates costs about k³ operations, a chain of
+//! groups no more than their sum.
 
 use crate::machine::error::MachineError;
 use crate::machine::link::Frame;
@@ -11,7 +11,7 @@ use crate::number::transfer::Transfer;
 
 use super::pair::Pair;
 
-/// One equation: a component of a pair, or that of the drive.
+/// One equation: a component of a pair, or the drive's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Equation {
     /// Index of the pair.
@@ -33,30 +33,30 @@ pub(super) struct Coordinate {
 }
 
 impl Coordinate {
-    /// Whether it is one of a set of bits 3·link + axis.
+    /// Whether it is in a set of bits 3·link + axis.
     #[inline]
     pub(super) const fn is_in(self, bits: u64) -> bool {
         bits >> (3 * self.link + self.axis) & 1 == 1
     }
 }
 
-/// The angle among the coordinates.
+/// The axis of the angle.
 pub(super) const PSI: u8 = 2;
 
-/// Equations and coordinates in the order of solving, cut into groups.
+/// Equations and coordinates in the order of solving, split into groups.
 #[derive(Clone, Debug)]
 pub(super) struct Structure<const LINKS: usize> {
     equations: [[Equation; 3]; LINKS],
     coordinates: [[Coordinate; 3]; LINKS],
-    /// For each equation, the coordinates in it.
+    /// For each equation, its coordinates.
     contents: [[u64; 3]; LINKS],
     groups: heapless::Vec<Group, MOST>,
 }
 
-/// The most coordinates: dependencies are kept as bits of a word.
+/// Greatest number of coordinates: dependencies are bits of a word.
 const MOST: usize = 64;
 
-/// A run of equations that determine as many coordinates together.
+/// A run of equations that together determine as many coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Group {
     /// First place in the order.
@@ -66,10 +66,10 @@ pub(super) struct Group {
     pub(super) method: Method,
 }
 
-/// How a group is solved.
+/// Method of solution of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Method {
-    /// The one equation is q + … = 0, or −q + … = 0 if `negative`: most coordinates of usual linkages.
+    /// The single equation is q + … = 0, or −q + … = 0 if `negative`: most coordinates of usual linkages.
     Explicit { negative: bool },
     /// Newton's first step is exact.
     Linear,
@@ -78,10 +78,10 @@ pub(super) enum Method {
 }
 
 impl<const LINKS: usize> Structure<LINKS> {
-    /// The structure of `links` links held by `pairs`, with the drive in pair number `drive`.
+    /// The structure of `links` links connected by `pairs`, with the drive in pair number `drive`.
     ///
     /// # Errors
-    /// Not exactly one freedom; a link left free while others are held twice.
+    /// Not exactly one degree of freedom; a link left free while others are constrained twice.
     pub(super) fn new(
         links: usize,
         pairs: &[Pair],
@@ -153,7 +153,7 @@ impl<const LINKS: usize> Structure<LINKS> {
             before = Some(reach[c]);
             if let Some(group) = structure.groups.last_mut() {
                 group.size += 1;
-                // Every equation is linear in x and y, and those between angles alone are linear in ψ, but for a cam's.
+                // Every equation is linear in x and y, and equations between angles only are linear in ψ, except for a cam's.
                 let cam = equations.get(e).is_some_and(|equation| {
                     matches!(
                         pairs.get(usize::from(equation.pair)),
@@ -177,7 +177,7 @@ impl<const LINKS: usize> Structure<LINKS> {
         })
     }
 
-    /// Whether a group is an equation in which its only coordinate has the factor 1 or, `Some(true)`, −1.
+    /// Whether a group is an equation whose only coordinate has the factor 1 or, `Some(true)`, −1.
     fn explicit(&self, group: Group, evaluate: impl Fn(Equation, &[Frame]) -> f64) -> Option<bool> {
         let ([equation], [c]) = (self.equations(group), self.coordinates(group)) else {
             return None;
@@ -195,7 +195,7 @@ impl<const LINKS: usize> Structure<LINKS> {
         }
     }
 
-    /// The equations that contain the angle of a link, and whether each contains angles alone.
+    /// The equations that contain the angle of a link, and whether each contains only angles.
     pub(super) fn with_angle_of(&self, link: usize) -> impl Iterator<Item = (Equation, bool)> + '_ {
         let angle = 1_u64 << (3 * link + usize::from(PSI));
         let equations = self.equations.as_flattened().iter().copied();
@@ -210,26 +210,24 @@ impl<const LINKS: usize> Structure<LINKS> {
         self.groups.iter().copied()
     }
 
-    /// Entries of the Jacobians of all groups that have one.
+    /// Number of entries of the Jacobians of all groups that have one.
     pub(super) fn entries(&self) -> usize {
         let explicit = |group: &Group| matches!(group.method, Method::Explicit { .. });
         let solved = self.groups().filter(|group| !explicit(group));
         solved.map(|group| usize::from(group.size).pow(2)).sum()
     }
 
-    /// The equations of a group.
     pub(super) fn equations(&self, group: Group) -> &[Equation] {
         let start = usize::from(group.start);
         &self.equations.as_flattened()[start..start + usize::from(group.size)]
     }
 
-    /// For each equation of a group, the coordinates in it, as bits.
+    /// For each equation of a group, its coordinates, as bits.
     pub(super) fn contents(&self, group: Group) -> &[u64] {
         let start = usize::from(group.start);
         &self.contents.as_flattened()[start..start + usize::from(group.size)]
     }
 
-    /// The coordinates of a group.
     pub(super) fn coordinates(&self, group: Group) -> &[Coordinate] {
         let start = usize::from(group.start);
         &self.coordinates.as_flattened()[start..start + usize::from(group.size)]
@@ -239,20 +237,20 @@ impl<const LINKS: usize> Structure<LINKS> {
 /// The bits of all angles.
 const ANGLES: u64 = 0x4924_9249_2492_4924;
 
-/// Number of samples at which the structure is seen.
+/// Number of samples for the analysis of the structure.
 const SAMPLES: usize = 2;
 
-/// Links at poses that have nothing special.
+/// Links in generic poses.
 fn sample_frames<const LINKS: usize>(sample: usize) -> [Frame; LINKS] {
     core::array::from_fn(|k| {
-        // The golden ratio spreads them.
+        // Spread by the golden ratio.
         let spread = (k + 1 + 7 * sample) as f64 * 0.618_033_988_749_895;
         let at = [0.3 + 0.17 * spread, 0.1 - 0.29 * spread].map(Transfer::constant);
         Frame::turned(at, Transfer::constant(spread))
     })
 }
 
-/// For each equation, the coordinates that it contains, as bits 3·link + axis.
+/// For each equation, its coordinates, as bits 3·link + axis.
 fn dependencies<const LINKS: usize>(
     links: usize,
     equations: &[Equation],
@@ -275,8 +273,8 @@ fn dependencies<const LINKS: usize>(
     depends
 }
 
-/// For each coordinate, the equation that determines it: a perfect matching by augmenting paths. Otherwise an equation
-/// and a coordinate that are left over.
+/// For each coordinate, the equation that determines it: a perfect matching by augmenting paths. Otherwise an unmatched equation and an unmatched
+/// coordinate.
 fn matching(depends: &[u64; MOST], count: usize) -> Result<[usize; MOST], (usize, usize)> {
     let mut matched = [usize::MAX; MOST];
     for equation in 0..count {
@@ -289,7 +287,7 @@ fn matching(depends: &[u64; MOST], count: usize) -> Result<[usize; MOST], (usize
     Ok(matched)
 }
 
-/// Finds a coordinate for `equation`, moving other equations on if need be. Goes at most `count` levels deep.
+/// Finds a coordinate for `equation`, reassigning other equations if necessary. Recurses at most `count` levels deep.
 fn augment(
     equation: usize,
     depends: &[u64; MOST],
@@ -309,7 +307,7 @@ fn augment(
     false
 }
 
-/// For each coordinate, all coordinates on which it depends, directly or not, itself included.
+/// For each coordinate, all coordinates on which it depends, directly or indirectly, including itself.
 fn reachable(depends: &[u64; MOST], matched: &[usize; MOST], count: usize) -> [u64; MOST] {
     let mut reach = [0; MOST];
     for c in 0..count {

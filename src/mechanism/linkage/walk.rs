@@ -10,20 +10,20 @@ use crate::number::transfer::Transfer;
 use super::solver::{Determinants, Solved, Unsolved};
 use super::{Linkage, Pair};
 
-/// The corrector may move a link so far (rad, or of the linkage's size): beyond, the predictor was not to be trusted.
+/// Limit of a link's movement by the corrector (rad, or relative to the linkage's size): beyond it the predictor cannot be trusted.
 pub(super) const TRUSTED: f64 = 0.02;
-/// Shortest step, of the drive's range: what cannot be passed with it is a dead point.
+/// Shortest step, relative to the drive's range: a place that it cannot pass is a dead point.
 const SHORTEST: f64 = 1e-9;
-/// Shortest step towards a change point (rad, or of the linkage's size).
+/// Shortest step towards a change point (rad, or relative to the linkage's size).
 const WARY: f64 = 1e-5;
-/// A group's determinant may fall to this part of its largest: closer to a crossing of branches, rounding in the predictor could put the
-/// links on the other one. A dead point is this close within the square of it.
+/// A group's determinant may fall to this share of its largest value: closer to a crossing of branches, rounding in the predictor could move the
+/// links to the other branch. Near a dead point that is a distance of its square.
 const LEAST: f64 = 1e-5;
 
-/// How far from a drawing its determinants are compared (rad, or of the linkage's size).
+/// Distance from a drawing for comparing its determinants (rad, or relative to the linkage's size).
 const ASIDE: f64 = 0.01;
 
-/// How close to a dead point a walk goes.
+/// Minimum distance of a walk from a dead point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gait {
     /// Shortest step (rad, or m).
@@ -38,7 +38,7 @@ impl Gait {
         }
     }
 
-    /// Where a change point may be ahead; `unit` is what 1 rad is for the drive.
+    /// For a possible change point ahead; `unit` is the drive's equivalent of 1 rad.
     pub(super) fn wary(unit: f64) -> Self {
         Self {
             shortest: WARY * unit,
@@ -53,12 +53,12 @@ pub(super) struct Place {
     pub(super) solved: Solved,
     pub(super) frames: Frames,
     pub(super) determinants: Determinants,
-    /// The largest of them on the way here.
+    /// Their largest values on the way here.
     largest: Determinants,
 }
 
 impl Place {
-    /// Where the way begins.
+    /// The start of a walk.
     pub(super) const fn new(
         phi: f64,
         solved: Solved,
@@ -74,7 +74,7 @@ impl Place {
         }
     }
 
-    /// The part of its `largest` to which the determinant of a group has fallen furthest, and that group's number.
+    /// The largest fall of a group's determinant, as a share of its `largest`, and that group's number.
     fn fallen(&self, largest: &Determinants) -> (f64, usize) {
         let both = self.determinants.iter().zip(largest);
         let parts = both.map(|(now, largest)| now / largest).enumerate();
@@ -88,7 +88,7 @@ impl Place {
 }
 
 impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
-    /// From a place to another φ, in steps as long as the predictor is to be trusted. A place that is not reached is the last before it.
+    /// Walks from a place to another φ, in steps as long as the predictor can be trusted. On failure `place` is the last place reached.
     pub(super) fn walk(&self, place: &mut Place, to: f64, gait: Gait) -> Result<(), PoseError> {
         let mut step = to - place.phi;
         let mut arrived = math::abs(step) == 0.0;
@@ -97,7 +97,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             let last = math::abs(to - phi) <= math::abs(step);
             let next = if last { to } else { phi + step };
             let found = self.placed(next, predicted(&place.frames, next - phi));
-            // Not another solution, on the far side of a dead point, or where branches cross.
+            // Not another solution, beyond a dead point, or where branches cross.
             let same = found.as_ref().is_ok_and(|found| {
                 found.solved.signs == place.solved.signs && found.fallen(&place.largest).0 >= LEAST
             });
@@ -125,14 +125,14 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         Ok(())
     }
 
-    /// The links solved at a position, from where they nearly are.
+    /// The links solved at a position, from a nearby start.
     pub(super) fn placed(&self, phi: f64, mut frames: Frames) -> Result<Place, Unsolved> {
         let mut determinants = [1.0; _];
         let solved = self.solve_noting(phi, &mut frames, &mut determinants)?;
         Ok(Place::new(phi, solved, frames, &determinants))
     }
 
-    /// The pair that moves the links worst at a place, of what it did on the way there.
+    /// The pair with the worst transmission at a place, relative to the way there.
     fn weakest(&self, place: &Place) -> usize {
         match place.fallen(&place.largest) {
             (part, k) if part < place.solved.quality => self.pair_of_group(k),
@@ -140,7 +140,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
     }
 
-    /// The pair that locks where the links are drawn, in a change point: its determinant is as good as zero, against what it is a little aside.
+    /// The pair that locks in the drawing, at a change point: its determinant is practically zero compared with a place nearby.
     pub(super) fn flat_at(&self, drawn: &Place) -> Option<usize> {
         [ASIDE, -ASIDE].into_iter().find_map(|aside| {
             let phi = drawn.phi + aside * self.unit();
@@ -170,7 +170,7 @@ impl Unsolved {
     }
 }
 
-/// The links a step `h` on, by Taylor's polynomial of third order.
+/// The links after a step `h`, by the third-order Taylor polynomial.
 pub(super) fn predicted(frames: &Frames, h: f64) -> Frames {
     let on =
         |c: Transfer| Transfer::constant(c.value + h * (c.d1 + h / 2.0 * (c.d2 + h / 3.0 * c.d3)));

@@ -1,4 +1,4 @@
-//! What can be wrong with harmonics.
+//! Errors of harmonics.
 
 use core::fmt;
 
@@ -12,27 +12,27 @@ use crate::number::error::{Curable, error};
 pub enum HarmonicError {
     /// The drive link has a stroke.
     Stroke,
-    /// No number of harmonics up to the limit meets the torque error asked for.
+    /// No number of harmonics up to the limit meets the requested torque error.
     NotConverged {
-        /// Torque error asked for (N·m).
+        /// Requested torque error (N·m).
         asked: f64,
-        /// Torque error with the most harmonics (N·m), at the places checked.
+        /// Torque error with the greatest number of harmonics (N·m), at the places checked.
         reached: f64,
-        /// How many harmonics that are.
+        /// That number of harmonics.
         harmonics: u32,
     },
-    /// Fewer samples than coefficients and one.
+    /// Not more samples than coefficients.
     TooFewSamples {
-        /// How many are needed.
+        /// Number of samples needed.
         needed: u32,
-        /// How many there are.
+        /// Number of samples given.
         given: u32,
     },
-    /// The samples do not tell this coefficient.
+    /// The samples do not determine this coefficient.
     NotExcited {
         /// Which.
         coefficient: Coefficient,
-        /// The one that has the same effect in these samples; `None` if the first has no effect at all.
+        /// Another one with the same effect in these samples; `None` if the first has no effect at all.
         like: Option<Coefficient>,
     },
 }

@@ -4,9 +4,8 @@
 //! |δT| ≤ Σ over what was left out or rounded of  |δJₖ|·(α_max + ½·k·ω_max²) + |δloadₖ| + |δbₖ|·ω_max + |δcₖ|
 //! ```
 //!
-//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not only for
-//! sampled places. The harmonics beyond the last one that the samples determine are bounded by the decay of the terms before
-//! it.
+//! with δₖ the amplitude √(aₖ² + bₖ²) of an omitted harmonic, or the rounding of a stored coefficient: a bound for all φ, not only for sampled
+//! places. The harmonics beyond those that the samples determine are bounded by the decay of the terms before them.
 
 use super::HarmonicError;
 use super::spectrum::Spectrum;
@@ -20,7 +19,7 @@ use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, edge_places, torque_between};
 use crate::{AnyModel, Domain, Error, Phase, Set, math};
 
-/// Torque that one unit of the k-th harmonic of a curve makes at most.
+/// Largest torque of one unit of the k-th harmonic of a curve.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
     match curve {
         Curve::Inertia => request.alpha + 0.5 * k as f64 * request.omega * request.omega,
@@ -29,7 +28,7 @@ fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
     }
 }
 
-/// Harmonics found.
+/// The figures of fitted harmonics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -38,31 +37,30 @@ pub struct Fitted {
     pub harmonics: u32,
     /// Number of coefficients.
     pub words: usize,
-    /// Bytes that they take.
+    /// Size in bytes.
     pub bytes: usize,
-    /// Bound on the error of the drive torque (N·m) at every phase, but for the rounding of the evaluation. It holds for curves
-    /// whose harmonics fall on from where the samples end; at edges the error is measured.
+    /// Bound on the error of the drive torque (N·m) at every phase, except for the rounding of the evaluation. It assumes that the harmonics continue
+    /// to fall beyond the samples; at edges the error is measured.
     pub bound: f64,
-    /// Largest error of the drive torque (N·m) at the places checked, with the rounding of the evaluation.
+    /// Largest error of the drive torque (N·m) at the places checked, including the rounding of the evaluation.
     pub torque_error: f64,
-    /// Where it is (rad).
+    /// Position of the largest error (rad).
     pub worst: f64,
-    /// Number of samples a turn that it took.
+    /// Number of samples per turn.
     pub samples: u32,
 }
 
-/// Numbers of `f64` scratch that [`fit`] needs: 576 for up to 8 harmonics, 72 for each harmonic up to 16, 32, …
+/// Numbers of `f64` scratch for [`fit`]: 576 for up to 8 harmonics, 72 for each harmonic up to 16, 32, …
 #[must_use]
 pub const fn scratch_len(max_harmonics: u32) -> usize {
     Spectrum::scratch_len(max_harmonics)
 }
 
-/// The terms that the machine's curves of this set need, of up to `max_harmonics` harmonics: a curve without cosines is
-/// odd except for its mean, one without sines even. Terms below 1e-12 of a curve's size count as rounding. `scratch` is
-/// that of [`fit`].
+/// The terms of the machine's curves of this set, with up to `max_harmonics` harmonics: a curve without cosines is odd except for its mean, one
+/// without sines even. Terms below 1e-12 of a curve's magnitude count as rounding. `scratch` is as for [`fit`].
 ///
 /// # Errors
-/// Those of the machine; [`HarmonicError::Stroke`]; a buffer too short.
+/// The machine's errors; [`HarmonicError::Stroke`]; a buffer too short.
 pub fn terms_in_use(
     machine: &impl Reducible,
     set: Set,
@@ -85,7 +83,7 @@ pub fn terms_in_use(
     Ok(in_use(set & 0xff | terms))
 }
 
-/// The curves of a machine that turns, not sampled yet.
+/// The curves of a machine that turns, not yet sampled.
 fn spectrum<'s>(
     machine: &impl Reducible,
     set: Set,
@@ -108,23 +106,23 @@ fn spectrum<'s>(
     Spectrum::new(scratch, max_harmonics, set)
 }
 
-/// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients,
-/// and says how exact they are. What the machine has and the set leaves out counts as error.
+/// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients, and returns their figures.
+/// Curves of the machine that are not in the set count as error.
 ///
-/// Coulomb friction F·|v′| is taken as F·v′, which is smooth, if its magnitude has kinks at zero only; with
-/// `CONSTANT_COULOMB` in the set the value at φ = 0 is taken off before.
+/// Coulomb friction F·|v′| becomes F·v′, which is smooth, if its magnitude has kinks only at zero; with `CONSTANT_COULOMB` in the set the value at φ
+/// = 0 is subtracted first.
 ///
-/// 32 samples a turn are taken first and doubled until the terms behind the harmonics kept have fallen so far that what
-/// no sample shows is bounded; then the error is measured, in `T`, at 4·N + 1 other places.
+/// The 32 samples per turn at first are doubled until the terms after the stored harmonics have fallen so far that the rest, which no sample shows,
+/// is bounded. Then the error is measured, in `T`, at 4·N + 1 other places.
 ///
-/// **Accuracy**: `bound` and `torque_error` are both no larger than asked for; coefficients of a series are found to
-/// 1e-14 of its size (test `a_series_comes_back`). **Cost**: `samples` reductions, and four times as many for each
-/// number of harmonics that is checked; below 0.1 ms for a slider-crank on a host (`docs/harmonics.md`).
+/// **Accuracy**: `bound` and `torque_error` do not exceed the request; coefficients of a series are found to 1e-14 of its magnitude (test
+/// `a_series_comes_back`). **Cost**: `samples` reductions, and four times as many for each number of harmonics that is checked; below 0.1 ms for a
+/// slider-crank on a host (`docs/harmonics.md`).
 ///
 /// # Errors
-/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
-/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is
-/// not at one; buffers too short; those of the machine.
+/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::TableError) if J cannot
+/// be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one; buffers too
+/// short; the machine's errors.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
     set: Set,
@@ -152,7 +150,7 @@ where
         let most = max.min(samples as u32 / 4);
         for harmonics in 0..=most {
             let left_out = left_out::<T>(&spectrum, request, set, harmonics as usize);
-            // Terms that the samples do not tell are missing, and are added to others instead.
+            // Terms beyond the samples' resolution are missing, and alias into others.
             let bound = left_out + 2.0 * unseen;
             let last = harmonics == most && !spectrum.can_grow();
             if bound > request.torque_error && !last {
@@ -179,7 +177,7 @@ where
                     samples: samples as u32,
                 });
             }
-            // An error this much larger than its bound comes from rounding, or from a term that the samples did not show.
+            // An error this much larger than its bound comes from rounding, or from a term that the samples missed.
             if torque_error > 16.0 * bound {
                 break;
             }
@@ -193,11 +191,11 @@ where
     .into())
 }
 
-/// The largest error of the drive torque (N·m) within the range of the request, in the table's own arithmetic, at so
-/// many places of a turn (an odd number: not in step with any samples) and at the [`edge_places`], and where it is (rad).
+/// The largest error of the drive torque (N·m) within the range of the request, in the table's own arithmetic, at `places` places of a turn (an odd
+/// number, so that they do not coincide with samples) and at the [`edge_places`], and its position (rad).
 ///
 /// # Errors
-/// Those of the machine.
+/// The machine's errors.
 pub fn measure<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -222,7 +220,7 @@ fn amplitude([a, b]: [f64; 2]) -> f64 {
     math::sqrt(a * a + b * b)
 }
 
-/// The bound's share of what the samples tell: harmonics and kinds left out, and the rounding of the rest to `T`.
+/// The sampled part of the bound: omitted harmonics and kinds, and the rounding of the rest to `T`.
 fn left_out<T: Circular>(
     spectrum: &Spectrum<'_>,
     request: &Request,
@@ -251,11 +249,10 @@ fn left_out<T: Circular>(
     sum
 }
 
-/// A bound on the terms that N samples do not tell, from the sums of the terms between N/8 and N/4 and between N/4 and
-/// N/2. Terms that fall like a power of k keep the ratio q of such sums, those of smooth curves fall faster: all that
-/// follows the last sum is at most q/(1 − q) of it. What follows also hides in the last sum, by up to half of it at the
-/// slowest fall accepted, k^−2.5; hence twice. `None` if the terms fall more slowly, as those of a kink do, unless they
-/// are rounding.
+/// A bound on the terms that N samples do not resolve, from the sums of the terms between N/8 and N/4 and between N/4 and N/2. Terms that fall like a
+/// power of k keep the ratio q of such sums; those of smooth curves fall faster: the terms after the last sum are at most q/(1 − q) of it. They also
+/// alias into the last sum, by up to half of it at the slowest accepted decay, k^−2.5; hence the factor 2. `None` if the terms fall more slowly, as
+/// with a kink, unless they are rounding.
 fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
     const SLOWEST: f64 = 0.27;
     let samples = spectrum.samples();

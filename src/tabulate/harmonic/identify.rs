@@ -8,10 +8,9 @@
 //!   + Σ (aₖ·cos kφ + bₖ·sin kφ)·ω + Σ (aₖ·cos kφ + bₖ·sin kφ)·sgn ω         b, c
 //! ```
 //!
-//! with the Coulomb friction c not negative, so that measured φ, ω, α and T determine them by least squares. Each sample is added to
-//! a triangular matrix R with RᵀR = ΦᵀΦ by Givens rotations: memory does not grow with the samples, and the error depends on
-//! the condition of the measurements, not on its square as with normal equations (Å. Björck, *Numerical Methods for
-//! Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
+//! with the Coulomb friction c not negative, so that measured φ, ω, α and T determine them by least squares. Each sample is added to a triangular
+//! matrix R with RᵀR = ΦᵀΦ by Givens rotations: memory does not grow with the samples, and the error depends on the condition of the measurements,
+//! not on its square as with normal equations (Å. Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
 use super::HarmonicError;
 use crate::Set;
@@ -21,11 +20,11 @@ use crate::curve::{
 use crate::number::error::finite;
 use crate::{Error, Phase, math};
 
-/// A coefficient counts as excited if its effect in the samples is not made up by the others' to this share. A factor of
-/// 1/share is what measuring errors gain.
+/// A coefficient counts as excited if more than this share of its effect in the samples is independent of the others. Measurement errors are
+/// amplified by 1/share.
 pub const EXCITED: f64 = 1e-6;
 
-/// One measurement. α is best computed from the measured motion without delay against φ, ω and T.
+/// One measurement. Compute α from the measured motion, without delay against φ, ω and T.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Phase of the drive link.
@@ -38,29 +37,27 @@ pub struct Sample {
     pub torque: f64,
 }
 
-/// What was identified; every array in the order of [`Coefficient::of_word`].
+/// The identified coefficients; every array in the order of [`Coefficient::of_word`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Identified<const WORDS: usize> {
     /// The coefficients: the words of a table of [`Harmonic`].
     pub words: [f64; WORDS],
-    /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and
-    /// of the motion, and of one size.
+    /// Standard error of each, in its own unit, if the errors of the measured torques have equal variance and are independent of each other and of
+    /// the motion.
     pub standard_error: [f64; WORDS],
-    /// Share of each coefficient's effect that no combination of the others makes up, 0 to 1 (the sine of the angle
-    /// between them).
+    /// Share of each coefficient's effect that is independent of the others, 0 to 1 (the sine of the angle to their span).
     pub excitation: [f64; WORDS],
-    /// Root of the mean square of what the coefficients leave unexplained (N·m), over the number of samples beyond that
-    /// of coefficients.
+    /// Root mean square of the unexplained torque (N·m), over the number of samples minus that of coefficients.
     pub residual: f64,
-    /// Condition of the samples, each coefficient's effect scaled to one: ‖R‖·‖R⁻¹‖/WORDS in Frobenius' norm. 1 is
-    /// best; the condition number is between this and WORDS times it.
+    /// Condition of the samples, each coefficient's effect scaled to one: ‖R‖·‖R⁻¹‖/WORDS in the Frobenius norm. 1 is best; the condition number is
+    /// between this and WORDS times it.
     pub condition: f64,
     /// Number of samples.
     pub samples: u32,
 }
 
-/// Takes samples one after another; `WORDS` coefficients, which are the means and a whole number of harmonics.
+/// Accumulates samples one by one, for `WORDS` coefficients: the means and a whole number of harmonics.
 ///
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
@@ -73,11 +70,10 @@ pub struct Identification<const WORDS: usize, const SET: Set> {
 }
 
 impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
-    /// No samples yet.
+    /// An identification without samples.
     ///
     /// # Errors
-    /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics:
-    /// [`TableError::Length`].
+    /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics: [`TableError::Length`].
     pub fn new() -> Result<Self, Error> {
         let lengths = (0..=MAX_HARMONICS).map(|n| words_len::<Harmonic<f64>>(n, SET));
         let enough = lengths.take_while(|words| *words <= WORDS).last();
@@ -95,10 +91,10 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
         })
     }
 
-    /// One more sample.
+    /// Adds a sample.
     ///
     /// # Errors
-    /// A number of it is not finite; nothing was taken in then.
+    /// A number of it is not finite; then the sample is not added.
     pub fn add(&mut self, sample: &Sample) -> Result<(), Error> {
         finite("measured speed", sample.omega)?;
         finite("measured acceleration", sample.alpha)?;
@@ -108,7 +104,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
             if effects[j] == 0.0 {
                 continue;
             }
-            // The rotation that turns (row[j], effects[j]) into (size, 0).
+            // The rotation of (row[j], effects[j]) to (size, 0).
             let size = math::sqrt(row[j] * row[j] + effects[j] * effects[j]);
             let (c, s) = (row[j] / size, effects[j] / size);
             let turn = |kept: &mut f64, new: &mut f64| {
@@ -125,7 +121,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
         Ok(())
     }
 
-    /// ∂T/∂(coefficient) of each.
+    /// ∂T/∂(coefficient) for each coefficient.
     fn effects(sample: &Sample) -> [f64; WORDS] {
         let (sin, cos) = f64::sin_cos_of(sample.phase);
         let (omega, alpha) = (sample.omega, sample.alpha);
@@ -142,7 +138,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
                 (s, c) = (s * cos + c * sin, c * cos - s * sin);
                 order += 1;
             }
-            // A harmonic and its derivative by φ.
+            // A harmonic and its derivative with respect to φ.
             let (wave, slope) = match kind {
                 Kind::Sine(_) => (s, f64::from(k) * c),
                 Kind::Mean | Kind::Cosine(_) => (c, -f64::from(k) * s),
@@ -156,11 +152,10 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
         })
     }
 
-    /// The coefficients that explain the samples best.
+    /// The coefficients that best explain the samples.
     ///
     /// # Errors
-    /// [`HarmonicError::TooFewSamples`]; [`HarmonicError::NotExcited`] with the least excited coefficient if its
-    /// excitation is below [`EXCITED`].
+    /// [`HarmonicError::TooFewSamples`]; [`HarmonicError::NotExcited`] with the least excited coefficient if its excitation is below [`EXCITED`].
     pub fn solve(&self) -> Result<Identified<WORDS>, Error> {
         let free = (self.samples as usize)
             .checked_sub(WORDS)
@@ -179,7 +174,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
             for row in &mut scaled {
                 row[word] /= size;
             }
-            // A coefficient that depends on the ones before it, so that its fellow can be named.
+            // A coefficient that depends on those before it; keeps R regular, so that the other one can be named.
             if math::abs(scaled[word][word]) < f64::EPSILON {
                 scaled[word][word] = f64::EPSILON;
             }
@@ -221,7 +216,7 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
     }
 }
 
-/// The inverse of an upper triangle without zeros on its diagonal, column by column from below.
+/// The inverse of an upper triangular matrix without zeros on its diagonal, column by column from below.
 #[expect(
     clippy::needless_range_loop,
     reason = "rows and columns of two matrices"

@@ -1,7 +1,7 @@
-//! Harmonics of a machine: found from its mechanism, or from measurements.
+//! Harmonics of a machine, from its mechanism or from measurements.
 //!
-//! The coefficients of a smooth machine fall like those of a geometric series: a few give what takes a table of many
-//! cells. A kink (a load with an edge, a dwell) makes them fall like 1/k²: such a machine needs a table. [`fit()`] tells them apart.
+//! The coefficients of a smooth machine fall geometrically: a few replace a table of many cells. A kink (a load with an edge, a dwell) makes them
+//! fall like 1/k²: such a machine needs a table. [`fit()`] distinguishes them.
 
 mod error;
 #[allow(

@@ -4,9 +4,9 @@
 //! aₖ = 2/N·Σ f(φⱼ)·cos kφⱼ,   bₖ = 2/N·Σ f(φⱼ)·sin kφⱼ,   φⱼ = 2π·j/N
 //! ```
 //!
-//! The trapezoidal rule: for a periodic curve its only error is that aₖ also contains a₍N±k₎, a₍2N±k₎ and so on, which
-//! fall like a geometric series (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are written out:
-//! N is some tens, and there is no transform in `f64` without an allocator to take from elsewhere.
+//! The trapezoidal rule: for a periodic curve its only error is that aₖ also contains a₍N±k₎, a₍2N±k₎ and so on, which fall like a geometric series
+//! (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are direct: N is some tens, and no available transform works in `f64`
+//! without an allocator.
 
 use crate::Set;
 use crate::machine::error::PoseError;
@@ -19,11 +19,11 @@ use crate::machine::reducible::Reducible;
 use crate::number::error::finite;
 use crate::{Error, math};
 
-/// Samples taken at first; also the least room for them.
+/// Initial number of samples; also the least memory for them.
 pub(super) const FIRST: usize = 32;
 
-/// Samples that there is room for when up to `harmonics` are asked for: twice what they need to be told from their
-/// aliases, and as much again to see the terms behind them fall.
+/// Greatest number of samples for up to `harmonics`: twice the number that separates them from their aliases, doubled again to observe the decay of
+/// the terms after them.
 pub(super) const fn most_samples(harmonics: u32) -> usize {
     let most = (8 * harmonics as usize).next_power_of_two();
     if most < 2 * FIRST { 2 * FIRST } else { most }
@@ -33,13 +33,13 @@ pub(super) const fn most_samples(harmonics: u32) -> usize {
 pub(super) struct Spectrum<'s> {
     /// cos 2πj/most.
     circle: &'s mut [f64],
-    /// Samples of each curve, from each multiple of `most` on.
+    /// Samples of each curve, starting at multiples of `most`.
     values: &'s mut [f64],
     /// aₖ of each curve at k, bₖ at most − k.
     coefficients: &'s mut [f64],
     most: usize,
     samples: usize,
-    /// Constant part of the Coulomb friction; `None` if the machine's set has none.
+    /// Constant part of the Coulomb friction; `None` if not in the machine's set.
     constant: Option<f64>,
 }
 
@@ -49,7 +49,7 @@ impl<'s> Spectrum<'s> {
         9 * most_samples(harmonics)
     }
 
-    /// No samples yet, of a machine with this set of curves.
+    /// An empty spectrum for a machine with this set of curves.
     pub(super) fn new(scratch: &'s mut [f64], harmonics: u32, set: Set) -> Result<Self, Error> {
         let (needed, given) = (Self::scratch_len(harmonics), scratch.len());
         let most = most_samples(harmonics);
@@ -76,12 +76,12 @@ impl<'s> Spectrum<'s> {
         self.samples
     }
 
-    /// Whether there is room for twice the samples.
+    /// Whether the memory suffices for twice the samples.
     pub(super) const fn can_grow(&self) -> bool {
         self.samples < self.most
     }
 
-    /// Samples the machine between the places it is known at, and computes the coefficients.
+    /// Samples the machine between the known places, and computes the coefficients.
     pub(super) fn grow(&mut self, machine: &impl Reducible) -> Result<(), Error> {
         let known = self.samples;
         self.samples = if known == 0 { FIRST } else { 2 * known };
@@ -134,7 +134,7 @@ impl<'s> Spectrum<'s> {
             if let Some(slot) = out.first_mut() {
                 *slot = mean;
             }
-            // A constant curve's coefficients are zero, not the rounding of its mean.
+            // The coefficients of a constant curve are zero, not the rounding of its mean.
             if values().all(|value| Some(value) == values().next()) {
                 continue;
             }
@@ -147,7 +147,7 @@ impl<'s> Spectrum<'s> {
                     sine += (value - mean) * at((place + most - most / 4) & (most - 1));
                     place = (place + k * stride) & (most - 1);
                 }
-                // At half the samples the sine is zero at all of them, and the cosine ±1.
+                // At half the number of samples the sine is zero at all of them, and the cosine ±1.
                 let twice = if 2 * k == samples { 1.0 } else { 2.0 } / samples as f64;
                 if let Some(slot) = out.get_mut(k) {
                     *slot = twice * cosine;
@@ -175,7 +175,7 @@ impl<'s> Spectrum<'s> {
         [at(k).unwrap_or_default(), sine.unwrap_or_default()]
     }
 
-    /// Largest sample of a curve that varies, in size.
+    /// Largest magnitude of a sample of a curve that varies.
     pub(super) fn size(&self, curve: Curve) -> f64 {
         let values = self.values.chunks(self.most).nth(curve as usize);
         let values = values.unwrap_or_default().iter().take(self.samples);

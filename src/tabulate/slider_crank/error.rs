@@ -1,21 +1,21 @@
-//! What a slider-crank's closed form cannot hold.
+//! Why a slider-crank has no closed form.
 
 use core::fmt;
 
 use crate::number::error::{Curable, error};
 
-/// Why a slider-crank has no closed form: it has something whose curve is none of its functions.
+/// Why a slider-crank has no closed form: a curve is not a combination of its functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum SliderCrankError {
-    /// A load acts in a part of the turn only; its place in the list of loads.
+    /// A load acts only in a part of the turn; its index in the list of loads.
     Window(usize),
-    /// Friction of constant size at a point of the rod other than its pins; its place in the list of loads.
+    /// Constant friction at a point of the rod other than its pins; its index in the list of loads.
     RubbingRod(usize),
-    /// A spring or a damper; its place in their list.
+    /// A spring or a damper; its index in their list.
     Element(usize),
-    /// A crank that swings over a stroke: the closed form is of the whole turn.
+    /// A crank that swings over a stroke: the closed form covers the whole turn.
     Stroke,
 }
 

@@ -24,10 +24,10 @@ use crate::mechanism::{Branch, SliderCrank};
 use crate::number::error::RangeError;
 use crate::{Domain, Error, Machine, TableError, math};
 
-/// Smaller than this part of the largest coefficient of its curve, one is a rounding of a turned drawing.
+/// A coefficient below this share of the largest of its curve counts as rounding of a rotated drawing.
 const NOTHING: f64 = 1e-9;
 
-/// Of x′² + y′² or ψ′²: the coefficients of 1, X², X·sin φ and X·cos φ.
+/// The coefficients of 1, X², X·sin φ and X·cos φ in x′² + y′² or ψ′².
 type Square = [f64; 4];
 
 /// The lengths, and the sign of cos ψ.
@@ -81,7 +81,7 @@ impl Lengths {
         }
     }
 
-    /// The power of a force at a point of a link, by ω: the coefficients of X, sin φ and cos φ.
+    /// The power of a force at a point of a link, over ω: the coefficients of X, sin φ and cos φ.
     fn power(&self, link: usize, [u, v]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 3] {
         let r = self.crank;
         match link {
@@ -181,7 +181,7 @@ impl Sums {
         Ok(sums)
     }
 
-    /// The set of coefficients that count.
+    /// The set of significant coefficients.
     fn set(&self) -> Set {
         let size = |part: C| {
             self.of
@@ -190,7 +190,7 @@ impl Sums {
         };
         let mut set = 0;
         for part in C::ALL {
-            // The lengths are no part of J.
+            // The lengths are separate from J.
             let lengths = [C::Ratio, C::Offset];
             let same = C::ALL.into_iter().filter(|other| {
                 other.curve() == part.curve() && lengths.contains(other) == lengths.contains(&part)
@@ -204,25 +204,24 @@ impl Sums {
     }
 }
 
-/// The [`curves`](crate::curves) and [`terms`](crate::slider_crank::terms) that a slider-crank has.
+/// The [`curves`](crate::curves) and [`terms`](crate::slider_crank::terms) of a slider-crank.
 ///
-/// A coefficient that is less than 1e-9 of the largest of its curve counts as a rounding of a turned drawing.
+/// A coefficient below 1e-9 of the largest of its curve counts as rounding of a rotated drawing.
 ///
 /// # Errors
-/// What a closed form cannot hold.
+/// As [`SliderCrankError`] lists.
 pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankError> {
     Ok(Sums::new(machine)?.set())
 }
 
-/// The coefficients of a slider-crank, in the order of [`Coefficient::ALL`](crate::slider_crank::Coefficient::ALL) as far as `set`
-/// has them: the words of a [`SliderCrankForm`]. Returns their number.
+/// Computes the coefficients of a slider-crank, in the order of [`Coefficient::ALL`](crate::slider_crank::Coefficient::ALL) as far as `set` has them:
+/// the words of a [`SliderCrankForm`]. Returns their number.
 ///
-/// **Accuracy**: in exact arithmetic the form has no error; rounded to `f32` each coefficient is off by 6e-8 of itself (tests
+/// **Accuracy**: in exact arithmetic the form has no error; rounded to `f32` each coefficient has a relative error of 6e-8 (tests
 /// `the_tick_rounds_as_stated`, `a_small_machine_keeps_its_small_coefficients`).
 ///
 /// # Errors
-/// What a closed form cannot hold; [`TableError::Curves`] with the set that the machine has, if `set` lacks something of it; a
-/// buffer that is too short.
+/// As [`SliderCrankError`] lists; [`TableError::Curves`] with the machine's set, if `set` lacks a part of it; a buffer too short.
 pub fn form(machine: &Machine<SliderCrank>, set: Set, words: &mut [f32]) -> Result<usize, Error> {
     let sums = Sums::new(machine)?;
     let in_use = sums.set();

@@ -3,16 +3,16 @@
 use super::LimitError;
 use crate::math::Real;
 
-/// The most points of a [`Curve`].
+/// Greatest number of points of a [`Curve`].
 pub const MAX_POINTS: usize = 8;
 
-/// A torque over speed: straight lines through a few points, constant below the first, zero beyond the last.
+/// A torque over speed: straight lines through up to [`MAX_POINTS`] points, constant below the first, zero beyond the last.
 ///
-/// The same in all four quadrants: of speed and torque the magnitudes count.
+/// The same in all four quadrants: only magnitudes of speed and torque count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Curve<R> {
-    /// Speed at the upper end of each line, torque there, slope of the line; unused ones repeat the last point.
+    /// Speed at the upper end of each line, torque there, slope; unused lines repeat the last point.
     lines: [Line<R>; MAX_POINTS],
 }
 
@@ -76,7 +76,7 @@ impl<R: Real> Curve<R> {
         Ok(Self { lines })
     }
 
-    /// The torque at a `speed` (rad/s) that is not negative.
+    /// The torque at a `speed` (rad/s), which must not be negative.
     #[inline]
     #[must_use]
     pub fn at(&self, speed: R) -> R {

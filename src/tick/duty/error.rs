@@ -1,12 +1,12 @@
-//! What can be wrong with limits.
+//! Errors of limits.
 
 use core::fmt;
 
 use crate::number::error::{Curable, error};
 
-/// Why a [`Curve`](super::Curve) or a [`Meter`](super::Meter) cannot be made.
+/// Why a [`Curve`](super::Curve) or a [`Meter`](super::Meter) cannot be created.
 ///
-/// Carries no number: firmware that prints nothing then needs no double precision.
+/// Contains no floating-point number: firmware that prints none then needs no double precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -19,12 +19,12 @@ pub enum LimitError {
     NotPositive(&'static str),
     /// A curve has no point, or more than [`MAX_POINTS`](super::MAX_POINTS).
     Points {
-        /// How many.
+        /// Number of points.
         given: usize,
     },
     /// The speeds of a curve must rise.
     NotRising {
-        /// Index of the point that is not beyond the one before.
+        /// Index of the first point that does not rise.
         point: usize,
     },
     /// The time constant of an exponential window must be at least ten ticks.

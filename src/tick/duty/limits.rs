@@ -3,9 +3,9 @@
 use super::{Curve, Figures, LimitError};
 use crate::math::Real;
 
-/// Limits of a drive. A limit that is `None` is not checked, and the verdict says so.
+/// Limits of a drive. A limit that is `None` is not checked; its verdict is [`Verdict::NotChecked`].
 ///
-/// Rules of sizing that allow a share of a rating (80 % of the S1 torque, say) are written as limits that contain the share.
+/// Sizing rules that allow a share of a rating (80 % of the S1 torque, say) become limits that include the share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -16,20 +16,20 @@ pub struct Limits<R> {
     pub peak: Option<Curve<R>>,
     /// Largest speed of the motor (rad/s).
     pub speed: Option<R>,
-    /// Mean speed of the motor, as of a gearbox input (rad/s).
+    /// Mean speed of the motor, for example of a gearbox input (rad/s).
     pub mean_speed: Option<R>,
     /// Largest torque at the gearbox output, T2B (N·m).
     pub output_peak: Option<R>,
     /// Root-mean-cube torque at the gearbox output, T2N (N·m).
     pub output_mean: Option<R>,
-    /// Mean regenerative power, as for a brake resistor (W).
+    /// Mean regenerative power, for example of a brake resistor (W).
     pub regenerative_power: Option<R>,
     /// Cycles per hour up to which T2B applies.
     pub cycles_per_hour: Option<R>,
 }
 
 impl<R: Copy> Limits<R> {
-    /// No limit.
+    /// No limits.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -44,7 +44,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the RMS torque of the motor over the mean speed (N·m over rad/s).
+    /// Adds a limit of the motor's RMS torque over the mean speed (N·m over rad/s).
     #[must_use]
     pub const fn with_continuous(self, limit: Curve<R>) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the torque of the motor over speed, instant by instant (N·m over rad/s).
+    /// Adds a limit of the motor's torque over speed, instant by instant (N·m over rad/s).
     #[must_use]
     pub const fn with_peak(self, limit: Curve<R>) -> Self {
         Self {
@@ -62,7 +62,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the speed of the motor (rad/s).
+    /// Adds a limit of the motor's speed (rad/s).
     #[must_use]
     pub const fn with_speed(self, limit: R) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the mean speed of the motor (rad/s).
+    /// Adds a limit of the motor's mean speed (rad/s).
     #[must_use]
     pub const fn with_mean_speed(self, limit: R) -> Self {
         Self {
@@ -80,7 +80,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the torque at the gearbox output, T2B (N·m).
+    /// Adds a limit of the torque at the gearbox output, T2B (N·m).
     #[must_use]
     pub const fn with_output_peak(self, limit: R) -> Self {
         Self {
@@ -89,7 +89,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the root-mean-cube torque at the gearbox output, T2N (N·m).
+    /// Adds a limit of the root-mean-cube torque at the gearbox output, T2N (N·m).
     #[must_use]
     pub const fn with_output_mean(self, limit: R) -> Self {
         Self {
@@ -98,7 +98,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the mean regenerative power (W).
+    /// Adds a limit of the mean regenerative power (W).
     #[must_use]
     pub const fn with_regenerative_power(self, limit: R) -> Self {
         Self {
@@ -107,7 +107,7 @@ impl<R: Copy> Limits<R> {
         }
     }
 
-    /// With a limit of the cycles an hour up to which T2B applies.
+    /// Adds a limit of the cycles per hour up to which T2B applies.
     #[must_use]
     pub const fn with_cycles_per_hour(self, limit: R) -> Self {
         Self {
@@ -145,27 +145,27 @@ impl<R: Real> Limits<R> {
     }
 }
 
-/// Whether a figure keeps its limit.
+/// Whether a figure satisfies its limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Verdict {
-    /// There is no limit, or nothing was read yet.
+    /// There is no limit, or no reading yet.
     #[default]
     NotChecked,
     /// At or below the limit.
     Satisfied,
-    /// Above it.
+    /// Above the limit.
     Exceeded,
 }
 
-/// One verdict for each of the [`Limits`], and one on the readings.
+/// One verdict for each of the [`Limits`], and one for the readings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Verdicts {
-    /// RMS torque, by the continuous torque at the mean speed.
+    /// RMS torque, against the continuous torque at the mean speed.
     pub rms_torque: Verdict,
-    /// Every instant's torque, by the peak torque at its speed.
+    /// Torque at every instant, against the peak torque at its speed.
     pub peak_torque: Verdict,
     /// Largest speed.
     pub speed: Verdict,
@@ -175,11 +175,11 @@ pub struct Verdicts {
     pub output_peak: Verdict,
     /// Root-mean-cube torque at the gearbox output.
     pub output_mean: Verdict,
-    /// Mean of the power that comes back.
+    /// Mean regenerative power.
     pub regenerative_power: Verdict,
-    /// Cycles an hour.
+    /// Cycles per hour.
     pub cycles_per_hour: Verdict,
-    /// Exceeded if a reading could not be used: see [`Figures::invalid`].
+    /// Exceeded if a reading was invalid: see [`Figures::invalid`].
     pub readings: Verdict,
 }
 
@@ -225,7 +225,7 @@ impl Verdicts {
         }
     }
 
-    /// All of them, in the order of the fields.
+    /// All verdicts, in the order of the fields.
     #[must_use]
     pub const fn all(&self) -> [Verdict; 9] {
         [
@@ -241,7 +241,7 @@ impl Verdicts {
         ]
     }
 
-    /// Whether no limit is exceeded. Limits that were not checked do not count against it.
+    /// Whether no limit is exceeded. Limits that were not checked do not count.
     #[must_use]
     pub fn satisfied(&self) -> bool {
         !self.all().contains(&Verdict::Exceeded)

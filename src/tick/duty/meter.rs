@@ -1,30 +1,30 @@
-//! The meter: a few sums and extremes for each tick, figures when asked.
+//! The meter: a few sums and extremes in each tick, figures on request.
 
 use super::sum::Sum;
 use super::{LimitError, Limits, Verdicts};
 use crate::math::Real;
 
-/// A larger torque (N·m) is no torque: such a reading is counted as invalid. So the sums cannot overflow in `f32`.
+/// Greatest valid torque (N·m): a reading beyond it counts as invalid, so that the sums cannot overflow in `f32`.
 pub const MOST_TORQUE: f64 = 1e6;
 
-/// A larger speed (rad/s) is no speed.
+/// Greatest valid speed (rad/s).
 pub const MOST_SPEED: f64 = 1e5;
 
-/// Over which time means are taken.
+/// Time over which means are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Window<R> {
     /// Since the start or the last [`Meter::restart`]: one cycle, or any number.
     SinceStart,
-    /// Weights that fall by the factor e over this time (s), as a winding's heat does: a reading that is t old counts
-    /// e^(−t/τ). Right from the first tick on, for the sum of the weights is kept as well.
+    /// Weights fall by the factor e over this time (s), like a winding's heat: a reading of age t counts e^(−t/τ). Right from the first tick on,
+    /// because the sum of the weights is counted, too.
     Exponential(R),
 }
 
-/// Means that a meter keeps, as weighted sums.
+/// Number of means, as weighted sums.
 const MEANS: usize = 5;
 
-/// Sums and extremes of what a drive does. See the [module](crate::duty).
+/// Sums and extremes of a drive's duty. See the [module](crate::duty).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Meter<R> {
@@ -36,25 +36,24 @@ pub struct Meter<R> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Config<R> {
     limits: Limits<R>,
-    /// Time of a tick (s).
+    /// Period of a tick (s).
     step: R,
-    /// What a new term counts: 1, or step/τ.
+    /// Weight of a new term: 1, or step/τ.
     gain: R,
-    /// Whether the window is exponential: a new term then takes the place of as much of the sum.
+    /// Whether the window is exponential: a new term then replaces its share of the sum.
     forgets: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct State<R> {
-    /// Sum of the weights.
     weight: Sum<R>,
-    /// T², |n|, |n|·|T_out|³, power of the motor, power back.
+    /// T², |n|, |n|·|T_out|³, motoring power, regenerative power.
     means: [Sum<R>; MEANS],
     peak_torque: R,
     peak_speed: R,
     output_peak: R,
-    /// Torque and peak torque where their quotient was largest: compared crosswise, so that no tick divides.
+    /// Torque and peak torque where their quotient was largest; compared by cross products, so that no tick divides.
     closest: [R; 2],
     ticks: u32,
     cycles: u32,
@@ -78,7 +77,7 @@ impl<R: Real> State<R> {
     }
 }
 
-/// The figures of a duty. SI units; speeds and torques are those of the motor unless they say output.
+/// The figures of a duty, in SI units. Speeds and torques are the motor's unless named output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Figures<R> {
@@ -86,17 +85,17 @@ pub struct Figures<R> {
     pub rms_torque: R,
     /// Mean of the speed's magnitude (rad/s).
     pub mean_speed: R,
-    /// Root-mean-cube torque at the gearbox output, weighted with the speed (N·m); zero if nothing turned.
+    /// Root-mean-cube torque at the gearbox output, weighted with the speed (N·m); zero without any motion.
     pub output_mean: R,
-    /// Mean of the power that the motor gives (W).
+    /// Mean motoring power (W).
     pub motoring_power: R,
-    /// Mean of the power that comes back to it (W).
+    /// Mean regenerative power (W).
     pub regenerative_power: R,
-    /// Energy that the motor gave over the window (J).
+    /// Motoring energy over the window (J).
     pub motoring_energy: R,
-    /// Energy that came back over the window (J).
+    /// Regenerative energy over the window (J).
     pub regenerative_energy: R,
-    /// Length of the window (s): time since the start, or of an exponential one the sum of its weights.
+    /// Length of the window (s): time since the start; for an exponential one the sum of its weights.
     pub duration: R,
     /// Largest |T| (N·m).
     pub peak_torque: R,
@@ -104,17 +103,15 @@ pub struct Figures<R> {
     pub peak_speed: R,
     /// Largest |T_out| (N·m).
     pub output_peak: R,
-    /// Largest |T| as a share of the peak torque at its speed; infinite if there was a torque where the curve has none, `None`
-    /// without a curve.
+    /// Largest |T| as a share of the peak torque at its speed; infinite if there was a torque where the curve is zero, `None` without a curve.
     pub peak_share: Option<R>,
-    /// Cycles an hour since the start, or until the count of ticks stopped; zero without a counted cycle.
+    /// Cycles per hour since the start, or until the tick count stopped; zero without a counted cycle.
     pub cycles_per_hour: R,
-    /// Cycles counted. All counts stop at their largest value, and this one with `ticks`.
+    /// Counted cycles. All counts stop at their largest value; this one also when `ticks` stops.
     pub cycles: u32,
-    /// Ticks whose readings were used; at 20 kHz the count stops after 59 hours.
+    /// Ticks with valid readings; at 20 kHz the count stops after 59 hours.
     pub ticks: u32,
-    /// Ticks whose readings were not: NaN, infinite, or beyond [`MOST_TORQUE`] or [`MOST_SPEED`]. They do not enter any other
-    /// figure, nor the time.
+    /// Ticks with invalid readings: NaN, infinite, or beyond [`MOST_TORQUE`] or [`MOST_SPEED`]. They count in no other figure, nor in the time.
     pub invalid: u32,
 }
 
@@ -127,7 +124,7 @@ fn larger<R: Real>(a: R, b: R) -> R {
 }
 
 impl<R: Real> Meter<R> {
-    /// A meter for ticks of `step` (s).
+    /// Creates a meter for ticks of `step` (s).
     ///
     /// # Errors
     /// A step that is not positive; an exponential window shorter than ten steps; a limit negative or not finite.
@@ -168,10 +165,10 @@ impl<R: Real> Meter<R> {
         &self.config.limits
     }
 
-    /// Takes one tick's readings: `torque` (N·m) and `speed` (rad/s) of the motor, and the torque at the gearbox output `output_torque`
-    /// (N·m; zero if nobody knows it, `torque` of a motor that is coupled directly).
+    /// Adds the readings of one tick: `torque` (N·m) and `speed` (rad/s) of the motor, and the torque at the gearbox output `output_torque` (N·m;
+    /// zero if unknown, `torque` for a directly coupled motor).
     ///
-    /// Cannot fail or panic. A reading that is no number counts as invalid and changes nothing else.
+    /// Cannot fail or panic. A reading that is NaN counts as invalid and changes nothing else.
     #[inline]
     pub fn tick(&mut self, torque: R, speed: R, output_torque: R) {
         let Self { config, state } = self;
@@ -217,14 +214,14 @@ impl<R: Real> Meter<R> {
         }
     }
 
-    /// Counts the end of a cycle of the machine, as long as ticks are counted: both counts stop together.
+    /// Counts the end of a cycle of the machine, as long as ticks count: both counts stop together.
     pub fn count_cycle(&mut self) {
         if self.state.ticks < u32::MAX {
             self.state.cycles = self.state.cycles.saturating_add(1);
         }
     }
 
-    /// Forgets everything but limits, tick and window: for figures of one cycle alone.
+    /// Clears everything except limits, tick and window: for figures of a single cycle.
     pub fn restart(&mut self) {
         self.state = State::new();
     }
@@ -243,7 +240,7 @@ impl<R: Real> Meter<R> {
             }
         };
         let [square, mean_speed, cube, motoring_power, regenerative_power] = state.means.map(mean);
-        // The weights of an exponential window grow to 1, which means its time constant.
+        // The weights of an exponential window grow to 1, which corresponds to its time constant.
         let duration = weight * (config.step / config.gain);
         let [torque, limit] = state.closest;
         let share = if limit > zero {
@@ -277,7 +274,7 @@ impl<R: Real> Meter<R> {
         }
     }
 
-    /// Whether the figures so far keep the limits.
+    /// Whether the figures so far satisfy the limits.
     #[must_use]
     pub fn verdicts(&self) -> Verdicts {
         Verdicts::of(&self.config.limits, &self.figures())

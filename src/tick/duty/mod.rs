@@ -1,7 +1,7 @@
-//! Duty: what a drive really does, measured tick by tick in the figures of its sizing.
+//! Duty: the actual load of a drive, measured tick by tick in the figures of its sizing.
 //!
-//! A [`Meter`] is fed in every control tick with the motor's torque and speed, and the torque at the gearbox output. It keeps
-//! the figures that `jred size` computes from the machine file:
+//! A [`Meter`] receives in every control tick the motor's torque and speed, and the torque at the gearbox output. It computes the same figures as
+//! `jred size` does from the machine file:
 //!
 //! ```text
 //! T_rms = √(1/t ∫T² dt)       n̄ = 1/t ∫|n| dt       T_m = (∫|n|·|T_out|³ dt / ∫|n| dt)^⅓
@@ -9,27 +9,24 @@
 //! max |T|    max |n|    max |T_out|    max |T|/T_peak(|n|)    cycles an hour
 //! ```
 //!
-//! with the rectangle rule: every reading represents one tick. [`Verdicts`] say whether they are within the [`Limits`] of the
-//! sizing, so a machine can tell whether it is loaded as intended. T_rms is judged by the continuous torque at the mean speed
-//! n̄,
-//! as sizing does; T_m is the root-mean-cube torque of gears. `jred size --meter` writes the limits of a drive as Rust source
-//! (docs/duty-meter.md).
+//! with the rectangle rule: every reading represents one tick. [`Verdicts`] compare them with the [`Limits`] of the sizing, so that a machine can
+//! tell whether it is loaded as intended. T_rms is compared with the continuous torque at the mean speed n̄, as in sizing; T_m is the root-mean-cube
+//! torque of gears. `jred size --meter` writes the limits of a drive as Rust source (docs/duty-meter.md).
 //!
-//! Means are taken since the start, or over a [`Window::Exponential`] that forgets; then t above is the window's effective
-//! length. Extremes and counts always refer to the time since the start.
+//! Means cover the time since the start, or a [`Window::Exponential`], which forgets; then t above is the window's effective length. Extremes and
+//! counts always cover the time since the start.
 //!
 //! # Accuracy
 //!
-//! All sums are compensated (W. Kahan, *Further remarks on reducing truncation errors*, CACM 8 (1965) 40): a sum of n terms of
-//! one sign is right to (2 + n·ε)·ε, so no machine runs long enough to lose a digit in `f32`. After 10⁶ ticks in `f32`, every
-//! figure agrees to 2e-7 with the same sums in `f64` (test `single_precision_keeps_its_digits_over_a_million_ticks`),
-//! where a plain sum is wrong by 2e-4.
+//! All sums are compensated (W. Kahan, *Further remarks on reducing truncation errors*, CACM 8 (1965) 40): a sum of n terms of one sign is accurate
+//! to (2 + n·ε)·ε, so that no machine runs long enough to lose a digit in `f32`. After 10⁶ ticks in `f32`, every figure agrees to 2e-7 with the same
+//! sums in `f64` (test `single_precision_keeps_its_digits_over_a_million_ticks`); a plain sum is wrong by 2e-4.
 //!
 //! # Cost
 //!
-//! A tick has no division, no root, no double precision in `f32`, and no way to panic: 165 instructions on a Cortex-M4F with a
-//! peak curve of three points, 171 with an exponential window (`scripts/test counts`). [`Meter::figures`] and
-//! [`Meter::verdicts`], which need not run in the control loop, take two roots and a few divisions.
+//! A tick has no division, no root, no double precision in `f32`, and no panic path: 165 instructions on a Cortex-M4F with a peak curve of three
+//! points, 171 with an exponential window (`scripts/test counts`). [`Meter::figures`] and [`Meter::verdicts`], which need not run in the control
+//! loop, need two roots and a few divisions.
 //!
 //! ```
 //! use jred::duty::{Curve, LimitError, Limits, Meter, Verdict, Window};

@@ -2,7 +2,7 @@
 
 use crate::math::Real;
 
-/// A compensated sum (Kahan): `low` is what the last addition lost, and goes into the next.
+/// A compensated sum (Kahan): `low` is the rounding error of the last addition, and enters the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Sum<R> {

@@ -1,10 +1,10 @@
-//! The check of an image in slices, for a program that has something else to do meanwhile.
+//! The check of an image in slices, for a program with other work to do meanwhile.
 
 use super::{Image, ImageError, TABLE, covered};
 
 const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
-/// How far the CRC of an image has been computed.
+/// Progress of the CRC of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Progress {
     /// Words done.
@@ -16,7 +16,7 @@ pub(crate) struct Progress {
 impl Progress {
     pub(crate) const START: Self = Self { done: 0, crc: 0 };
 
-    /// Takes at most `words` more of an image; its verdict, or `None` if some are left. Ask for at least one word, or it never ends.
+    /// Adds at most `words` more words of an image. Returns its verdict, or `None` if words are left; with `words` = 0 it never ends.
     pub(crate) fn advance<'a>(
         &mut self,
         image: &'a [u32],
@@ -39,7 +39,7 @@ impl Progress {
 
     #[inline(never)] // as `Image::with_crc`
     fn take(&mut self, slice: &[u32]) {
-        // The register of the CRC is its complement, and a start is given with its bits reversed.
+        // The register of the CRC is its complement, and the initial value has its bits reversed.
         let mut digest = CRC.digest_with_initial((!self.crc).reverse_bits());
         digest.update(bytemuck::cast_slice(slice));
         self.crc = digest.finalize();
@@ -47,11 +47,11 @@ impl Progress {
     }
 }
 
-/// The check of an image in slices: what [`Image::new`] does at once, with the same verdict (test `slices_give_the_same_verdict`, and every damaged image of the tests).
+/// The check of an image in slices, with the verdict of [`Image::new`] (test `slices_give_the_same_verdict`, and every damaged image of the tests).
 ///
-/// For a program without an operating system that is sent a table while it runs: each call takes a bounded time, so that other work is done between
-/// them. An interrupt that ticks does not need it: it interrupts [`Image::new`], too. Where the memory for the next image is the program's as well,
-/// [`ImageSlot`](crate::axis::ImageSlot) is this check and that memory in one.
+/// For a program without an operating system that receives a table while it runs: each call takes a bounded time, with time for other work between
+/// calls. A tick in an interrupt does not need it: it interrupts [`Image::new`], too. If the program also owns the memory for the next image,
+/// [`ImageSlot`](crate::axis::ImageSlot) combines this check with that memory.
 ///
 /// ```
 /// use jred::image::ImageCheck;
@@ -79,7 +79,7 @@ pub struct ImageCheck<'a> {
 }
 
 impl<'a> ImageCheck<'a> {
-    /// Of these words; nothing is looked at yet.
+    /// The check of these words, not yet started.
     #[must_use]
     pub const fn new(words: &'a [u32]) -> Self {
         Self {
@@ -88,13 +88,13 @@ impl<'a> ImageCheck<'a> {
         }
     }
 
-    /// Takes at most `words` more words into the CRC: the verdict, or `None` if some are left. With 0 words it never ends.
+    /// Adds at most `words` more words to the CRC: the verdict, or `None` if words are left. With 0 words it never ends.
     ///
-    /// Cost: the CRC takes the same for every word; each call looks at the first words of the header, the last one at all of it.
-    /// What [`Image::model`] checks is not in it.
+    /// Cost: the CRC takes the same for every word; each call checks the first words of the header, the last one all of it. The checks of
+    /// [`Image::model`] are not included.
     ///
     /// # Errors
-    /// As [`Image::new`]. A wrong header is found by the first call.
+    /// As [`Image::new`]. The first call finds a wrong header.
     pub fn advance(&mut self, words: usize) -> Option<Result<Image<'a>, ImageError>> {
         self.progress.advance(self.words, words)
     }

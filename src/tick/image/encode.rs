@@ -1,4 +1,4 @@
-//! Writing table images.
+//! Writes table images.
 
 use super::check::Progress;
 use super::error::ImageError;
@@ -18,10 +18,10 @@ pub const fn image_len<F: Format>(cells: u32, set: Set) -> usize {
     HEADER_WORDS + (words_len::<F>(cells, set) * size_of::<F::Word>()).div_ceil(4) + 1
 }
 
-/// Writes the image of `table` and returns it. The table was checked when it was built.
+/// Writes and returns the image of `table`, which was checked when it was created.
 ///
 /// # Errors
-/// A buffer shorter than [`image_len`], or a number type that is not stored in images (f64).
+/// A buffer shorter than [`image_len`], or a number type that images do not store (f64).
 pub fn encode<'b, F: Format>(
     table: &Table<'_, F>,
     validity: Validity,
@@ -66,10 +66,10 @@ pub fn encode<'b, F: Format>(
     Ok(image)
 }
 
-/// Writes the identifier of a machine into its image, as `jred export` does.
+/// Writes the identifier of a machine into an image, as `jred export` does.
 ///
 /// # Errors
-/// Words that are no image.
+/// Words that are not an image.
 pub fn identify(image: &mut [u32], machine: u32) -> Result<(), ImageError> {
     Image::new(image)?;
     if let Some(word) = image.get_mut(MACHINE) {
@@ -79,7 +79,7 @@ pub fn identify(image: &mut [u32], machine: u32) -> Result<(), ImageError> {
     Ok(())
 }
 
-/// Makes the CRC of an image.
+/// Writes the CRC of an image.
 pub(crate) fn seal(image: &mut [u32]) {
     if let Some((crc, covered)) = image.split_last_mut() {
         *crc = Progress::START.all(covered);

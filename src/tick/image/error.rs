@@ -14,7 +14,7 @@ pub enum ImageError {
     Misaligned,
     /// This processor is big-endian; images are little-endian and used in place.
     BigEndian,
-    /// Shorter than a header, or not as long as the header says.
+    /// Shorter than a header, or another length than in the header.
     Length {
         /// Words that the image must have.
         needed: u32,
@@ -30,36 +30,36 @@ pub enum ImageError {
         /// Version that this library reads.
         supported: u16,
     },
-    /// The contents were damaged.
+    /// The contents are damaged.
     Crc {
         /// CRC-32 stored in the image.
         stored: u32,
         /// CRC-32 of its contents.
         computed: u32,
     },
-    /// A header field has a value that this version does not know or that is out of range; the word's index.
+    /// The header field at this word index has a value that is unknown to this version or out of range.
     Header(u8),
     /// The image contains another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
     /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics, 7 = slider-crank).
     Layout(u8),
-    /// The image is of another machine.
+    /// The image is for another machine.
     Machine {
-        /// Its identifier; 0 if it has none.
+        /// Its identifier, or 0.
         found: u32,
-        /// The one that was asked for.
+        /// The expected identifier.
         expected: u32,
     },
-    /// The table is not sound.
+    /// The table is invalid.
     Table(TableError),
-    /// Tables of this number type are not stored in images.
+    /// Images do not store tables of this number type.
     NotStored(&'static str),
-    /// An image that comes in pieces is longer than the memory for it.
+    /// A received image is longer than its memory.
     TooLong {
-        /// Words of the memory.
+        /// Words of memory.
         given: usize,
     },
-    /// The buffer to write the image in is too short.
+    /// The buffer for the image is too short.
     BufferTooShort {
         /// Words needed.
         needed: usize,

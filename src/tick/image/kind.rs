@@ -1,17 +1,16 @@
-//! What an image is of, told when the program is compiled.
+//! Format and set of an image, checked at compile time.
 
 use super::{Image, MAGIC, VERSION};
 use crate::curve::{Format, Set};
 
-/// Word of the header that has the terms of harmonics, after those for every table.
+/// Word of the header with the terms of harmonics, after those of every table.
 const FIRST_CONSTANT: usize = 13;
 
 impl Image<'_> {
-    /// Whether these are words of an image of this format and set of curves, as far as its header says.
+    /// Whether the header of these words is that of an image of this format and set of curves.
     ///
-    /// `const`, so that an image that is a constant of the program is checked when that is compiled; `jred export --format rust` writes
-    /// this line, and the type of the model. What [`new`](Self::new) and [`model`](Self::model) check besides, the CRC and every cell, is checked at
-    /// start-up.
+    /// `const`, so that an image that is a constant of the program is checked at compile time; `jred export --format rust` writes this line, and the
+    /// type of the model. The rest that [`new`](Self::new) and [`model`](Self::model) check, the CRC and every cell, is checked at start-up.
     ///
     /// ```compile_fail,E0080
     /// use jred::{Image, Q31, Spline, curves};
@@ -44,7 +43,7 @@ impl Image<'_> {
         same_kind::<F>([*magic, *version, *kind, *constant], SET)
     }
 
-    /// As [`is_of`](Self::is_of), of the bytes of a file.
+    /// As [`is_of`](Self::is_of), for the bytes of a file.
     ///
     /// ```
     /// use jred::{Image, Q31, Set, Spline, curves};
@@ -70,7 +69,7 @@ impl Image<'_> {
     }
 }
 
-/// Whether magic, version, kind and the first constant of a header are those of a format and set.
+/// Whether magic, version, kind and first constant of a header match a format and set.
 const fn same_kind<F: Format>([magic, version, kind, constant]: [u32; 4], set: Set) -> bool {
     let Some([code, layout]) = F::CODES else {
         return false;

@@ -1,8 +1,8 @@
-//! The table image: a machine's curves as the tool exports them and firmware uses them, in place from flash.
+//! The table image: a machine's curves as the tool exports them and firmware uses them, in place in flash.
 //!
-//! The layout is documented word by word in `docs/table-image.md`. Everything is a little-endian 32-bit word, so an
-//! image needs 4-byte alignment and nothing else; no number is copied or converted on loading. A CRC-32 covers all
-//! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: an image that passes both can be ticked.
+//! `docs/table-image.md` documents the layout word by word. Everything is a little-endian 32-bit word, so that an image only needs 4-byte alignment;
+//! no number is copied or converted on loading. A CRC-32 covers all of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself:
+//! an image that passes both can be ticked.
 
 mod check;
 mod encode;
@@ -28,13 +28,13 @@ pub const HEADER_WORDS: usize = 24;
 const MACHINE: usize = 19;
 /// Words from here on are zero.
 const RESERVED: usize = 20;
-/// Bits of the set of curves that have a meaning.
+/// Bits in use of the set of curves.
 const KNOWN: u32 = 6;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
 
-/// What the table was made for and how exact it is.
+/// Validity and accuracy of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Validity {
@@ -42,7 +42,7 @@ pub struct Validity {
     pub omega: f32,
     /// Largest acceleration (rad/s², or m/s²).
     pub alpha: f32,
-    /// Largest error of the drive torque within these (N·m, or N).
+    /// Largest error of the drive torque within these limits (N·m, or N).
     pub torque_error: f32,
 }
 
@@ -62,17 +62,17 @@ pub struct Image<'a> {
 }
 
 impl<'a> Image<'a> {
-    /// Checks an image given as words: a `static` array as `jred export --format rust` writes it.
+    /// Checks an image given as words, such as a `static` array from `jred export --format rust`.
     ///
-    /// All of it at once; [`ImageCheck`] does the same in slices.
+    /// It checks everything at once; [`ImageCheck`] does the same in slices.
     ///
     /// # Errors
-    /// What [`ImageError`] lists, except for the table's own errors.
+    /// As [`ImageError`] lists, except for the table's own errors.
     pub fn new(words: &'a [u32]) -> Result<Self, ImageError> {
         Self::with_crc(words, Progress::START.all(covered(words, &TABLE)?))
     }
 
-    /// An image whose words before the last have this CRC-32.
+    /// The image, if `computed` is the CRC-32 of its words before the last.
     #[inline(never)] // a program that checks at once and in slices has it once
     fn with_crc(words: &'a [u32], computed: u32) -> Result<Self, ImageError> {
         let short = ImageError::Length {
@@ -151,15 +151,14 @@ impl<'a> Image<'a> {
     /// Checks an image given as bytes, such as `include_bytes!` or a flash region.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the bytes must lie on a 4-byte boundary ([`include_image!`](crate::include_image)
-    /// sees to it).
+    /// As [`new`](Self::new); also bytes that are not on a 4-byte boundary ([`include_image!`](crate::include_image) aligns them).
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, ImageError> {
         Self::new(bytemuck::try_cast_slice(bytes).map_err(|_| ImageError::Misaligned)?)
     }
 
-    /// The model, its table in place in the image.
+    /// The model over the table, in place in the image.
     ///
-    /// Its format and its set of curves are named where the program is written:
+    /// The program names its format and its set of curves:
     ///
     /// ```
     /// # use jred::{Image, ImageError, Model, Spline, curves};
@@ -168,7 +167,7 @@ impl<'a> Image<'a> {
     /// }
     /// ```
     ///
-    /// Neither another format nor a set that is known only when the program runs compiles:
+    /// Neither another format nor a set known only at run time compiles:
     ///
     /// ```compile_fail,E0308
     /// # use jred::{Image, ImageError, Model, Q31, Spline, curves};
@@ -186,12 +185,12 @@ impl<'a> Image<'a> {
     /// ```
     ///
     /// # Errors
-    /// Another number type, format or other curves than the image has, or a table that is not sound.
+    /// Another number type, format or set of curves than the image has, or an invalid table.
     pub fn model<F: Format, const SET: Set>(&self) -> Result<Model<'a, F, SET>, ImageError> {
         Ok(Model::new(self.table()?)?)
     }
 
-    /// The model, for a program that does not know its curves when it is compiled.
+    /// The model, for a program that does not know its curves at compile time.
     ///
     /// It borrows the words of the image, as every model does:
     ///
@@ -205,7 +204,7 @@ impl<'a> Image<'a> {
     /// }
     /// ```
     ///
-    /// so it does not compile to overwrite them before the last tick:
+    /// so that overwriting them before the last tick does not compile:
     ///
     /// ```compile_fail,E0506
     /// # use jred::{Image, ImageError, Phase, Spline};
@@ -225,7 +224,7 @@ impl<'a> Image<'a> {
     /// The table, in place in the image.
     ///
     /// # Errors
-    /// Another number type or format than the image has, or a table that is not sound.
+    /// Another number type or format than the image has, or an invalid table.
     pub fn table<F: Format>(&self) -> Result<Table<'a, F>, ImageError> {
         if F::CODES.map(|[code, _]| code) != Some(self.code) {
             return Err(ImageError::NumberType(self.code));
@@ -244,7 +243,7 @@ impl<'a> Image<'a> {
         Ok(Table::new(words, shape)?)
     }
 
-    /// The same, if it is of the machine with this identifier: the image of another machine may have the same type and the same curves.
+    /// The same, if it is for the machine with this identifier: another machine may have the same types and curves.
     ///
     /// # Errors
     /// [`ImageError::Machine`].
@@ -259,7 +258,7 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// The identifier of the machine, as [`identify`] wrote it; 0 if it has none.
+    /// The identifier of the machine, written by [`identify`], or 0.
     pub const fn machine(&self) -> u32 {
         self.machine
     }
@@ -284,13 +283,13 @@ impl<'a> Image<'a> {
         self.cells
     }
 
-    /// What the table was made for and how exact it is.
+    /// Validity and accuracy of the table.
     pub const fn validity(&self) -> Validity {
         self.validity
     }
 }
 
-/// How an image begins, whatever is in it: its first word, the version in its second, and the words of its header.
+/// The beginning of an image of any kind: its first word, the version in its second, and the words of its header.
 pub(crate) struct Beginning {
     pub(crate) magic: u32,
     pub(crate) version: u16,
@@ -303,7 +302,7 @@ const TABLE: Beginning = Beginning {
     header: HEADER_WORDS,
 };
 
-/// The words that the CRC covers, of an image whose magic, version and length are right.
+/// The words that the CRC covers, if magic, version and length of the image are right.
 pub(crate) fn covered<'a>(
     words: &'a [u32],
     beginning: &Beginning,
@@ -341,7 +340,7 @@ pub(crate) fn covered<'a>(
     Ok(covered)
 }
 
-/// Bytes on a 4-byte boundary; made by [`include_image!`](crate::include_image).
+/// Bytes on a 4-byte boundary, created by [`include_image!`](crate::include_image).
 #[repr(C, align(4))]
 #[derive(Clone, Copy, Debug)]
 pub struct Aligned<T: ?Sized>(pub T);

@@ -1,14 +1,14 @@
-//! The closure of the joints: where all links are, proven by the interval form of Newton's method.
+//! The closure of the joints: positions of all links, proven by the interval Newton method.
 //!
-//! The coordinates q = (x, y, ψ of every link) satisfy the equations of the joints and of the drive, f(q, φ) = 0. For the middle of a
-//! stretch and for all of it, Krawczyk's operator
+//! The coordinates q = (x, y, ψ of every link) satisfy the equations of the joints and of the drive, f(q, φ) = 0. For the middle of a stretch and for
+//! all of it, Krawczyk's operator
 //!
 //! ```text
 //! K = m − Y·f(m, φ) + (1 − Y·A)·([q] − m),    A = ∂f/∂q over [q],  Y ≈ A⁻¹ in the middle
 //! ```
 //!
-//! maps a box `[q]` around the pose in double precision into its inside: so there is one pose in it for each φ, and no other. Then
-//! the Taylor coefficients follow order by order from the same equations, A·qₖ = −(what lower orders make of order k).
+//! maps a box `[q]` around the pose in double precision into its interior: so it contains exactly one pose for each φ. Then the Taylor coefficients
+//! follow order by order from the same equations, A·qₖ = −(contribution of lower orders to order k).
 
 use jred::machine::{Frames, Jointed};
 use jred::mechanism::linkage::Pair;
@@ -25,16 +25,16 @@ use crate::series::{Series, TERMS, sin_cos_term};
 #[derive(Clone)]
 pub struct Closure<'m> {
     mechanism: &'m dyn Jointed,
-    /// Number of links that the equations place.
+    /// Number of links placed by the equations.
     links: usize,
     equations: Vec<Equation>,
 }
 
 impl<'m> Closure<'m> {
-    /// Of the first so many links and joints of a mechanism; `phi` is a position at which it can be placed.
+    /// The closure of the first `links` links and their joints; `phi` is a position where the mechanism can be placed.
     ///
     /// # Errors
-    /// A joint whose geometry it does not know, or too few of them.
+    /// A joint with unknown geometry, or too few joints.
     pub fn new(
         mechanism: &'m dyn Jointed,
         links: usize,
@@ -54,10 +54,10 @@ impl<'m> Closure<'m> {
         Self::closed(mechanism, links, equations, drive)
     }
 
-    /// Of a linkage with these pairs, gears and racks among them.
+    /// The closure of a linkage with these pairs, including gears and racks.
     ///
     /// # Errors
-    /// A pair whose geometry it does not know, or too few of them.
+    /// A pair with unknown geometry, or too few pairs.
     pub fn of_pairs(
         mechanism: &'m dyn Jointed,
         links: usize,
@@ -76,7 +76,7 @@ impl<'m> Closure<'m> {
         Self::closed(mechanism, links, equations, drive)
     }
 
-    /// With the equation of the drive, if they leave one freedom.
+    /// Adds the equation of the drive, if one degree of freedom is left.
     fn closed(
         mechanism: &'m dyn Jointed,
         links: usize,
@@ -97,10 +97,10 @@ impl<'m> Closure<'m> {
         })
     }
 
-    /// Where the links are from one position of the drive link to another.
+    /// The positions of the links from one position of the drive link to another.
     ///
     /// # Errors
-    /// A stretch on which no pose, or more than one, could be proven: a shorter one may do.
+    /// A stretch without a proven unique pose; a shorter one may succeed.
     pub fn places(&self, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, Unproven> {
         let [from, to] = stretch;
         let middle = from.midpoint(to);
@@ -143,8 +143,8 @@ impl<'m> Closure<'m> {
         Some(places)
     }
 
-    /// The coordinates in double precision, and how fast each moves: a measure of its size. Where a coordinate turns back its
-    /// first derivative says nothing.
+    /// The coordinates in double precision, and the speed of each as a measure of its size. Where a coordinate reverses, its first derivative is no
+    /// measure.
     fn start(&self, frames: &Frames) -> (Vec<f64>, Vec<f64>) {
         let own = || frames.iter().take(self.links);
         let coordinates = || own().flat_map(|frame| [frame.x, frame.y, frame.psi]);
@@ -191,7 +191,7 @@ impl<'m> Closure<'m> {
                 .zip(&all)
                 .all(|(image, all)| image.is_inside(*all))
             {
-                // The pose lies in the image: once more with that.
+                // The pose lies in the image: repeat with it.
                 let solver = Solver::new(inverse, &self.jacobian(&image));
                 let away = image
                     .iter()
@@ -221,7 +221,7 @@ impl<'m> Closure<'m> {
         self.equations.iter().map(of).collect()
     }
 
-    /// ∂f/∂q: the terms of first order, with the first derivative of one coordinate at a time.
+    /// ∂f/∂q: the first-order terms, with the first derivative of one coordinate at a time.
     fn jacobian(&self, pose: &[Interval]) -> Matrix<Interval> {
         let mut places: Vec<Place<Series>> = pose.chunks_exact(3).map(place).collect();
         let mut matrix = Matrix::new(3 * self.links, Interval::ZERO);
@@ -252,7 +252,7 @@ impl<'m> Closure<'m> {
     }
 }
 
-/// A link at these coordinates.
+/// A link with these coordinates.
 fn place(coordinates: &[Interval]) -> Place<Series> {
     let (sin, cos) = coordinates[2].sin_cos();
     Place {
@@ -264,13 +264,13 @@ fn place(coordinates: &[Interval]) -> Place<Series> {
     }
 }
 
-/// Prepares a link for coefficients of this order: of sine and cosine, the part that lower orders of ψ make.
+/// Prepares a link for coefficients of this order: sets the part of sine and cosine that depends on lower orders of ψ.
 fn raise(place: &mut Place<Series>, order: usize) {
     (place.sin.0[order], place.cos.0[order]) =
         sin_cos_term(&place.psi.0, &place.sin.0, &place.cos.0, order);
 }
 
-/// Sets the coefficients of this order, after [`raise`] to it.
+/// Sets the coefficients of this order, after [`raise`] for that order.
 fn set(place: &mut Place<Series>, order: usize, terms: &[Interval]) {
     (place.x.0[order], place.y.0[order]) = (terms[0], terms[1]);
     place.psi.0[order] = terms[2];

@@ -10,7 +10,7 @@ use crate::form::Form;
 use crate::interval::Interval;
 use crate::place::{Place, body, direction};
 
-/// What acts on the links of a machine.
+/// Masses, loads and elements of a machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts<'m> {
     /// Mass properties of the links.
@@ -41,7 +41,7 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Those of links at these places, where the drive link goes from one position to another.
+    /// The curves of links at these places, while the drive link moves from one position to another.
     ///
     /// # Errors
     /// A spring or damper whose ends may meet on the stretch.
@@ -142,10 +142,10 @@ impl Curves {
     }
 }
 
-/// How much of a load acts, 0 to 1.
+/// The share of a load that acts, 0 to 1.
 ///
-/// A stretch may begin or end beside an edge of the window by a rounding. Beyond its end a ramp is followed by a constant, from which the
-/// polynomial x³·(10 − 15·x + 6·x²) of the ramp differs by less than 62·ε³ within ε ≤ 1 of the end.
+/// By rounding, a stretch may begin or end just across an edge of the window. Beyond its end a ramp continues as a constant, which the ramp's
+/// polynomial x³·(10 − 15·x + 6·x²) approximates to less than 62·ε³ within ε ≤ 1 of the end.
 #[must_use]
 pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
     /// The largest ε, as a part of the ramp.
@@ -158,13 +158,13 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
     } else {
         0.0
     };
-    // The turn of positions is the double below 2π, that of the window either.
+    // A turn of the positions is the double below 2π, a turn of the window is exact.
     let into = Form::variable([from, to])
         - Form::somewhere(Interval::of(start) + Interval::turn() * turns);
     let at = into.at.0[0].middle();
     let values = into.values();
     let end = |end: f64| (Interval::of(end) - Interval::of(ramp)).middle();
-    // What the factor is on each part, and where the part ends.
+    // The factor on each part, and the ends of the part.
     let (form, [low, high]) = if at < 0.0 {
         (Form::constant(0.0), [f64::NEG_INFINITY, 0.0])
     } else if at < ramp {
@@ -180,7 +180,7 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
         let next = if window.repeats() { TAU } else { f64::INFINITY };
         (Form::constant(0.0), [width, next])
     };
-    // Roundings of these ends, too.
+    // Includes the rounding of these ends.
     let beyond =
         (low - values.lo()).max(values.hi() - high).max(0.0) + 1e-15 * (1.0 + width + start.abs());
     let beyond = beyond / ramp;

@@ -7,33 +7,33 @@ use crate::form::Form;
 use crate::interval::Interval;
 use crate::series::REMAINDER;
 
-/// What each curve counts in a drive torque: J, J′, load, b, c.
+/// Weight of each curve in a drive torque: J, J′, load, b, c.
 pub(crate) const fn weights([omega, alpha]: [f64; 2]) -> [f64; 5] {
     [alpha, 0.5 * omega * omega, 1.0, omega, 1.0]
 }
 
-/// A cell's polynomials beside the curves of the machine.
+/// A cell's polynomials and the curves of the machine.
 pub(crate) struct Difference<'c> {
     pub(crate) curves: &'c Curves,
     pub(crate) cell: &'c CellCurves,
     pub(crate) weights: [f64; 5],
-    /// Cells for each rad, or m.
+    /// Cells per rad, or m.
     pub(crate) steepness: Interval,
-    /// The place in the cell, from the centre of its polynomials on, of the middle of the stretch.
+    /// The place of the stretch's middle in the cell, from the centre of its polynomials.
     pub(crate) place: Interval,
 }
 
 /// Bounds of the error of the drive torque on a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// Not more anywhere.
+    /// Upper bound everywhere.
     pub(crate) most: f64,
-    /// Not less in the middle.
+    /// Lower bound in the middle.
     pub(crate) least: f64,
 }
 
 impl Difference<'_> {
-    /// From one distance from the middle of the stretch to another.
+    /// Bounds between two distances from the middle of the stretch.
     pub(crate) fn bounds(&self, [from, to]: [f64; 2]) -> Bounds {
         let middle = from.midpoint(to);
         let radius = Interval::of(to.max(from) - middle)
@@ -57,7 +57,7 @@ impl Difference<'_> {
             let found = largest(&exact, &self.polynomial(polynomial, middle), radius);
             bounds.add(found, weight);
         }
-        // The tick takes the magnitude of c, and so does the machine: either sign bounds their difference.
+        // The tick uses the magnitude of c, and so does the machine: either sign bounds their difference.
         let exact = shifted(&curves.coulomb, middle, rest);
         let table = self.polynomial(&cell.coulomb, middle);
         let [same, other] = [table, table.map(|p| -p)].map(|p| largest(&exact, &p, radius));
@@ -72,7 +72,7 @@ impl Difference<'_> {
     /// A polynomial of the cell in powers of the distance from a position.
     fn polynomial(&self, coefficients: &[f64; 4], middle: f64) -> [Interval; 4] {
         let place = self.place + self.steepness * middle;
-        // What `CellCurves` says of its roundings.
+        // The rounding stated by `CellCurves`.
         let size = coefficients
             .iter()
             .fold(0.0_f64, |most, p| most.max(p.abs()));
@@ -112,7 +112,7 @@ fn shifted(form: &Form, middle: f64, rest: Interval) -> [Interval; REMAINDER] {
     terms
 }
 
-/// How far two polynomials are apart within `radius` of their centre.
+/// The largest difference of two polynomials within `radius` of their centre.
 fn largest(exact: &[Interval; REMAINDER], table: &[Interval; 4], radius: f64) -> Bounds {
     let difference = |k: usize| exact[k] - table.get(k).copied().unwrap_or_default();
     let middle = difference(0);

@@ -9,12 +9,12 @@ use crate::interval::Interval;
 use crate::place::Place;
 use crate::series::Series;
 
-/// One of the equations, which is zero.
+/// An equation whose left-hand side is zero.
 #[derive(Clone, Debug)]
 pub(crate) enum Equation {
-    /// A coordinate (0: x, 1: y) of two points that coincide.
+    /// A coordinate (0: x, 1: y) of two coincident points.
     Same([Point; 2], usize),
-    /// A point and a line through another with a direction.
+    /// A point on a line through another point, with a direction.
     OnLine {
         line: Point,
         along: [Interval; 2],
@@ -26,13 +26,13 @@ pub(crate) enum Equation {
         constant: Interval,
         drive: bool,
     },
-    /// Wheels that roll on each other or on a rack: turns times radii, and the way along the rack.
+    /// Wheels that roll on each other or on a rack: turns times radii, and the displacement along the rack.
     Rolling {
         turns: Vec<(Option<usize>, Interval)>,
         rack: Option<(Point, [Interval; 2], Point)>,
         constant: Interval,
     },
-    /// A displacement along a line that the drive sets.
+    /// A displacement along a line, set by the drive.
     Displacement {
         line: Point,
         along: [Interval; 2],
@@ -57,10 +57,10 @@ impl Point {
     }
 }
 
-/// A tolerance of what must be the same everywhere in double precision: the constant of the drive, rounded.
+/// Tolerance for the drive's constant in double precision, with rounding.
 const SAME: f64 = 1e-11;
 
-/// The equations of a joint; `None` of one whose geometry is not in it.
+/// The equations of a joint; `None` if they do not contain its geometry.
 pub(crate) fn of_joint(joint: &Joint, frames: &Frames) -> Option<Vec<Equation>> {
     let same = |a: &Marker, b: &Marker| {
         [0, 1].map(|axis| Equation::Same([Point::of(a), Point::of(b)], axis))
@@ -78,7 +78,7 @@ pub(crate) fn of_joint(joint: &Joint, frames: &Frames) -> Option<Vec<Equation>> 
     })
 }
 
-/// The equations of a pair; `None` of a cam.
+/// The equations of a pair; `None` for a cam.
 pub(crate) fn of_pair(pair: &Pair, frames: &Frames) -> Option<Vec<Equation>> {
     let turn = |body: Body, radius: f64| (body.link(), Interval::of(radius));
     Some(match pair {
@@ -141,7 +141,7 @@ const fn links([a, b]: [&Marker; 2]) -> [Option<usize>; 2] {
     [a.body.link(), b.body.link()]
 }
 
-/// The constant difference of the frames of two markers whose directions agree, up to whole turns.
+/// The constant difference of the frames of two markers with equal directions, up to whole turns.
 fn agree([a, b]: [&Marker; 2], frames: &Frames) -> Equation {
     let apart = (b.direction(frames) - a.direction(frames)).value;
     let turns = Interval::turn() * (apart / TAU).round();
@@ -152,10 +152,10 @@ fn agree([a, b]: [&Marker; 2], frames: &Frames) -> Equation {
     }
 }
 
-/// The coordinate of the drive is φ and a constant, which is known from one position, rounded.
+/// The coordinate of the drive is φ plus a constant, which is known from one position, with rounding.
 pub(crate) fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equation> {
     let offset = joint.coordinate(frames).value - phi;
-    // Most are zero, and their roundings with them.
+    // Most are zero, and rounding is removed from them.
     let offset = if offset.abs() < SAME {
         Interval::ZERO
     } else {
@@ -178,7 +178,7 @@ pub(crate) fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equat
 }
 
 impl Equation {
-    /// Whether it depends on where a link is.
+    /// Whether it depends on the position of a link.
     pub(crate) fn is_of(&self, link: usize) -> bool {
         let link = Some(link);
         match self {
@@ -195,7 +195,7 @@ impl Equation {
         }
     }
 
-    /// What the drive's position is multiplied by.
+    /// Factor of the drive's position.
     pub(crate) const fn by_drive(&self) -> Interval {
         match self {
             Self::Angle { drive: true, .. } | Self::Displacement { .. } => Interval::of(-1.0),
@@ -203,7 +203,7 @@ impl Equation {
         }
     }
 
-    /// The coefficient of this order, without what the drive's position adds.
+    /// The coefficient of this order, without the contribution of the drive's position.
     pub(crate) fn term(&self, places: &[Place<Series>], order: usize) -> Interval {
         let at = |link: Option<usize>| link.and_then(|link| places.get(link));
         let constant = |value: Interval| if order == 0 { value } else { Interval::ZERO };
@@ -289,7 +289,7 @@ fn vector(place: Option<&Place<Series>>, [u, v]: [Interval; 2], order: usize) ->
     [cos * u - sin * v, sin * u + cos * v]
 }
 
-/// The coefficient of the scalar product of a vector and the way from one point to another.
+/// The coefficient of the scalar product of a vector and the vector from one point to another.
 fn product<'p>(
     vector: impl Fn(usize) -> [Interval; 2],
     [line, point]: [&Point; 2],

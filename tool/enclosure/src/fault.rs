@@ -1,12 +1,12 @@
-//! What cannot be proven.
+//! Why a proof fails.
 
 use thiserror::Error;
 
-/// Why nothing is proven.
+/// Why a proof fails.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Unproven {
-    /// A joint with teeth, a cam, a rope or a belt, whose geometry is not in its equations.
+    /// A joint with teeth, a cam, a rope or a belt, whose equations do not contain its geometry.
     #[error("joint number {} transmits by contact, and its curves are not enclosed", number + 1)]
     Joint {
         /// Its index.
@@ -15,7 +15,7 @@ pub enum Unproven {
     /// The drive moves neither a pin nor a guide.
     #[error("the drive moves neither a pin nor a guide")]
     Drive,
-    /// The joints do not leave one freedom.
+    /// The joints do not leave exactly one degree of freedom.
     #[error("the joints make {equations} equations for {coordinates} coordinates")]
     Freedoms {
         /// Number of equations.
@@ -23,7 +23,7 @@ pub enum Unproven {
         /// Number of coordinates.
         coordinates: usize,
     },
-    /// No pose, or more than one, can be proven around a position.
+    /// A pose around a position cannot be proven to be unique.
     #[error(
         "the pose of the links at {phi:.6} (rad, or m) is not proven: it is close to a dead point"
     )]
@@ -45,10 +45,10 @@ pub enum Unproven {
         /// Its name.
         layout: &'static str,
     },
-    /// A part of the machine that a caller cannot enclose.
+    /// A part of the machine that the caller cannot enclose.
     #[error("{0}")]
     Part(String),
-    /// No finite bound was found around a position, however short the stretch.
+    /// No finite bound was found around a position, even on short stretches.
     #[error("no bound was found around {phi:.6} (rad, or m)")]
     Unbounded {
         /// The position (rad, or m).
@@ -57,10 +57,10 @@ pub enum Unproven {
     /// More stretches than allowed: the machine has too many features.
     #[error("more than {most} stretches are needed")]
     TooLong {
-        /// How many are looked at.
+        /// The limit of their number.
         most: u64,
     },
-    /// The caller stopped it.
+    /// The caller stopped the proof.
     #[error("stopped")]
     Stopped,
 }

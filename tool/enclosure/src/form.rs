@@ -1,17 +1,17 @@
-//! Taylor forms: a polynomial about the middle of a stretch, and what the stretch adds to it.
+//! Taylor forms: a polynomial about the middle of a stretch, and a remainder over the stretch.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::interval::Interval;
 use crate::series::{REMAINDER, Series};
 
-/// A quantity over a stretch of φ, of middle m: for every position m + t of it
+/// A quantity over a stretch of φ with the middle m: for every position m + t of it
 ///
 /// ```text
 /// f(m + t) ∈ Σ atₖ·tᵏ + over_R·tᴿ,   k < R = REMAINDER
 /// ```
 ///
-/// `at` are the coefficients in the middle, `over` those of all positions of the stretch: Lagrange's remainder.
+/// `at` contains the coefficients in the middle, `over` the coefficients at all positions of the stretch: Lagrange's remainder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
     /// Coefficients in the middle.
@@ -21,7 +21,7 @@ pub struct Form {
 }
 
 impl Form {
-    /// A quantity that lies in an interval everywhere. It need not be constant, nor smooth; its derivative is not to be taken.
+    /// A quantity that lies in an interval everywhere. It need not be constant, nor smooth; do not use its derivative.
     #[must_use]
     pub const fn somewhere(value: Interval) -> Self {
         Self {
@@ -36,7 +36,7 @@ impl Form {
         Self::somewhere(Interval::of(value))
     }
 
-    /// φ from one position to another.
+    /// φ between two positions.
     #[must_use]
     pub fn variable([from, to]: [f64; 2]) -> Self {
         Self {
@@ -87,13 +87,13 @@ impl Form {
         (form(sin, all_sin), form(cos, all_cos))
     }
 
-    /// The numbers that it may be, anywhere on the stretch.
+    /// The possible values, anywhere on the stretch.
     #[must_use]
     pub const fn values(&self) -> Interval {
         self.over.0[0]
     }
 
-    /// |f|: where f may change its sign, any number from zero to its size.
+    /// |f|: where f may change its sign, the range from zero to its magnitude.
     #[must_use]
     pub fn magnitude(&self) -> Self {
         let values = self.values();
@@ -106,7 +106,7 @@ impl Form {
         }
     }
 
-    /// √(f² + g²): where both may be zero, any number from zero to the largest it can be.
+    /// √(f² + g²): where both may be zero, the range from zero to the largest possible value.
     #[must_use]
     pub fn length(&self, g: &Self) -> Self {
         let squared = self.square() + g.square();
@@ -125,7 +125,7 @@ impl Form {
         coefficients.iter().rev().fold(start, horner)
     }
 
-    /// How far the values at one position may be apart, on a stretch of this half width.
+    /// Greatest width of the values at one position, on a stretch of this half width.
     #[must_use]
     pub fn slack(&self, half: f64) -> f64 {
         let mut width = 0.0;

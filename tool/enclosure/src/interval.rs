@@ -1,20 +1,20 @@
-//! Intervals that contain the exact result, whatever was rounded.
+//! Intervals that contain the exact result, including rounding.
 //!
-//! Every bound is moved outward by one unit of the last place after each operation: IEEE 754 rounds sums, products, quotients and roots
-//! to the nearest number, so that the exact result lies between the neighbours of what is computed. Sine and cosine of libm
-//! are off by less than one unit of the last place, and are moved by two.
+//! Every bound is moved outward by one unit of the last place after each operation: IEEE 754 rounds sums, products, quotients and roots to the
+//! nearest number, so that the exact result lies between the neighbours of the computed one. Sine and cosine of libm are off by less than one unit of
+//! the last place, and are moved by two.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// All numbers from `lo` to `hi`. What is no number, or beyond all numbers, is [`ALL`](Self::ALL).
+/// All numbers from `lo` to `hi`. NaN and values beyond all numbers become [`ALL`](Self::ALL).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
     lo: f64,
     hi: f64,
 }
 
-/// Beyond this size, or across more than this many quarters of a turn, sine and cosine are only known to lie within ±1.
+/// For larger angles, or over more than a turn, sine and cosine are bounded only by ±1.
 const LARGEST_ANGLE: f64 = 1e6;
 
 impl Interval {
@@ -22,7 +22,7 @@ impl Interval {
     pub const ZERO: Self = Self::of(0.0);
     /// 1
     pub const ONE: Self = Self::of(1.0);
-    /// Every number: what is known of a quotient by an interval with zero.
+    /// Every number, such as for a quotient by an interval that contains zero.
     pub const ALL: Self = Self {
         lo: f64::NEG_INFINITY,
         hi: f64::INFINITY,
@@ -37,10 +37,10 @@ impl Interval {
         }
     }
 
-    /// From one number to another, in any order.
+    /// Between two numbers, in any order.
     #[must_use]
     pub fn between(a: f64, b: f64) -> Self {
-        // min and max forget what is no number.
+        // min and max ignore NaN.
         if a.is_nan() || b.is_nan() {
             return Self::checked(f64::NAN, f64::NAN);
         }
@@ -62,7 +62,7 @@ impl Interval {
     /// 2π
     #[must_use]
     pub fn turn() -> Self {
-        // The double is below 2π by 2.4e-16.
+        // The double is 2.4e-16 below 2π.
         Self {
             lo: TAU,
             hi: TAU.next_up(),
@@ -100,13 +100,13 @@ impl Interval {
         if middle.is_finite() { middle } else { 0.0 }
     }
 
-    /// The greatest distance of any of the numbers from zero.
+    /// The greatest magnitude.
     #[must_use]
     pub const fn size(self) -> f64 {
         self.lo.abs().max(self.hi.abs())
     }
 
-    /// The least distance of any of the numbers from zero.
+    /// The least magnitude.
     #[must_use]
     pub const fn least_size(self) -> f64 {
         if self.contains(0.0) {
@@ -116,38 +116,38 @@ impl Interval {
         }
     }
 
-    /// How far apart the ends are, rounded up.
+    /// Distance of the ends, rounded up.
     #[must_use]
     pub fn width(self) -> f64 {
         (self.hi - self.lo).next_up()
     }
 
-    /// Whether it has both ends.
+    /// Whether both ends are finite.
     #[must_use]
     pub const fn is_bounded(self) -> bool {
         self.lo.is_finite() && self.hi.is_finite()
     }
 
-    /// Whether a number lies in it.
+    /// Whether it contains a number.
     #[must_use]
     pub const fn contains(self, value: f64) -> bool {
         self.lo <= value && value <= self.hi
     }
 
-    /// Whether it lies in another and does not touch its ends.
+    /// Whether it lies in another interval without touching its ends.
     #[must_use]
     pub const fn is_inside(self, other: Self) -> bool {
         other.lo < self.lo && self.hi < other.hi
     }
 
-    /// The numbers of both; of two that have none in common, the first: one of them is wrong, and nothing follows from it.
+    /// The intersection. If it is empty, the first interval: then one of them is wrong, and no conclusion is possible.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let (lo, hi) = (self.lo.max(other.lo), self.hi.min(other.hi));
         if lo <= hi { Self { lo, hi } } else { self }
     }
 
-    /// From the least number of both to the greatest.
+    /// The smallest interval that contains both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self {
@@ -177,7 +177,7 @@ impl Interval {
         if n % 2 == 1 { product * self } else { product }
     }
 
-    /// √x of the numbers from zero on; [`ALL`](Self::ALL) where there is a lesser one.
+    /// √x of the numbers from zero on; [`ALL`](Self::ALL) if it contains a negative number.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.lo < 0.0 {
@@ -210,7 +210,7 @@ impl Interval {
             }
         };
         let mut found = end(self.lo).hull(end(self.hi));
-        // Half turns from the crest: whole numbers are crests and troughs, taken if they may lie within.
+        // Half turns from the crest: integers are crests and troughs, included if they may lie within.
         let slack = 1e-9;
         let first = ((self.lo - crest) / PI - slack).ceil();
         let last = ((self.hi - crest) / PI + slack).floor();

@@ -1,4 +1,4 @@
-//! Linear systems whose coefficients are intervals, made nearly the identity by an approximate inverse.
+//! Linear systems with interval coefficients, preconditioned by an approximate inverse.
 
 use crate::interval::Interval;
 
@@ -27,7 +27,7 @@ impl<T: Copy> Matrix<T> {
 }
 
 impl Matrix<Interval> {
-    /// An approximate inverse of the middles, by elimination with the largest pivots; `None` if there is none.
+    /// An approximate inverse of the middles, by elimination with the largest pivots; `None` if singular.
     pub(crate) fn inverse(&self) -> Option<Matrix<f64>> {
         let n = self.size;
         let mut left: Vec<f64> = self.entries.iter().map(|a| a.middle()).collect();
@@ -73,7 +73,7 @@ pub(crate) struct Solver {
 }
 
 impl Solver {
-    /// Of an approximate inverse Y.
+    /// A solver with an approximate inverse Y.
     pub(crate) fn new(inverse: Matrix<f64>, matrix: &Matrix<Interval>) -> Self {
         let n = matrix.size;
         let mut rest = Matrix::new(n, Interval::ZERO);
@@ -113,10 +113,10 @@ impl Solver {
         rows.collect()
     }
 
-    /// All solutions for right-hand sides in `b`; `units` are sizes of the unknowns, in which 1 − Y·A is measured. `None` if
-    /// the matrix may be singular.
+    /// All solutions for right-hand sides in `b`; `units` are the scales of the unknowns, in which 1 − Y·A is measured. `None` if the matrix may be
+    /// singular.
     pub(crate) fn solve(&self, b: &[Interval], units: &[f64]) -> Option<Vec<Interval>> {
-        /// How often x = Y·b + (1 − Y·A)·x narrows the solution.
+        /// Number of iterations x = Y·b + (1 − Y·A)·x, which narrow the solution.
         const STEPS: usize = 2;
         let start = self.approximate(b);
         let in_units = |x: &[f64], row: usize| {
@@ -127,7 +127,7 @@ impl Solver {
         for row in 0..self.rest.size {
             let sizes: Vec<f64> = self.rest.row(row).iter().map(|e| e.size()).collect();
             let here = in_units(&sizes, row);
-            // What is no number is not below.
+            // NaN does not contract.
             let contracts = here < 0.9;
             if !contracts {
                 return None;

@@ -1,4 +1,4 @@
-//! Where links are on a stretch of the drive link's range.
+//! Positions of links on a stretch of the drive link's range.
 
 use jred::machine::Marker;
 
@@ -44,7 +44,7 @@ impl Place<Form> {
         }
     }
 
-    /// Of its series in the middle of the stretch and over the stretch.
+    /// Joins the series in the middle of the stretch and over the stretch.
     pub(crate) fn joined(at: &Place<Series>, over: &Place<Series>) -> Self {
         let form = |at: &Series, over: &Series| Form {
             at: *at,
@@ -73,7 +73,6 @@ impl Place<Form> {
     }
 }
 
-/// The place of the body of a marker.
 pub(crate) fn body(marker: &Marker, places: &[Place<Form>]) -> Place<Form> {
     let link = marker.body.link().and_then(|link| places.get(link));
     link.copied().unwrap_or(Place::GROUND)

@@ -1,4 +1,4 @@
-//! The largest error of a table, bounded over all positions by halving stretches and parts of cells.
+//! The largest error of a table, bounded over all positions by bisection of stretches and of parts of cells.
 
 use jred::Domain;
 use jred::Table;
@@ -10,61 +10,62 @@ use crate::fault::Unproven;
 use crate::interval::Interval;
 use crate::tick::Tick;
 
-/// The range of a table, and what it is for.
+/// The range of a table, and the requirements of a proof.
 #[derive(Clone, Copy, Debug)]
 pub struct Goal<'m> {
-    /// Where its range begins (rad, or m).
+    /// Start of its range (rad, or m).
     pub start: f64,
     /// Length of its range (rad, or m).
     pub span: f64,
     /// Positions (rad, or m) where the curves are not smooth, in any turn.
     pub edges: &'m [f64],
-    /// Whether the range repeats with every turn, and edges with it.
+    /// Whether the range, with its edges, repeats every turn.
     pub turns: bool,
     /// Largest speed (rad/s, or m/s).
     pub omega: f64,
     /// Largest acceleration (rad/s², or m/s²).
     pub alpha: f64,
-    /// An error (N·m) that the table is known to have somewhere: what is not above needs no closer look.
+    /// An error (N·m) that the table is known to have somewhere: smaller bounds need no refinement.
     pub known: f64,
-    /// An error (N·m) that does not count.
+    /// A negligible error (N·m).
     pub negligible: f64,
 }
 
-/// What is proven of a table.
+/// The proven figures of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proof {
-    /// Nowhere does the table, read without a rounding, err more in the drive torque (N·m, or N), for any speed and acceleration of the range.
+    /// Upper bound of the error in the drive torque (N·m, or N) of the exactly evaluated table at every position, for any speed and acceleration of
+    /// the range.
     pub bound: f64,
-    /// A position near which that is so (rad, or m).
+    /// A position near the largest error (rad, or m).
     pub worst: f64,
-    /// The same of the tick, with all its roundings; `None` of a format whose arithmetic is not proven.
+    /// The same for the tick, with all its rounding; `None` for a format whose arithmetic is not proven.
     pub ticked: Option<f64>,
-    /// Somewhere the bound cannot be less (N·m, or N): the errors of the curves there, each with its largest weight. They add up in a torque
+    /// Lower bound of that upper bound (N·m, or N): the errors of the curves at some place, each with its largest weight. In a torque they add up
     /// only where their signs agree.
     pub least: f64,
-    /// Number of stretches that the range was cut into.
+    /// Number of stretches of the range.
     pub stretches: u64,
 }
 
-/// Stretches to begin with.
+/// Initial number of stretches.
 const STRETCHES: u32 = 64;
-/// Most stretches.
+/// Greatest number of stretches.
 const MOST: u64 = 1 << 19;
-/// How often a stretch is halved.
+/// Greatest number of halvings of a stretch.
 const DEEPEST: u32 = 48;
-/// How often a part of a cell is halved.
+/// Greatest number of halvings of a part of a cell.
 const FINEST: u32 = 12;
-/// A bound that is above the largest known error by no more than this share is close enough.
+/// A bound that exceeds the largest known error by at most this share is close enough.
 const CLOSE: f64 = 0.005;
-/// The part of the error that the width of the curves may be before a stretch is halved for it.
+/// The width of the curves, as a share of the error, above which a stretch is halved.
 const SLACK: f64 = 0.002;
 
-/// Proves the error of a table, whose machine has these curves on any stretch of its range. `watch` is told the share of the range that is done, and says
-/// whether to go on.
+/// Proves the error of a table, whose machine has these curves on any stretch of its range. `watch` receives the finished share of the range, and
+/// returns whether to continue.
 ///
 /// # Errors
-/// What cannot be proven, and where.
+/// Why the proof fails, and where.
 pub fn prove<F: Format>(
     table: &Table<'_, F>,
     goal: &Goal<'_>,
@@ -123,7 +124,7 @@ pub fn prove<F: Format>(
     Ok(search.found)
 }
 
-/// Where the range begins, the edges within it, and where it ends.
+/// The start of the range, the edges within it, and its end.
 fn cuts(goal: &Goal<'_>) -> Vec<f64> {
     use std::f64::consts::TAU;
     let end = goal.start + goal.span;
@@ -145,7 +146,7 @@ fn cuts(goal: &Goal<'_>) -> Vec<f64> {
     cuts
 }
 
-/// Whether a bound is not above a limit; what is no number is.
+/// Whether a bound does not exceed a limit; false for NaN.
 fn within(bound: f64, limit: f64) -> bool {
     bound <= limit
 }
@@ -157,7 +158,7 @@ struct Search<'s> {
     cell: &'s dyn Fn(u32) -> Option<CellCurves>,
     tick: Option<Tick>,
     weights: [f64; 5],
-    /// Cells for each rad, or m.
+    /// Cells per rad, or m.
     steepness: Interval,
     found: Proof,
 }
@@ -171,13 +172,13 @@ struct Part {
 }
 
 impl Search<'_> {
-    /// Bounds below this need no closer look.
+    /// Bounds below this need no refinement.
     fn enough(&self) -> f64 {
         let known = self.goal.known.max(self.found.least);
         (known * (1.0 + CLOSE)).max(self.goal.negligible)
     }
 
-    /// Bounds the error on a stretch, halved where that makes the bound better.
+    /// Bounds the error on a stretch, halving it where that improves the bound.
     fn stretch(&mut self, stretch: [f64; 2], depth: u32) -> Result<(), Unproven> {
         self.found.stretches += 1;
         if self.found.stretches > MOST {
@@ -205,7 +206,7 @@ impl Search<'_> {
             .zip(self.weights)
             .map(|(form, w)| form.slack(half) * w)
             .sum();
-        // What is no number is not below.
+        // NaN is not sharp.
         let sharp = slack <= SLACK * self.enough();
         let finest = if sharp || !halves { FINEST } else { 2 };
         let mut parts = Vec::new();
@@ -233,7 +234,7 @@ impl Search<'_> {
         self.stretch([middle, to], depth + 1)
     }
 
-    /// The cells that a stretch lies in, with one more where it may reach into it by a rounding.
+    /// The cells of a stretch, with one more where rounding may reach into it.
     fn cells_of(&self, [from, to]: [f64; 2]) -> Vec<(u32, CellCurves)> {
         let place = |phi: f64| (phi - self.goal.start) / self.goal.span * f64::from(self.cells);
         let last = self.cells - 1;
@@ -255,7 +256,7 @@ impl Search<'_> {
         let middle = from.midpoint(to);
         let (start, span) = (self.goal.start, self.goal.span);
         let cells = f64::from(self.cells);
-        // The ends of the cell, where only roundings lie beyond.
+        // The ends of the cell, beyond which there is only rounding.
         let beside = 1e-15 * (start.abs() + span);
         let ends = [f64::from(index), f64::from(index + 1)].map(|k| start + span * (k / cells));
         let low = if index == 0 {

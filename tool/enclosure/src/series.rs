@@ -1,4 +1,4 @@
-//! Taylor series with intervals as coefficients: differentiation without formulas.
+//! Taylor series with interval coefficients: automatic differentiation.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,15 +6,15 @@ use crate::interval::Interval;
 
 /// Coefficients of a series: f(φ + t) = Σ aₖ·tᵏ.
 pub const TERMS: usize = 11;
-/// The order of the remainder: a quantity of the second derivative of a coordinate is known so far.
+/// The order of the remainder: the highest known order of a quantity that contains the second derivative of a coordinate.
 pub const REMAINDER: usize = TERMS - 3;
 
-/// aₖ = f⁽ᵏ⁾/k! for every position of an interval of φ; the same operations as for the number f.
+/// aₖ = f⁽ᵏ⁾/k! for every position of an interval of φ, with the operations of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Series(pub [Interval; TERMS]);
 
 impl Series {
-    /// A quantity that does not depend on φ.
+    /// A quantity independent of φ.
     #[must_use]
     pub const fn constant(value: Interval) -> Self {
         let mut terms = [Interval::ZERO; TERMS];
@@ -30,7 +30,7 @@ impl Series {
         Self(terms)
     }
 
-    /// f′; of the last coefficient nothing is known, and it is left zero.
+    /// f′; the last coefficient is unknown, and is left zero.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let mut terms = [Interval::ZERO; TERMS];
@@ -48,7 +48,7 @@ impl Series {
         product
     }
 
-    /// √f, from y² = f; nothing is known where f may be zero.
+    /// √f, from y² = f; unbounded where f may be zero.
     #[must_use]
     pub fn sqrt(&self) -> Self {
         let mut y = [Interval::ZERO; TERMS];

@@ -1,21 +1,21 @@
-//! What the arithmetic of a tick adds to the table read exactly: the units that docs/theory.md states, proven by Gappa, in
-//! fixed point; in floating point a bound of all roundings of the tick of this very cell.
+//! Rounding of a tick, in addition to the exactly evaluated table: in fixed point the units stated in docs/theory.md and proven by Gappa; in floating
+//! point a bound of all rounding of the tick in the given cell.
 
 use jred::Scale;
 use jred::number::Number;
 use jred::table::{CellCurves, Format};
 
-/// How a tick of a table differs from the same formulas without a rounding.
+/// Difference of a table's tick from the same formulas without rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tick {
     arithmetic: Arithmetic,
-    /// How far the place that is read may be beside the place, in cells.
+    /// Error of the place that is read, in cells.
     place: f64,
-    /// How far the velocity torque may be off, as a share of itself.
+    /// Relative error of the velocity torque.
     bases: f64,
     /// Largest speed and acceleration.
     range: [f64; 2],
-    /// ½·ω² is what the slope by position is multiplied by; by cell it is this times as much.
+    /// Factor of the slope from per cell to per position; the latter is multiplied by ½·ω².
     cells_per_position: f64,
 }
 
@@ -23,12 +23,12 @@ pub(crate) struct Tick {
 enum Arithmetic {
     /// A torque (N·m).
     Fixed(f64),
-    /// Half a unit of the last place, as a share, and whether the cell's coefficients are made from control points.
+    /// Half a unit of the last place, as a relative error, and whether the cell's coefficients are computed from control points.
     Float { epsilon: f64, points: bool },
 }
 
 impl Tick {
-    /// Of a table of this format with so many cells over `span`, for speeds and accelerations up to `range`. `None` of a format whose arithmetic is
+    /// For a table of this format with `cells` cells over `span`, and speeds and accelerations up to `range`. `None` for a format whose arithmetic is
     /// not proven.
     pub(crate) fn new<F: Format>(
         scale: &Scale,
@@ -40,7 +40,7 @@ impl Tick {
             [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
         let number = <F::Number as Number>::NAME;
         let cells_per_position = f64::from(cells) / span;
-        // How many slopes a cell the velocity torque counts at the speed base: a whole number in `Q31`.
+        // The velocity torque at the speed base, in slopes per cell: an integer in `Q31`.
         let factor = 0.5 * cells_per_position * inertia * speed * speed / torque;
         let fixed = |step: f64, [torque_units, slope_units]: [f64; 2], place| {
             let exact = factor * 2.0 / step;
@@ -90,7 +90,7 @@ impl Tick {
     pub(crate) fn error(&self, cell: &CellCurves) -> f64 {
         let [omega, alpha] = self.range;
         let reach = cell.centre.max(1.0 - cell.centre);
-        // A place that is rounded up may lie beyond the end of the cell by as much.
+        // A place that is rounded up may lie beyond the end of the cell by the same amount.
         let moved = |p: &[f64; 4]| {
             1.000_1
                 * self.place
@@ -113,7 +113,7 @@ impl Tick {
         (place + bases + arithmetic) * (1.0 + 1e-12)
     }
 
-    /// All roundings of a tick in floating point, in the order of its operations.
+    /// All rounding of a tick in floating point, in the order of its operations.
     fn roundings(&self, cell: &CellCurves, epsilon: f64, points: bool) -> f64 {
         let [omega, alpha] = self.range.map(Rounded::exact);
         let ops = Roundings(epsilon);
@@ -141,7 +141,7 @@ impl Tick {
                 curve(p)
             }
         };
-        // The factor as it is: its own roundings are those of the bases.
+        // The exact factor: its rounding is included in the bases.
         let factor = Rounded::exact(0.5 * self.cells_per_position);
         let velocity = ops.times(ops.times(slope, factor), omega);
         let speed = ops.plus(velocity, constant(&cell.viscous));
@@ -151,7 +151,7 @@ impl Tick {
     }
 }
 
-/// The size of a number, and how far it may be from the exact one.
+/// The magnitude of a number, and its error.
 #[derive(Clone, Copy)]
 struct Rounded {
     size: f64,
@@ -172,12 +172,12 @@ impl Rounded {
     }
 }
 
-/// Operations that are rounded to the nearest number, each by this share at most.
+/// Operations with rounding to the nearest number, each with at most this relative error.
 struct Roundings(f64);
 
 impl Roundings {
     fn rounded(&self, size: f64, error: f64) -> Rounded {
-        // The least number in single precision: products may fall below the normal ones.
+        // The smallest number in single precision: products may become subnormal.
         const LEAST: f64 = 1.5e-45;
         Rounded {
             size,
@@ -200,7 +200,7 @@ impl Roundings {
         let [d0, d1] = [(p1 - p2) / 6.0, (p1 + p2) / 6.0];
         let s1 = s0 + p3;
         let point = (p0 - offset - s0).abs();
-        // Each as computed: its operands, then itself.
+        // Each as computed: first its operands, then itself.
         let once = |value: f64| self.rounded(value.abs(), 0.0);
         let [d0, d1, d2] = [once(d0), once(d1), once(d1 + s1)];
         let sum = |value: f64, a: Rounded, b: Rounded| self.rounded(value.abs(), a.error + b.error);

@@ -1,4 +1,4 @@
-//! Enclosures of J, J′ and the load against references with fifty digits (`tests/data` of the library).
+//! Enclosures of J, J′ and the load, compared with 50-digit references (`tests/data` of the library).
 
 use jred::machine::{Action, Jointed, Load, MassProperties};
 use jred::mechanism::{
@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// The enclosures in the middle of a stretch contain the references and are as narrow as roundings make them.
+/// The enclosures in the middle of a stretch contain the references and are as narrow as rounding allows.
 fn compare(case: &Case, machine: &Machine<impl Jointed>) {
     let enclosed = Enclosed::new(machine);
     let rows = case.rows();
@@ -54,7 +54,7 @@ fn compare(case: &Case, machine: &Machine<impl Jointed>) {
             (curves.inertia_slope, slope),
             (curves.load, load),
         ] {
-            // The middle of the stretch is φ but for a rounding.
+            // The middle of the stretch is φ, except for rounding.
             let found = form.at.0[0] + form.at.0[1] * Interval::within(1e-15 * (1.0 + phi.abs()));
             let reference = Interval::around(exact, 2e-16 * exact.abs());
             assert!(

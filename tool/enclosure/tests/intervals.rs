@@ -6,7 +6,7 @@ use rand::{RngExt as _, SeedableRng as _};
 
 const CASES: u32 = 100_000;
 
-/// A number of any size from 1e-6 to 1e6 and either sign.
+/// A number of magnitude 1e-6 to 1e6 and either sign.
 fn number(random: &mut ChaCha8Rng) -> f64 {
     let size = 10.0_f64.powf(random.random_range(-6.0..6.0));
     if random.random() { size } else { -size }
@@ -37,7 +37,7 @@ fn sums_products_and_quotients_contain_the_exact_ones() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..CASES {
         let ((a, x), (b, y)) = (pair(&mut random), pair(&mut random));
-        // Knuth's sum of two numbers and Dekker's product, without an error.
+        // Knuth's sum of two numbers and Dekker's product, which are error-free.
         let sum = x + y;
         let part = sum - x;
         assert!(contains(a + b, sum, (x - (sum - part)) + (y - part)));
@@ -52,7 +52,7 @@ fn sums_products_and_quotients_contain_the_exact_ones() {
         assert!(contains(a * b, product, x.mul_add(y, -product)));
         assert!(contains(a.square(), x * x, x.mul_add(x, -(x * x))));
         let quotient = x / y;
-        // The sign of what is left of x.
+        // The sign of the remainder of x.
         let rest = (-quotient).mul_add(y, x);
         assert!(contains(a / b, quotient, rest * y.signum()), "{a:?} {b:?}");
         assert!((a / b).is_bounded() != b.contains(0.0));
@@ -67,16 +67,16 @@ fn roots_and_waves_contain_the_exact_ones() {
         let squared = a.square();
         let root = (x * x).sqrt();
         let inside = Interval::between(x * x, squared.hi()).sqrt();
-        // √(x²) is |x| to a rounding.
+        // √(x²) is |x|, to a rounding.
         assert!(inside.lo() <= root && root <= inside.hi());
         assert!(inside.lo() * inside.lo() <= x * x * (1.0 + 1e-15));
         let (sin, cos) = a.sin_cos();
-        // The standard library's, another than libm's: both are good to a unit of the last place.
+        // The standard library's, different from libm's: both are accurate to a unit of the last place.
         let near = |all: Interval, value: f64| {
             all.lo() <= value.next_up() && value.next_down() <= all.hi()
         };
         assert!(near(sin, x.sin()) && near(cos, x.cos()), "{a:?} {x}");
-        // Not wider than it must be.
+        // Not wider than necessary.
         if a.lo() >= a.hi() {
             assert!(sin.width() < 1e-15 && cos.width() < 1e-15);
         }

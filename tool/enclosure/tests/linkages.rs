@@ -1,4 +1,4 @@
-//! Proofs of tables of linkages, against searches for the largest error; and proofs that must fail.
+//! Proofs of tables of linkages, compared with searches for the largest error; and proofs that must fail.
 
 use jred::machine::{Action, Element, Jointed, Load, Marker, MassProperties, Window};
 use jred::mechanism::{
@@ -86,7 +86,7 @@ fn yoke() -> Machine<ScotchYoke> {
     Machine::new(mechanism).with_load(friction).unwrap()
 }
 
-/// The proven bound is not below what a search finds, and not far above; the ticks' is above the table's.
+/// The proven bound is not below the result of a search, and not far above; the tick's bound is above the table's.
 fn holds<F: Format>(machine: &Machine<impl Jointed>, set: u16, cells: u32, scale: Scale) {
     let enclosed = Enclosed::new(machine);
     let made: Made<F> = made(machine, set, cells, scale);
@@ -94,10 +94,10 @@ fn holds<F: Format>(machine: &Machine<impl Jointed>, set: u16, cells: u32, scale
     let found = searched(machine, &made, RANGE);
     let words = format!("{} {cells}: {found} {proof:?}", F::NAME);
     println!("{words}");
-    // Roundings of the search itself.
+    // Rounding of the search itself.
     let rounding = 1e-11;
     assert!(found <= proof.bound + rounding, "{words}");
-    // What is known of a table is read in its own arithmetic, some of a tick's roundings beside what its words mean.
+    // The known error is read in the table's own arithmetic, which has a part of the tick's rounding.
     let roundings = proof.ticked.unwrap() - proof.bound;
     assert!(
         proof.bound <= 1.01 * found + 0.5 * roundings + 1e-9,
@@ -150,7 +150,7 @@ fn a_wrong_word_is_found_in_any_cell() {
     ] {
         let mut wrong: Made<Cubic<f32>> = made(&machine, set, 48, Scale::SI);
         wrong.words[word] += by;
-        // No place is known to be so far off.
+        // The wrong word raises the bound.
         let found = proof(&machine, &wrong, RANGE, &curves).unwrap();
         assert!(found.bound > 1.5 * bound, "{word}: {found:?} {bound}");
         let cell = word / 12;
@@ -160,7 +160,7 @@ fn a_wrong_word_is_found_in_any_cell() {
     }
 }
 
-/// A force that acts within a part of 0.0004 of a cell, of which the machine says nothing: no place that is looked at shows it.
+/// A force that acts within a part of 0.0004 of a cell, which the machine does not report as an edge: no checked place shows it.
 #[test]
 fn a_peak_between_the_places_is_proven_and_not_estimated() {
     let cells = 32;
@@ -199,7 +199,7 @@ fn a_peak_between_the_places_is_proven_and_not_estimated() {
     assert!((proof.worst - phi).abs() < spacing, "{phi} {proof:?}");
 }
 
-/// The polynomials of a cell are what the table reads, to the roundings of its arithmetic.
+/// The polynomials of a cell are the values that the table reads, to the rounding of its arithmetic.
 #[test]
 fn a_cell_is_what_the_table_reads() {
     fn compare<F: Format>(units: f64, scale: Scale) {
@@ -231,7 +231,7 @@ fn a_cell_is_what_the_table_reads() {
     compare::<Spline<f32>>(1e-4, Scale::SI);
     compare::<Cubic<f32>>(1e-4, Scale::SI);
     compare::<Quadratic<f32>>(1e-4, Scale::SI);
-    // For 40 cells, whose bases are up to twice as large.
+    // For 40 cells, the bases are up to twice as large.
     compare::<Spline<Q31>>(1e-7, scale);
     compare::<Spline16>(1e-7, scale);
     compare::<Cubic<Q31>>(1e-7, scale);

@@ -1,4 +1,4 @@
-//! A machine of the core whose joints close it, as curves for a proof; and what a table of it errs by, searched for.
+//! A machine of the core with joints that close, as curves for a proof; and a search for the error of a table.
 
 use jred::machine::Jointed;
 use jred::table::{CurveValues, Format, words_len};
@@ -37,7 +37,7 @@ impl<'m> Enclosed<'m> {
     }
 }
 
-/// The words of a table, and what they are.
+/// The words of a table, and their shape.
 pub(crate) struct Made<F: Format> {
     pub(crate) words: Vec<F::Word>,
     pub(crate) shape: jred::table::Shape<F>,
@@ -59,7 +59,7 @@ pub(crate) fn made<F: Format>(
     Made { words, shape }
 }
 
-/// The request of a range of speed and acceleration.
+/// The request for a range of speed and acceleration.
 fn request([omega, alpha]: [f64; 2]) -> Request {
     Request::new(1.0).with_omega(omega).with_alpha(alpha)
 }
@@ -87,7 +87,7 @@ pub(crate) fn proof<F: Format>(
     prove(&table, &goal, curves, &mut |_| true)
 }
 
-/// What a table errs by at random places and around the worst of them, read without the roundings of a tick.
+/// The largest error of a table at random places and around the worst of them, evaluated without the rounding of a tick.
 pub(crate) fn searched<F: Format>(
     machine: &impl Reducible,
     made: &Made<F>,
@@ -144,7 +144,7 @@ pub(crate) fn read<F: Format>(
     values
 }
 
-/// A machine that says nothing of its edges.
+/// A machine that does not report its edges.
 pub(crate) struct Silent<'m, M>(pub(crate) &'m Machine<M>);
 
 impl<M: Jointed> Reducible for Silent<'_, M> {

@@ -1,4 +1,4 @@
-//! Taylor forms contain the functions that they are of, everywhere on their stretch.
+//! Taylor forms contain their functions, everywhere on their stretch.
 
 use jred::Domain;
 use jred::machine::Window;
@@ -6,7 +6,7 @@ use jred_enclosure::{Form, Interval, REMAINDER, factor};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
-/// What a form says at a distance from the middle of its stretch.
+/// The value of a form at a distance from the middle of its stretch.
 fn value(form: &Form, away: f64) -> Interval {
     let t = Interval::of(away);
     let mut sum = form.over.0[REMAINDER];
@@ -66,7 +66,7 @@ fn forms_contain_a_hundred_thousand_values() {
             }
         }
     }
-    // The remainder of a stretch of 0.1 rad, and roundings.
+    // The remainder of a stretch of 0.1 rad, and rounding.
     assert!(widest < 1e-8, "{widest}");
 }
 
@@ -76,7 +76,7 @@ fn a_stretch_over_a_bend_knows_it() {
     assert!(bend.values().contains(0.0) && bend.values().hi() >= 0.1);
     let sloped = (Form::variable([1.1, 1.3]) - one()).magnitude();
     assert!((value(&sloped, 0.1).middle() - 0.3).abs() < 1e-15 && sloped.slack(0.1) < 1e-14);
-    // The speed of a point that turns back.
+    // The speed of a point that reverses.
     let phi = Form::variable([-0.1, 0.1]);
     let speed = phi.sin_cos().0.length(&Form::constant(0.0));
     assert!(speed.values().contains(0.0) && speed.values().hi() > 0.0998);
@@ -121,7 +121,7 @@ fn the_factor_of_a_window_is_the_window() {
                 assert!(found.width() < 1e-10, "{stretch:?} {found:?}");
             }
         }
-        // Across an edge nothing is known but its range.
+        // Across an edge only its range is known.
         let across = factor(&window, [window.edges()[1] - 0.1, window.edges()[1] + 0.1]);
         assert!(across.values().contains(0.0) && across.values().contains(1.0));
     }

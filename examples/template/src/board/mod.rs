@@ -1,6 +1,6 @@
-//! What differs from board to board: the clock, the encoder's timer, the way of the command.
+//! The differences between boards: clock, encoder timer, output of the command.
 //!
-//! A board of your own is a file like `nucleo.rs`, a memory map in `boards/` and its name in `build.rs` and `Cargo.toml`.
+//! Your own board is a file like `nucleo.rs`, a memory map in `boards/` and its name in `build.rs` and `Cargo.toml`.
 
 #[cfg(feature = "nucleo")]
 mod nucleo;

@@ -1,8 +1,8 @@
 //! Two of ST's Nucleo-64 boards: F446RE (Cortex-M4F) and G071RB (Cortex-M0+). **Compiled in the tests of jred, but never run on a board.**
 //!
-//! The encoder's channels A and B at PA0 and PA1, counted by TIM2 in hardware, both edges of both channels; the command as a voltage at PA4, 0 to 3.3 V for
-//! −12 to 12 N·m. The core runs at its 16 MHz after reset: set the PLL here for more ticks a second.
-//! Sources: reference manuals RM0390 and RM0444 (RCC, GPIO, TIM2 encoder mode, DAC), data sheets DS10693 and DS12232 (alternate functions).
+//! The encoder's channels A and B are on PA0 and PA1, counted by TIM2 in hardware on both edges of both channels; the command is a voltage on PA4, 0
+//! to 3.3 V for −12 to 12 N·m. The core runs at 16 MHz, as after reset: set the PLL here for more ticks per second. Sources: reference manuals RM0390
+//! and RM0444 (RCC, GPIO, TIM2 encoder mode, DAC), data sheets DS10693 and DS12232 (alternate functions).
 
 use jred::Phase;
 use jred::axis::Tracked;
@@ -14,18 +14,18 @@ use stm32_metapac::{DAC1, GPIOA, RCC, TIM2};
 use crate::link::Transfer;
 use crate::machine::MOST_TORQUE;
 
-/// Clock cycles a second: the oscillator that the core starts with.
+/// Clock cycles per second: the oscillator after reset.
 pub const CLOCK: u32 = 16_000_000;
-/// Ticks a second.
+/// Ticks per second.
 #[cfg(feature = "nucleo-f446re")]
 pub const RATE: u32 = 10_000;
 #[cfg(feature = "nucleo-g071rb")]
 pub const RATE: u32 = 4000;
 
-/// A link of your own brings new tables: call `renew` in `main.rs` with what it receives.
+/// Your own link brings new tables: call `renew` in `main.rs` with each one.
 pub const TRANSFERS: &[Transfer] = &[];
 
-/// Alternate function of PA0 and PA1 that is TIM2.
+/// Alternate function of PA0 and PA1 for TIM2.
 #[cfg(feature = "nucleo-f446re")]
 const TIMER_FUNCTION: u8 = 1;
 #[cfg(feature = "nucleo-g071rb")]
@@ -54,12 +54,12 @@ impl Board {
         board
     }
 
-    /// The encoder's timer: the lower half of its 32 bits, as most timers have no more.
+    /// The encoder's timer: the lower half of its 32 bits, because most timers have only 16.
     pub fn count(&mut self) -> u16 {
         TIM2.cnt().read() as u16
     }
 
-    /// The set-point of this tick. Here the machine is to stand still at φ = 0: take it from what plans your motion, in rad, rad/s and rad/s².
+    /// The set-point of this tick. Here the machine is to rest at φ = 0: replace it by your planned motion, in rad, rad/s and rad/s².
     pub fn wanted(&mut self) -> Tracked {
         set_point(Phase::from_radians_f32(0.0), 0.0, 0.0)
     }
@@ -71,7 +71,7 @@ impl Board {
     }
 }
 
-/// A set-point in SI units (rad/s, rad/s²) in those of the tick. One that is no number is marked as one that jumped, so that its tick is flagged.
+/// A set-point in SI units (rad/s, rad/s²), converted to the tick's units. NaN is marked as a jump, so that its tick is flagged.
 fn set_point(phase: Phase, omega: f32, alpha: f32) -> Tracked {
     const SPEED: f32 = 4_294_967_296.0 / core::f32::consts::TAU / RATE as f32;
     const ACCELERATION: f32 = SPEED * 256.0 / RATE as f32;
@@ -102,14 +102,14 @@ fn clocks() {
     });
 }
 
-/// A firmware does not end.
+/// Firmware does not end.
 pub fn finish(_: u32) -> bool {
     false
 }
 
 pub fn end() {}
 
-/// Nobody listens: without a debugger semihosting would stop the core. Use a serial line or `defmt-rtt` here.
+/// No output: without a debugger semihosting would stop the core. Use a serial line or `defmt-rtt` here.
 macro_rules! say {
     ($($word:tt)*) => { let _ = core::format_args!($($word)*); };
 }

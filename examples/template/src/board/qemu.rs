@@ -1,6 +1,7 @@
-//! The boards that QEMU emulates: a simulated machine follows its set-point, and its encoder's timer shows the counts that it would.
+//! The boards that QEMU emulates: a simulated machine follows its set-point, and its encoder timer shows the matching counts.
 //!
-//! Only this file knows that nothing is there. The tick reads a register of 16 bits that overflows; once it reads nonsense, and once it takes too long.
+//! Only this file knows that the machine is simulated. The tick reads a 16-bit register that overflows; once it reads nonsense, and once it takes too
+//! long.
 
 use cortex_m_semihosting::debug;
 pub use cortex_m_semihosting::hprintln as say;
@@ -11,24 +12,24 @@ use panic_semihosting as _;
 use crate::link::Transfer;
 use crate::machine::{COUNTING, COUNTS_PER_TURN, GEAR, HOME, TABLE};
 
-/// Clock cycles a second: those of mps2-an386 and microbit.
+/// Clock cycles per second, of mps2-an386 and microbit.
 #[cfg(feature = "qemu-m4f")]
 pub const CLOCK: u32 = 25_000_000;
 #[cfg(feature = "qemu-m0")]
 pub const CLOCK: u32 = 16_000_000;
-/// Ticks a second.
+/// Ticks per second.
 #[cfg(feature = "qemu-m4f")]
 pub const RATE: u32 = 10_000;
 #[cfg(feature = "qemu-m0")]
 pub const RATE: u32 = 5000;
 
-/// The same press with a heavier die, as an image that the program does not know when it is compiled.
+/// The same press with a heavier die, as an image unknown at compile time.
 #[cfg(not(fixed_point))]
 static HEAVY_DIE: &[u8] = include_bytes!("../../tables/heavy_die_f32.jred");
 #[cfg(fixed_point)]
 static HEAVY_DIE: &[u8] = include_bytes!("../../tables/heavy_die_q31.jred");
 
-/// The new table; once more, damaged; and the first one again, into the memory where it was.
+/// The new table; the same one damaged; and the first one again, into its old memory.
 pub const TRANSFERS: &[Transfer] = &[
     Transfer {
         turn: 2,
@@ -47,19 +48,19 @@ pub const TRANSFERS: &[Transfer] = &[
     },
 ];
 
-/// From rest at φ = 0 to 10 rad/s at 100 rad/s², for 6 s: units of 2⁻⁴⁰ turns, a tick and a tick squared.
+/// From rest at φ = 0 to 10 rad/s at 100 rad/s², for 6 s: units of 2⁻⁴⁰ turns, per tick and per tick squared.
 const ACCELERATION: i64 =
     (100.0 / core::f64::consts::TAU / (RATE as f64 * RATE as f64) * ONE) as i64;
 const SPEED: i64 = (10.0 / core::f64::consts::TAU / RATE as f64 * ONE) as i64;
 const ONE: f64 = (1u64 << 40) as f64;
-/// Counts of a turn of the crank.
+/// Counts per turn of the crank.
 const COUNTS: i64 = COUNTS_PER_TURN as i64 * GEAR[0] as i64 / GEAR[1] as i64;
 const TICKS: u32 = 6 * RATE;
-/// In this tick the register shows nonsense.
+/// In this tick the register reads nonsense.
 const WILD: u32 = 3 * RATE;
-/// This tick takes too long, so that it is seen to be counted.
+/// This tick takes too long, to check that it is counted.
 const LONG: u32 = 5 * RATE;
-/// By about twice as many cycles in QEMU: enough for the next tick to be due, and for that one to be done in time.
+/// A delay of about twice as many cycles in QEMU: enough for the next tick to be due, and for that one to finish in time.
 #[cfg(feature = "qemu-m4f")]
 const DELAY: u32 = 1600;
 #[cfg(feature = "qemu-m0")]
@@ -67,10 +68,10 @@ const DELAY: u32 = 700;
 
 pub struct Board {
     tick: u32,
-    /// Of the crank.
+    /// Position of the crank.
     place: i64,
     speed: i64,
-    /// The command would go to the drive from here (N·m).
+    /// The command, which would go to the drive from here (N·m).
     torque: f32,
 }
 
@@ -101,7 +102,7 @@ impl Board {
         }
     }
 
-    /// The set-point of this tick, in ticks as its unit of time.
+    /// The set-point of this tick, with the tick as unit of time.
     pub fn wanted(&mut self) -> Tracked {
         let acceleration = ACCELERATION.min(SPEED - self.speed);
         let now = Tracked {
@@ -110,7 +111,7 @@ impl Board {
             acceleration: acceleration as i32,
             ..Tracked::default()
         };
-        // The machine of the next tick.
+        // The machine at the next tick.
         self.tick += 1;
         self.place += self.speed + acceleration / 2;
         self.speed += acceleration;
@@ -123,7 +124,7 @@ impl Board {
     }
 }
 
-/// Whether the program is to end, as no firmware does.
+/// Whether the program is to end, which firmware never does.
 pub fn finish(ticks: u32) -> bool {
     ticks >= TICKS
 }

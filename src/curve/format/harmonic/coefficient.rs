@@ -1,15 +1,15 @@
-//! Which coefficients there are, and the order in which they lie.
+//! The coefficients and their order.
 
 use crate::Set;
 use core::fmt;
 
 use crate::curve::curves;
 
-/// The cosines and sines that curves consist of beside their means: the upper bits of a set of curves.
+/// The cosines and sines of curves in addition to their means: the upper bits of a set of curves.
 ///
-/// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a
-/// slider-crank without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has
-/// even J and odd load: half the coefficients. [`terms_in_use`](crate::harmonic::terms_in_use) finds the set.
+/// A curve without terms is constant and takes one number. A machine that is symmetric about φ = 0 (a slider-crank without offset, with centres of
+/// mass on the links' lines and weight along the guide) has even J and odd load: half the coefficients.
+/// [`terms_in_use`](crate::harmonic::terms_in_use) finds the set.
 pub mod terms {
     use crate::Set;
 
@@ -37,7 +37,7 @@ pub mod terms {
     pub const ALL: Set = 0xff00;
 }
 
-/// The terms of curves that there are.
+/// The terms of existing curves.
 pub(crate) const fn in_use(set: Set) -> Set {
     let mut used = set & (terms::INERTIA_COS | terms::INERTIA_SIN);
     let mut curve = 1;
@@ -50,7 +50,7 @@ pub(crate) const fn in_use(set: Set) -> Set {
     used
 }
 
-/// Means of J and of the curves of the set.
+/// Number of means: J and the curves of the set.
 pub(crate) const fn means(set: Set) -> usize {
     let mut means = 0;
     let mut curve = 0;
@@ -61,7 +61,7 @@ pub(crate) const fn means(set: Set) -> usize {
     means
 }
 
-/// Coefficients of each harmonic.
+/// Number of coefficients of each harmonic.
 pub(crate) const fn row(set: Set) -> usize {
     in_use(set).count_ones() as usize
 }
@@ -76,9 +76,9 @@ pub enum Curve {
     Load,
     /// b in −b·ω (N·m·s/rad).
     Viscous,
-    /// The part of c in −c·sgn ω that varies (N·m), signed: the tick takes its magnitude.
+    /// The varying part of c in −c·sgn ω (N·m), signed: the tick uses its magnitude.
     Coulomb,
-    /// The part of c that is constant (N·m).
+    /// The constant part of c (N·m).
     Constant,
 }
 
@@ -104,7 +104,7 @@ impl Curve {
     }
 }
 
-/// Which part of a curve.
+/// The part of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Kind {
@@ -116,7 +116,7 @@ pub enum Kind {
     Sine(u32),
 }
 
-/// One coefficient: its unit is that of the curve.
+/// One coefficient, in the unit of its curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Coefficient {
@@ -127,9 +127,9 @@ pub struct Coefficient {
 }
 
 impl Coefficient {
-    /// What the coefficient `word` is, counted from 0. First the means of J and of the curves of `set`, constant
-    /// Coulomb friction last; then for each harmonic, the cosine and the sine of J, of the load, of the viscous
-    /// coefficient, of the Coulomb friction, as far as the set has them. `None` behind the last possible one.
+    /// The meaning of the coefficient `word`, counted from 0. First the means of J and of the curves of `set`, constant Coulomb friction last; then
+    /// for each harmonic, as far as the set has them, the cosine and sine of J, of the load, of the viscous coefficient, of the Coulomb friction.
+    /// `None` after the last possible one.
     #[must_use]
     pub fn of_word(word: usize, set: Set) -> Option<Self> {
         let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));
@@ -144,7 +144,7 @@ impl Coefficient {
             .filter(|bit| used & (1 << bit) != 0)
             .nth(place % row)?;
         Some(Self {
-            // There are two bits for each of the first four.
+            // Each of the first four has two bits.
             curve: *Curve::ALL.get(bit / 2)?,
             kind: if bit % 2 == 0 {
                 Kind::Cosine(order)

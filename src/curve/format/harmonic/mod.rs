@@ -5,16 +5,15 @@
 //! J′(φ) =      Σ k·(bₖ·cos kφ − aₖ·sin kφ)
 //! ```
 //!
-//! and load, viscous and Coulomb coefficient likewise, as far as the machine has them; φ is the angle of a drive link
-//! that turns fully. The slope is that of the same series, so a free machine keeps its energy. cos kφ and sin kφ come
-//! from one sine and cosine by turning on:
+//! and likewise load, viscous and Coulomb coefficient, as far as the machine has them; φ is the angle of a drive link that turns fully. The slope is
+//! that of the same series, so that a free machine keeps its energy. cos kφ and sin kφ come from one sine and cosine by rotation:
 //!
 //! ```text
 //! cos (k+1)φ = cos kφ·cos φ − sin kφ·sin φ,   sin (k+1)φ = sin kφ·cos φ + cos kφ·sin φ
 //! ```
 //!
-//! One such pair serves all curves, and its error grows with k only; the recurrence of C. W. Clenshaw (*Math. Comp.* 9,
-//! 1955) needs a pass for each curve and each kind, and near φ = 0 and π its error grows with k².
+//! One such pair serves all curves, and its error grows only with k. The recurrence of C. W. Clenshaw (*Math. Comp.* 9, 1955) needs a pass for each
+//! curve and each kind, and near φ = 0 and π its error grows with k².
 
 #[allow(clippy::indexing_slicing, reason = "lengths known at compile time")]
 mod coefficient;
@@ -40,25 +39,25 @@ use crate::number::error::RangeError;
 use crate::number::{Kernel, Number, Sliding};
 use crate::{Domain, Outcome, Phase, Scale};
 
-/// Most harmonics of a series.
+/// Greatest number of harmonics of a series.
 pub const MAX_HARMONICS: u32 = 256;
 
-/// Harmonics, `f32` or `f64`, instead of cells: of a smooth machine that turns, a few give what takes a table of many cells.
+/// Harmonics, `f32` or `f64`, instead of cells: for a smooth machine that turns, a few replace a table of many cells.
 ///
-/// The set says which cosines and sines a curve consists of ([`terms`]) beside the curves themselves. The
-/// number of cells is that of harmonics, 0 to [`MAX_HARMONICS`]. The words lie as
-/// [`Coefficient::of_word`](crate::harmonic::Coefficient::of_word) says: the means, then harmonic after harmonic.
+/// The set contains the cosines and sines of each curve ([`terms`]) in addition to the curves themselves. The number of cells is the number of
+/// harmonics, 0 to [`MAX_HARMONICS`]. Order of the words, as in [`Coefficient::of_word`](crate::harmonic::Coefficient::of_word): the means, then
+/// harmonic after harmonic.
 ///
-/// **Accuracy** of up to eleven harmonics: J and load to 4e-7 of the sum of their coefficients' sizes in `f32`, J′ with each size times its
-/// order; 4e-15 in `f64` (test `evaluation_rounds_as_stated`).
+/// **Accuracy** for up to eleven harmonics: J and load to 4e-7 of the sum of their coefficients' magnitudes in `f32`, J′ with each magnitude times
+/// its order; 4e-15 in `f64` (test `evaluation_rounds_as_stated`).
 ///
-/// **Cost** of a tick: one sine and cosine, then six operations for each harmonic, two for each of its coefficients and
-/// for each of J's two or three more (J′). A division only in `acceleration`. Instructions are in `docs/harmonics.md`.
+/// **Cost** of a tick: one sine and cosine, then six operations per harmonic, two for each of its coefficients, and two or three more for each of J's
+/// (J′). A division only in `acceleration`. `docs/harmonics.md` has the instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Harmonic<T>(PhantomData<T>);
 
 impl<F: Format> Shape<F> {
-    /// The shape of so many harmonics, in SI units.
+    /// The shape of this number of harmonics, in SI units.
     #[must_use]
     pub fn harmonics(harmonics: u32, set: Set) -> Self {
         Self {
@@ -71,7 +70,7 @@ impl<F: Format> Shape<F> {
     }
 }
 
-/// Whether words are numbers that can be summed.
+/// Checks that words are numbers that can be summed.
 fn check<T: Circular>(words: &[T], set: Set) -> Result<(), TableError> {
     let most = T::from_f64(1e30);
     let Some(word) = words.iter().position(|&w| !(w < most && w > -most)) else {
@@ -85,7 +84,7 @@ fn check<T: Circular>(words: &[T], set: Set) -> Result<(), TableError> {
     Err(TableError::Range { curve, cell })
 }
 
-/// Largest sizes of the curves, by the sums of their coefficients' sizes.
+/// Largest magnitudes of the curves, as sums of their coefficients' magnitudes.
 fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
     let [zero, _, one] = T::CONSTANTS;
     let mut sums = series.means.map(size);
@@ -114,7 +113,7 @@ fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
     }
 }
 
-/// sum + c·sgn ω, if the machine has it.
+/// sum + c·sgn ω, if the machine has friction.
 #[inline(always)]
 fn with_friction<T: Kernel<Raw = T>>(
     sum: T,
@@ -182,7 +181,7 @@ macro_rules! harmonic {
                 _: &mut [f64],
                 _: &mut [$number],
             ) -> Result<(), E> {
-                // They are found from the spectrum of the curves: `harmonic::fit`.
+                // Harmonics come from the spectrum of the curves: `harmonic::fit`.
                 Err(TableError::Harmonics.into())
             }
 
@@ -208,7 +207,7 @@ macro_rules! harmonic {
             fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError> {
                 let series = Series::new(table.words(), table.set(), table.scale());
                 series.check_inertia(table.set())?;
-                // Below this no sum of a tick overflows, whatever the phase. NaN is not less than anything.
+                // Below this no sum of a tick overflows at any phase. A comparison with NaN is false.
                 if usage(&series, table.set()).torque < 1e30 {
                     Ok(series)
                 } else {
@@ -270,7 +269,7 @@ macro_rules! harmonic {
                 let values = tick.at(set, phase);
                 let resisting = tick.resisting(&values, set, omega);
                 let resisting = with_friction(resisting, &values, set, sliding);
-                // Floating point has room for every acceleration.
+                // Floating point represents every acceleration.
                 let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
                 [outcome(torques[0]), outcome(torques[1])]
             }

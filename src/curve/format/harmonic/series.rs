@@ -6,10 +6,10 @@ use crate::curve::TableError;
 use crate::curve::curves::{Set, has};
 use crate::{Phase, Scale};
 
-/// Places looked at to show the inertia positive: at first, and at most.
+/// Numbers of places in the proof of a positive inertia: at first, and at most.
 const PLACES: [u32; 2] = [64, 4096];
 
-/// What a tick takes of a table.
+/// Values that a tick reads from a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a, T> {
     pub(super) means: [T; 5],
@@ -57,7 +57,7 @@ impl<'a, T: Circular> Series<'a, T> {
     /// Coefficients, harmonic after harmonic.
     #[inline(always)]
     pub(super) fn rows(&self, set: Set) -> core::slice::ChunksExact<'a, T> {
-        // Without terms there is nothing to divide.
+        // Without terms there are no coefficients.
         self.rows.chunks_exact(row(set).max(1))
     }
 
@@ -108,7 +108,7 @@ impl<'a, T: Circular> Series<'a, T> {
         self.velocity * values.slope * (omega * omega)
     }
 
-    /// ½·J′·ω² − load + b·ω, of the curves that the machine has.
+    /// ½·J′·ω² − load + b·ω, with the machine's curves.
     #[inline(always)]
     pub(super) fn resisting(&self, values: &Values<T>, set: Set, omega: T) -> T {
         let mut sum = self.velocity(values, omega);
@@ -121,8 +121,8 @@ impl<'a, T: Circular> Series<'a, T> {
         sum
     }
 
-    /// Shows J positive everywhere: at 64 places its least value must exceed what J″ can take off between two of them,
-    /// h²/8·Σ k²·(|aₖ| + |bₖ|), and the rounding; else 128, up to 4096 places are looked at.
+    /// Proves that J is positive everywhere: its least value at 64 places must exceed the possible decrease by J″ between two of them, h²/8·Σ
+    /// k²·(|aₖ| + |bₖ|), and the rounding. Otherwise the number of places doubles, up to 4096.
     pub(super) fn check_inertia(&self, set: Set) -> Result<(), TableError> {
         let [zero, half, one] = T::CONSTANTS;
         let [mean, ..] = self.means;
@@ -169,7 +169,7 @@ pub(super) fn size<T: Circular>(x: T) -> T {
     if x < zero { -x } else { x }
 }
 
-/// The next coefficients of a curve, [cosine, sine], where it has them.
+/// The next coefficients of a curve, [cosine, sine], where present.
 #[inline(always)]
 pub(super) fn pair<T>(words: &mut impl Iterator<Item = T>, set: Set, curve: u8) -> [Option<T>; 2] {
     let used = in_use(set);
@@ -186,7 +186,7 @@ pub(super) fn pair<T>(words: &mut impl Iterator<Item = T>, set: Set, curve: u8) 
     [a, b]
 }
 
-/// `sum` + a·c + b·s of the coefficients there are: a zero times an angle is not left out by the compiler.
+/// `sum` + a·c + b·s of the present coefficients: the compiler does not remove a zero times an angle.
 #[inline(always)]
 fn add<T: Circular>(sum: &mut T, [a, b]: [Option<T>; 2], [c, s]: [T; 2]) {
     *sum = match (a, b) {

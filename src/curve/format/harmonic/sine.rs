@@ -1,9 +1,9 @@
 //! Sine and cosine of a binary angle.
 //!
-//! `libm` and the other crates for single precision take radians: the phase would be rounded to radians and reduced to
-//! an octant again, with a number for π of more than single precision (`libm::sinf` computes in double precision for
-//! that). A binary angle is reduced by integers, exactly; two short polynomials remain, best approximations
-//! by Remez' algorithm on |x| ≤ π/4. They are those of κ·x, where κ − 1 = −2.8e-8 makes up for the rounding of 2π in x:
+//! `libm` and the other crates for single precision take radians: the phase would be rounded to radians and reduced to an octant again, with a number
+//! for π of more than single precision (`libm::sinf` uses double precision for that). A binary angle is reduced by integers, exactly. Two short
+//! polynomials remain, best approximations by the Remez algorithm on |x| ≤ π/4. They approximate κ·x, where κ − 1 = −2.8e-8 compensates the rounding
+//! of 2π in x:
 //!
 //! ```text
 //! sin κx ≈ x + x³·(s₀ + s₁·x² + s₂·x⁴)         |error| ≤ 4.8e-9
@@ -13,11 +13,11 @@
 use crate::Phase;
 use crate::math::{self, Real};
 
-/// A number that harmonics are evaluated in: `f32` or `f64`. Sealed.
+/// A number type for the evaluation of harmonics: `f32` or `f64`. Sealed.
 pub trait Circular: Real {
     /// 0, ½ and 1.
     const CONSTANTS: [Self; 3];
-    /// Eight units of rounding: the error allowed in a coefficient's share of a sum, for every order of its harmonic.
+    /// Eight units of rounding: the allowed error of a coefficient's share of a sum, for every order of its harmonic.
     const ROUNDINGS: Self;
 
     /// From single precision.
@@ -25,8 +25,7 @@ pub trait Circular: Real {
 
     /// Sine and cosine of a phase of one turn.
     ///
-    /// **Accuracy**: 1.05e-7 in `f32`, 2.5e-16 in `f64` (test `sine_and_cosine_keep_their_bounds`). In `f32` there is no
-    /// double precision inside.
+    /// **Accuracy**: 1.05e-7 in `f32`, 2.5e-16 in `f64` (test `sine_and_cosine_keep_their_bounds`). `f32` uses no double precision.
     fn sin_cos_of(phase: Phase) -> (Self, Self);
 }
 
@@ -68,7 +67,7 @@ impl Circular for f64 {
     }
 }
 
-/// The nearest quarter turn (0 to 3), and the angle from there in units of 2⁻³² turn, within ±2²⁹.
+/// The nearest quarter turn (0 to 3), and the angle from it in units of 2⁻³² turn, within ±2²⁹.
 #[inline]
 const fn octant(phase: Phase) -> (u32, i32) {
     let bits = phase.to_bits();
@@ -76,7 +75,7 @@ const fn octant(phase: Phase) -> (u32, i32) {
     (quarter, bits.wrapping_sub(quarter << 30) as i32)
 }
 
-/// Sine and cosine of an angle this many quarter turns further on.
+/// Sine and cosine of an angle, advanced by quarter turns.
 #[inline]
 fn turn<T: Real>((sin, cos): (T, T), quarter: u32) -> (T, T) {
     let (sin, cos) = if quarter & 1 == 0 {

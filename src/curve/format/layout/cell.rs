@@ -1,4 +1,4 @@
-//! One cell of a table and the place in it: the curves there, and the terms of the equation of motion.
+//! One cell of a table and the place in it: its curves, and the terms of the equation of motion.
 
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
@@ -16,8 +16,8 @@ pub(super) struct Cell<'a, L: Layout> {
 }
 
 impl<'a, L: Layout> Cell<'a, L> {
-    /// The cell around `phase`, of a table whose set is `set`: a model knows it when it is compiled. Always `Some`: the
-    /// length was checked when the table was built, but saying so costs a compare, not a panic path.
+    /// The cell around `phase` of a table whose set is `set`, which a model knows at compile time. Always `Some`: the length was checked when the
+    /// table was created. The check costs a compare, not a panic path.
     #[inline(always)]
     pub(super) fn of(
         table: &'a Table<'_, L>,
@@ -34,7 +34,7 @@ impl<'a, L: Layout> Cell<'a, L> {
         })
     }
 
-    /// One cell of a table that is not ticked.
+    /// One cell of a table, without a model.
     pub(super) fn at(table: &'a Table<'_, L>, phase: Phase) -> Option<Self> {
         let rows = L::rows(table.words(), table.set());
         Self::of(table, &rows, phase, table.set())
@@ -47,13 +47,13 @@ impl<'a, L: Layout> Cell<'a, L> {
         L::coefficients(self.words, column, self.set, more, L::Number::raw)
     }
 
-    /// J, and its slope a cell times the layout's step.
+    /// J, and its slope per cell times the layout's step.
     #[inline(always)]
     pub(super) fn inertia(&self) -> (Raw<L>, Raw<L>) {
         L::value_and_slope(self.coefficients(Role::Inertia, 0), self.u)
     }
 
-    /// A curve that the table may have.
+    /// A curve of the table, if present.
     #[inline(always)]
     pub(super) fn curve(&self, role: Role) -> Option<Raw<L>> {
         let column = role.column(self.set)?;
@@ -152,7 +152,7 @@ impl<W: Copy> Constants<W> {
     }
 }
 
-/// Coefficients of a curve of the set, wide.
+/// Coefficients of a curve of the set, in double precision.
 pub(super) fn wide<L: Layout>(
     table: &Table<'_, L>,
     cell: u32,

@@ -1,6 +1,6 @@
-//! Proofs about a table, made when it is built: no quantity leaves its number range in a tick.
+//! Proofs about a table when it is created: no quantity leaves its number range in a tick.
 //!
-//! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
+//! Every polynomial stays within its Bézier points, so that the bounds apply everywhere in a cell, not only at the knots.
 
 use super::Layout;
 use super::cell::{Cell, polynomial, wide};
@@ -10,10 +10,10 @@ use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
 use crate::{Domain, Phase};
 
-/// Every cell, for [`Table::new`].
+/// Checks every cell, for [`Table::new`].
 pub(super) fn table<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {
     for role in [Role::Viscous, Role::Coulomb] {
-        // Friction does not drive. NaN is not from zero on, either.
+        // Friction does not drive. NaN is refused, too.
         if !(0.0..1e30).contains(&constant(table, role)) {
             return Err(TableError::Constant);
         }
@@ -44,7 +44,7 @@ fn constant<L: Layout>(table: &Table<'_, L>, role: Role) -> f32 {
     L::Number::approximate(role, L::Number::widen(L::Number::raw(word)))
 }
 
-/// Rows beyond the cells repeat the first ones.
+/// Checks that the rows after the cells repeat the first ones.
 fn check_closed<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {
     let pitch = <L as Layout>::ROW.pitch(table.set()).max(1);
     let end = table.cells() as usize * pitch;
@@ -57,16 +57,15 @@ fn check_closed<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {
     Ok(())
 }
 
-/// Whether the cubic of a cell is positive throughout, by its Bézier points (sufficient; the tabulator adds cells
-/// until it holds).
+/// Whether the cubic of a cell is positive throughout, by its Bézier points (sufficient; the tabulator adds cells until it is true).
 fn is_positive(polynomial: [f32; 4]) -> bool {
     let hull = bezier(polynomial);
-    // Above the roundings of these sums, so that no cell passes that dips below zero by a few units.
+    // Above the roundings of these sums, so that a cell that dips a few units below zero does not pass.
     let rounding = 1e-6 * hull.iter().fold(0.0f32, |most, b| most.max(b.abs()));
     hull.iter().all(|b| *b > rounding)
 }
 
-/// The Bézier points of a cubic: it stays within them.
+/// The Bézier points of a cubic, which bound it.
 fn bezier([p0, p1, p2, p3]: [f32; 4]) -> [f32; 4] {
     [
         p0,
@@ -97,13 +96,13 @@ fn usage_of_cell<L: Layout>(table: &Table<'_, L>, cell: u32, per_slope: f32) -> 
     usage
 }
 
-/// In fixed point it is proven here that no torque leaves the number range for any speed and acceleration in it.
+/// In fixed point this proves that no torque leaves the number range for any speed and acceleration in it.
 pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError> {
     let span = table.domain().span().to_f32();
     let per_slope = <f32 as Kernel>::velocity_factor(table.cells(), span, table.scale(), 1)
         .ok_or(TableError::SpeedBase)?;
-    // Below 1 by more than the roundings of a tick and of these sums. Those of the slope count as often as the factor of
-    // the velocity torque says: less than 8 units of Q30.
+    // Below 1 by more than the roundings of a tick and of these sums. Those of the slope are multiplied by the factor of the velocity torque: less
+    // than 8 units of Q30.
     let roundings = 1e-5 + per_slope * (8.0 / 1_073_741_824.0);
     let limit = if L::Number::FIXED {
         1.0 - roundings
@@ -113,7 +112,7 @@ pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError
     let mut all = Usage::default();
     for cell in 0..table.cells() {
         let usage = usage_of_cell(table, cell, per_slope);
-        // NaN is not less than anything.
+        // A comparison with NaN is false.
         let fits = |size: f32| size < limit;
         if !fits(usage.velocity) {
             return Err(TableError::VelocityTorque { cell });
@@ -126,11 +125,11 @@ pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError
     Ok(all)
 }
 
-/// What makes a model of a table.
+/// Values of a checked table that a model needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Proven<'a, L: Layout> {
     pub(super) rows: L::Rows<'a>,
-    /// Of the velocity torque.
+    /// Factor of the velocity torque.
     pub(super) factor: <L::Number as Kernel>::Factor,
     pub(super) reciprocal: <L::Number as Kernel>::Reciprocal,
 }
@@ -165,13 +164,12 @@ pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>
     })
 }
 
-/// The constants of the reciprocal, the same in every cell; and the part of an acceleration that it errs by, as found at four
-/// places of every cell.
+/// The constants of the reciprocal, the same in every cell; and its relative error in an acceleration, the largest at four places of every cell.
 pub(super) fn reciprocal<L: Layout>(
     table: &Table<'_, L>,
 ) -> Result<(<L::Number as Kernel>::Reciprocal, f32), TableError> {
     const PLACES: u64 = 4;
-    // A seed may err more: Newton's step squares it.
+    // A seed may have a larger error: Newton's step squares it.
     let limit = if L::NEWTON { 0.2 } else { 0.02 };
     let mut found = None;
     let mut most = 0.0f32;
@@ -192,7 +190,7 @@ pub(super) fn reciprocal<L: Layout>(
         }
         most = most.max(if L::NEWTON { error * error } else { error });
     }
-    // Between those places as well: Newton's step would overflow from an error of one half on.
+    // Between those places, too: Newton's step would overflow from an error of one half on.
     let unit = found.map_or(0.0, L::Number::reciprocal_unit);
     for cell in 0..table.cells() {
         let product = product(

@@ -32,7 +32,7 @@ pub(super) fn fill<L: Layout, E: From<TableError> + From<RangeError>>(
     let middle = L::Number::exact(Role::Inertia, L::Number::raw(constants.inertia));
     for (column, role) in curves::roles(set) {
         let overflow = |cell| match role {
-            // More cells cure it.
+            // More cells help.
             Role::Reciprocal => TableError::Reciprocal { cell },
             _ => TableError::Overflow {
                 base: role.base(),
@@ -91,8 +91,8 @@ pub(super) fn fill<L: Layout, E: From<TableError> + From<RangeError>>(
     Ok(constants)
 }
 
-/// Samples of every curve of the set, in machine units, at the places that the format's spline passes through; returns their
-/// number. Samples of one curve lie side by side.
+/// Samples of every curve of the set, in machine units, at the places that the format's spline passes through; returns their number. Samples of one
+/// curve lie side by side.
 fn sample<L: Layout, E>(
     samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
     values: &mut [f64],
@@ -118,17 +118,17 @@ fn sample<L: Layout, E>(
                     Role::Load => point.load,
                     Role::Viscous => point.viscous,
                     Role::Coulomb => point.coulomb,
-                    // It follows from all of J.
+                    // Computed below from all samples of J.
                     Role::Reciprocal => 0.0,
                 };
             }
         }
     }
-    // The seed of the reciprocal is that of the inertia in units of the power of two below the least.
+    // The seed of the reciprocal is computed in units of the power of two below the least inertia.
     if let Some(column) = Role::Reciprocal.column(set) {
         let inertia = values.get(..count).unwrap_or_default();
         let least = inertia.iter().copied().fold(f64::INFINITY, f64::min);
-        // A tenth below, for what a coarse curve overshoots.
+        // A tenth lower, because a coarse curve overshoots.
         let unit = math::exp2(math::floor(math::log2(0.9 * least)));
         for k in 0..count {
             let inertia = values.get(k).copied().unwrap_or(1.0);
@@ -151,7 +151,7 @@ fn constants<'v, L: Layout, E: From<TableError>>(
     };
     let start = samples.at_cell(0.0)?;
     let constant = |bit: Set, value: f64| if has(samples.set, bit) { value } else { 0.0 };
-    // The middle of the range: every control point is then as small as it can be.
+    // The middle of the range minimises the control points.
     let inertia = if <L as Layout>::ROW.more > 0 {
         let ends = values(0)
             .iter()
@@ -172,9 +172,9 @@ fn constants<'v, L: Layout, E: From<TableError>>(
     })
 }
 
-/// The least whole number that brings all of a curve's points into 16 bits.
+/// The smallest integer gain with which all points of a curve fit into 16 bits.
 fn gain<L: Layout>(role: Role, control: &[f64]) -> Option<u16> {
-    // Sweeps of the rounding may move a point by a unit or two.
+    // The sweeps of the rounding may move a point by a unit or two.
     const LARGEST: f64 = 32_760.0;
     let most = control
         .iter()

@@ -21,23 +21,23 @@ use crate::number::error::RangeError;
 use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding, fence};
 use crate::{Outcome, Phase, Q31};
 
-/// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
+/// Constants of a table of polynomials, in addition to its rows; in machine units, zero if absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Constants<W> {
     /// Added to every J of a [`Spline`], so that its control points are small and lose little to rounding.
     pub inertia: W,
-    /// b, if it is constant.
+    /// b, if constant.
     pub viscous: W,
-    /// c, if it is constant.
+    /// c, if constant.
     pub coulomb: W,
-    /// What the points of J, load, b, c and 1/J are multiplied by in a [`Spline16`].
+    /// Multipliers of the points of J, load, b, c and 1/J in a [`Spline16`].
     pub gains: [u16; 5],
 }
 
-/// What a curve's coefficients need besides its words.
+/// Values that a curve's coefficients need in addition to its words.
 #[derive(Clone, Copy, Default)]
 pub struct More<R> {
-    /// Added to the value, of the curve that has it: single precision in software pays for a zero as for any number.
+    /// Added to the value of the curve that has it: software single precision spends as much on adding zero as any number.
     offset: Option<R>,
     /// Multiplies 16-bit points.
     gain: R,
@@ -51,46 +51,45 @@ type Fraction<L> = <<L as Format>::Number as Kernel>::Fraction;
 pub trait Layout:
     Format<Number: Scalar, Word = Word<Self>, Constants = Constants<Word<Self>>>
 {
-    /// Its rows, by the lengths that sets of curves make.
+    /// Its rows, by the lengths of the sets of curves.
     type Rows<'a>: Runs<'a, Word<Self>>;
     /// Code in the image header.
     const CODE: u8;
-    /// How long a row is.
+    /// Length of a row.
     const ROW: Row;
     /// Degree of the spline that the curves are made from.
     const DEGREE: u8;
-    /// Whether the curve of 1/J is only a seed, for one step of Newton's iteration. Quadratics have enough cells that it is as
-    /// exact as J itself.
+    /// Whether the curve of 1/J is only a seed for one step of Newton's iteration. Quadratics have enough cells for a curve as accurate as J itself.
     const NEWTON: bool = Self::DEGREE == 3;
     /// Words from one curve of a row to the next.
     const COLUMN: usize;
     /// Coefficient k is stored times the power k of this, because a product with the place divides by it.
     const STEP: i8 = 1;
-    /// The place in a cell that the polynomial is about, 0 to 1.
+    /// The centre of the polynomial in a cell, 0 to 1.
     const CENTRE: f64 = <Self::Number as Kernel>::ROW_CENTRE;
-    /// Whether a word contains two numbers of 16 bits.
+    /// Whether a word contains two 16-bit numbers.
     const HALVES: bool = false;
 
     /// The rows of a table.
     fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
         Runs::new(words, Self::ROW.pitch(set))
     }
-    /// Number of cells. A row a cell is counted by its rows: with that number the index is compared in any case.
+    /// Number of cells. If each row is a cell, its rows are counted: the index is compared with that number anyway.
     #[inline(always)]
     fn cells(rows: &Self::Rows<'_>, table: &Table<'_, Self>, set: Set) -> u32 {
         if Self::ROW.more == 0 {
             rows.count(Self::ROW.pitch(set)) as u32
         } else {
-            // No more than MAX_CELLS: so the compiler knows that no sum with an index overflows.
+            // At most MAX_CELLS, so that the compiler knows that no sum with an index overflows.
             table.cells() & MAX_CELLS
         }
     }
-    /// The words that a cell reads.
+    /// The words of a cell.
     #[inline(always)]
     fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
         rows.row(Self::ROW.pitch(set), index)
     }
-    /// The coefficients of one curve, as computed in R.
+    /// The coefficients of one curve, computed in R.
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
@@ -106,8 +105,7 @@ pub trait Layout:
         let times = Self::times;
         p0 + times(p1 + times(p2 + times(p3, u), u), u)
     }
-    /// Value, and slope a cell times `STEP`. Horner's scheme twice over (the second row is that of the derivative) shares two of
-    /// its products.
+    /// Value, and slope per cell times `STEP`. A double Horner scheme (the second row is the derivative's) shares two of its products.
     #[inline(always)]
     fn value_and_slope(
         [p0, p1, p2, p3]: [Raw<Self>; 4],
@@ -118,10 +116,10 @@ pub trait Layout:
         let b1 = p1 + Self::times(b2, u);
         (p0 + Self::times(b1, u), b1 + Self::times(b2 + t3, u))
     }
-    /// What is stored for a cell of one curve, of control points c₀…c₃ (or c₀…c₂) divided so that their sum is the value: the
-    /// coefficients, or the point c₀ first; `COLUMN` of them count.
+    /// The stored numbers for a cell of one curve with control points c₀…c₃ (or c₀…c₂), scaled so that their sum is the value: the coefficients, or
+    /// the point c₀ first; the first `COLUMN` of them are used.
     fn stored(points: [f64; 4]) -> [f64; 4];
-    /// A number of 16 bits, the upper or lower half of a word, if words contain halves.
+    /// The upper or lower 16-bit number of a word, if words contain halves.
     #[inline(always)]
     fn half(word: Word<Self>, _upper: bool) -> Word<Self> {
         word
@@ -130,13 +128,13 @@ pub trait Layout:
     fn unit(_: Role) -> f64 {
         1.0
     }
-    /// `word` with one half replaced, if that fits into 16 bits.
+    /// `word` with one half replaced, if the number fits into 16 bits.
     fn with_half(_: Word<Self>, _upper: bool, half: Word<Self>) -> Option<Word<Self>> {
         Some(half)
     }
 }
 
-/// The format of a layout: an implementation of its own for each, so that the documentation names only what is public.
+/// The format of a layout: a separate implementation for each, so that the documentation shows only public names.
 macro_rules! format {
     ($layout:ty, $name:literal, $number:ty $(, $generic:ident)?) => {
         impl$(<$generic: Scalar>)? Format for $layout {
@@ -217,7 +215,7 @@ macro_rules! format {
             }
 
             fn header(constants: &Self::Constants, _: Set) -> [u32; CONSTANTS] {
-                // 64 bits do not fit, and are not stored.
+                // Numbers of 64 bits do not fit, and are not stored.
                 let bits = |word: Self::Word| bytemuck::try_cast(word).unwrap_or(0);
                 let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
                 [
@@ -279,8 +277,8 @@ macro_rules! format {
                 let sum = Self::Number::product(inertia, alpha);
                 let coefficient = cell.speed_coefficient(slope, tick.factor, omega);
                 let sum = Self::Number::accumulate(sum, coefficient, omega);
-                // Nothing is read before the term ahead of it is done with its registers. Not in forward dynamics, where a program asks
-                // for several accelerations at one place, and what they share is then read again.
+                // Each term is finished before the next is read, which saves registers. Not in forward dynamics, where a program requests several
+                // accelerations at one place, and their common values would be read again.
                 fence();
                 let sum = cell.with_load(sum);
                 fence();
@@ -319,7 +317,7 @@ macro_rules! format {
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
                 let resisting = cell.with_friction(cell.with_load(resisting), sliding);
                 let reciprocal = cell.curve(Role::Reciprocal);
-                // Not by `map`, which may become a loop, and which many models share as one function that knows no set of curves.
+                // Not by `map`: it may become a loop in a function shared by many models, which does not know the set of curves.
                 let [one, other] = torques;
                 [
                     outcome::<Self>(one, resisting, inertia, reciprocal, tick),
@@ -330,7 +328,7 @@ macro_rules! format {
     };
 }
 
-/// In the place of a cell that is not there: never called. With the fence it is a way of its own, and costs a tick one branch.
+/// For an absent cell: never called. The fence makes it a separate branch, which costs a tick one branch instruction.
 #[cold]
 #[inline(always)]
 fn beyond<T: Default>() -> T {
@@ -359,7 +357,7 @@ format!(Spline16, "spline16", Q31);
 format!(Cubic<S>, "cubic", S, S);
 format!(Quadratic<S>, "quadratic", S, S);
 
-/// All curves in machine units, the slope a cell.
+/// All curves in machine units, the slope per cell.
 fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
     let Some(cell) = Cell::at(table, phase) else {
         return CurveValues::default();

@@ -11,8 +11,8 @@ use crate::number::{Ring, Scalar};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cubic<S>(PhantomData<S>);
 
-/// The three coefficients of each cell's quadratic, from a uniform quadratic B-spline; rows are padded to a multiple of four
-/// words, the place in a cell has 16 bits in fixed point.
+/// The three coefficients of each cell's quadratic, from a uniform quadratic B-spline. Rows are padded to a multiple of four words; in fixed point
+/// the place in a cell has 16 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quadratic<S>(PhantomData<S>);
 

@@ -8,13 +8,12 @@ use crate::curve::curves::{Set, width};
 use crate::number::spline::cubic;
 use crate::number::{Kernel, Ring, Role, Scalar};
 
-/// Control points of a uniform cubic B-spline, one a knot and curve: see [`CubicSpline`](crate::table::CubicSpline).
+/// Control points of a uniform cubic B-spline, one per knot and curve: see [`CubicSpline`](crate::table::CubicSpline).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spline<S>(PhantomData<S>);
 
-/// As [`Spline<Q31>`](Spline), with 16 bits a control point, two of them in a word. The arithmetic stays that of 32 bits: a curve's
-/// points are multiplied by a whole number of its own ([`Constants::gains`](crate::table::Constants::gains)), so that they
-/// use all of their bits.
+/// As [`Spline<Q31>`](Spline), with 16 bits per control point, two of them in a word. The arithmetic has 32 bits: a curve's points are multiplied by
+/// its own integer ([`Constants::gains`](crate::table::Constants::gains)), so that they use all of their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spline16;
 

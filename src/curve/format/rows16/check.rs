@@ -1,7 +1,7 @@
-//! Proofs about a table, made when it is built: no number leaves its range in a tick.
+//! Proofs about a table when it is created: every number stays in its range in a tick.
 //!
-//! A line is greatest at an end of its cell, a quadratic stays within its Bézier points: the bounds hold everywhere in a cell. They
-//! are integers, for arguments −1 … 1, both ends included, and count every rounding of the tick.
+//! A line is greatest at an end of its cell, and a quadratic stays within its Bézier points, so that the bounds apply everywhere in a cell. They are
+//! integers, for arguments −1 … 1, both ends included, and include every rounding of the tick.
 
 use super::row;
 use super::{Rows16, row_of};
@@ -17,7 +17,7 @@ fn line(word: u32) -> [i64; 2] {
     [i64::from(word as i32), i64::from(word as i16) << 16]
 }
 
-/// The smallest and the largest value of a line in the tick, if they are in this range.
+/// The smallest and the largest value of a line in the tick, if within `range`.
 fn line_range(word: u32, range: [i64; 2]) -> Option<[i64; 2]> {
     let [start, rise] = line(word);
     let ends = [start >> 16, (start + rise) >> 16];
@@ -55,9 +55,9 @@ struct Most {
 impl Most {
     /// The largest torque, Q31.
     fn torque(&self) -> i64 {
-        // (V·ω + b) is rounded to Q16 by a floor after half a unit more.
+        // (V·ω + b) is rounded to Q16 by adding half a unit and flooring.
         let of_speed = (((self.velocity << 15) + self.viscous + (1 << 13)) >> 14) + 1;
-        // Half a unit of 2⁻¹⁵ more rounds the torque.
+        // Half a unit of 2⁻¹⁵ is added to round the torque.
         (self.inertia << 15) + (of_speed << 15) + self.load + self.coulomb + (1 << 15)
     }
 
@@ -90,7 +90,7 @@ impl Most {
 
         signed(row::inertia(set))?;
         let points = bezier(i64::from(start), word(row::inertia(set)));
-        // The tick's floors take up to a unit of Q16 off.
+        // The tick's floors subtract up to a unit of Q16.
         if points.iter().any(|p| *p < 2 * UNIT) {
             return Err(TableError::NoInertia { cell });
         }
@@ -126,9 +126,9 @@ impl Most {
     }
 }
 
-/// Every cell, for [`Table::new`].
+/// Checks every cell, for [`Table::new`].
 pub(super) fn all(table: &Table<'_, Rows16>) -> Result<(), TableError> {
-    // Of 1/J, beyond what the tick rounds away where J is large.
+    // Limit of the error of 1/J, in addition to the tick's rounding where J is large.
     const RECIPROCAL: f32 = 0.02;
     let set = table.set();
     for cell in 0..table.cells() {
@@ -146,7 +146,7 @@ pub(super) fn all(table: &Table<'_, Rows16>) -> Result<(), TableError> {
     Ok(())
 }
 
-/// A bound on |J·(1/J) − 1| in a cell, by the Bézier points of that cubic; `None` if 1/J leaves its range.
+/// A bound on |J·(1/J) − 1| in a cell, by the Bézier points of that cubic; `None` if 1/J is out of range.
 fn reciprocal_error_in(table: &Table<'_, Rows16>, cell: u32) -> Option<f32> {
     const UNSIGNED: [i64; 2] = [1, 32_767];
     let set = table.set();
@@ -173,24 +173,24 @@ fn reciprocal_error_in(table: &Table<'_, Rows16>, cell: u32) -> Option<f32> {
     let off = product
         .iter()
         .fold(0.0f32, |most, p| most.max((p - 1.0).abs()));
-    // The tick takes floors of both.
+    // The tick floors both.
     let smallest = j0.min(j1).min(j2) * 65_536.0;
     Some(off + 1.0 / least as f32 + 1.0 / smallest)
 }
 
-/// The largest of all cells.
+/// The largest error of all cells.
 pub(super) fn reciprocal_error(table: &Table<'_, Rows16>) -> f32 {
     (0..table.cells())
         .filter_map(|cell| reciprocal_error_in(table, cell))
         .fold(0.0, f32::max)
 }
 
-/// Whether V is what the slope of J makes of it in these machine units, but for the roundings of their numbers.
+/// Checks that V matches the slope of J in these machine units, except for rounding.
 pub(super) fn velocity(table: &Table<'_, Rows16>) -> Result<(), TableError> {
     let (set, span, scale) = (table.set(), table.domain().span(), table.scale());
     let factor = <f32 as Kernel>::velocity_factor(table.cells(), span, scale, 1)
         .ok_or(TableError::SpeedBase)?;
-    // Two numbers of J's, one of them counted twice, and two of V's, each to a unit and a half.
+    // Two numbers of J, one of them counted twice, and two of V, each to a unit and a half.
     let limit = 4.5 * factor / 65_536.0 + 3.0 / 32_768.0;
     for cell in 0..table.cells() {
         let row = row_of(table, cell);
@@ -207,9 +207,9 @@ pub(super) fn velocity(table: &Table<'_, Rows16>) -> Result<(), TableError> {
     Ok(())
 }
 
-/// How much of the number range each quantity of a table uses at most.
+/// Largest used share of the number range for each quantity of a table.
 pub(super) fn usage(table: &Table<'_, Rows16>) -> Usage {
-    // Every cell was found sound when the table was built.
+    // Every cell was checked when the table was created.
     (0..table.cells())
         .filter_map(|cell| Most::of(table, cell).ok())
         .fold(Usage::default(), |all, most| all.or(most.usage()))

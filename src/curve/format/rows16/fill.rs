@@ -39,11 +39,11 @@ struct Curves<'s> {
     viscous: &'s mut [f64],
     /// c at the knots, signed.
     coulomb: &'s mut [f64],
-    /// For samples.
+    /// Memory for samples.
     spare: &'s mut [f64],
 }
 
-/// b and c in machine units, if they are constant.
+/// b and c in machine units, if constant.
 #[derive(Clone, Copy)]
 struct Parts {
     viscous: f64,
@@ -51,7 +51,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// As they are stored.
+    /// Rounded to stored units.
     fn rounded(self, shift: u32) -> Result<RowConstants, TableError> {
         let rounded = |value: f64, unit: f64| {
             let scaled = math::rint(value * unit);
@@ -70,7 +70,7 @@ impl Parts {
     }
 }
 
-/// One of a slice's numbers; 0 beyond its end.
+/// A number of a slice; 0 beyond its end.
 fn at(numbers: &[f64], index: usize) -> f64 {
     numbers.get(index).copied().unwrap_or(0.0)
 }
@@ -81,7 +81,7 @@ fn put(numbers: &mut [f64], index: usize, value: f64) {
     }
 }
 
-/// p₀, p₁, p₂ of a cell, of control points in halves.
+/// p₀, p₁, p₂ of a cell, from control points in halves.
 fn quadratic(control: &[f64], cell: usize) -> [f64; 3] {
     let [c0, c1, c2] = [0, 1, 2].map(|k| at(control, cell + k));
     [c0 + c1, 2.0 * (c1 - c0), (c2 - c1) - (c1 - c0)]
@@ -165,7 +165,7 @@ impl<'s> Curves<'s> {
         Ok(parts)
     }
 
-    /// 1/J at a knot, lowered by half the height of a straight line above 1/J in the neighbouring cells.
+    /// 1/J at a knot, lowered by half the height of the chord above 1/J in the middle of the neighbouring cells, on average.
     fn reciprocal(&self, knot: usize) -> f64 {
         let cells = self.cells as usize;
         let inverse = |cell: usize, u: f64| {
@@ -185,7 +185,7 @@ impl<'s> Curves<'s> {
         value - 0.25 * (above(before) + above(after))
     }
 
-    /// k of the units of 1/J: the largest of them uses half of its range or more.
+    /// k of the units of 1/J: the largest value uses at least half of its range.
     fn shift(&self) -> Result<u32, TableError> {
         if !has(self.set, curves::RECIPROCAL) {
             return Ok(0);
@@ -202,7 +202,7 @@ impl<'s> Curves<'s> {
         if (0.0..=15.0).contains(&shift) {
             return Ok(shift as u32);
         }
-        // So small a J, of its base, is known to less than two units.
+        // A J so small relative to its base has an error of up to two units.
         let cell = place.min(self.cells - 1);
         Err(TableError::Reciprocal { cell })
     }
@@ -240,7 +240,7 @@ impl<'s> Curves<'s> {
         let start = u16::try_from(halves.start).map_err(|_| inertia_base)?;
         set(row::inertia(self.set), halves.word);
         set(row::start(self.set), word(start, load_start));
-        // Q16 of the slope to Q15 of the torque.
+        // From Q16 of the slope to Q15 of the torque.
         let slope = 0.5 * factor;
         let line = fit::line([slope * p1, slope * 2.0 * p2]).ok_or(torque_base)?;
         set(row::velocity(self.set), line);

@@ -9,8 +9,8 @@
 //! | V·ω + b, Q30 | i16·i16, and b | < 2³¹ |
 //! | T − resisting, times 1/J | 17 bits·u15 | 65535·32767 < 2³¹ |
 //!
-//! The product (V·ω + b)·ω and the partial sums may wrap: they are taken modulo 2³², and only the whole sum counts, of
-//! which [`Table`](crate::Table) knows that it fits.
+//! The product (V·ω + b)·ω and the partial sums may wrap: they are modulo 2³², and only the whole sum matters, which [`Table`](crate::Table) ensures
+//! to fit.
 
 use crate::number::{Outcome, Sliding, fence};
 use crate::{Phase, Q15};
@@ -22,23 +22,23 @@ pub(super) fn locate(phase: Phase, cells: u32) -> (usize, i32) {
     (cell as usize, (fraction >> 16) as i32)
 }
 
-/// A line over the cell, from a word of its value (upper half) and difference: floor((word + difference·u)/2¹⁶).
+/// A line over the cell, from a word with value (upper half) and difference: floor((word + difference·u)/2¹⁶).
 ///
-/// The word goes in whole: its lower half adds up to one unit to the value, which `fill` takes into account.
+/// The whole word is used: its lower half adds up to one unit to the value, which `fill` takes into account.
 #[inline(always)]
 pub(super) fn line(word: u32, u: i32) -> i32 {
     let difference = i32::from(word as i16);
     (word as i32).wrapping_add(difference.wrapping_mul(u)) >> 16
 }
 
-/// J in Q16, of the words of its line and of its start.
+/// J in Q16, from the words of its line and start.
 #[inline(always)]
 pub(super) fn inertia(line_word: u32, start: u32, u: i32) -> i32 {
     let rise = line(line_word, u).wrapping_mul(u);
     (start.wrapping_add(rise as u32) >> 16) as i32
 }
 
-/// −load in Q31, of the words of its line and of its start.
+/// `sum` − load in Q31, from the words of the load's line and start.
 #[inline(always)]
 pub(super) fn minus_load(sum: i32, line_word: u32, start: u32, u: i32) -> i32 {
     let sum = sum.wrapping_add((start << 16) as i32);
@@ -64,7 +64,7 @@ fn sign(x: i32) -> i32 {
     x >> 31 | (x.wrapping_neg() as u32 >> 31) as i32
 }
 
-/// sum + c·sgn ω, of c in Q31 from 0 on.
+/// sum + c·sgn ω, for c ≥ 0 in Q31.
 #[inline(always)]
 #[allow(clippy::comparison_chain, reason = "the three ways of sgn")]
 fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
@@ -78,19 +78,19 @@ fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
         };
     }
     if omega > 0 {
-        // Or the ways are made one, and all terms wait behind it in more registers than there are.
+        // Without the fence the branches are merged, and all terms wait behind them in more registers than exist.
         fence();
         return sum.wrapping_add(c);
     }
     sum.wrapping_sub(if omega < 0 { c } else { 0 })
 }
 
-/// sum + |c|·sgn ω or |c| times the share, in Q31, of c in Q15 with any sign.
+/// sum + |c|·sgn ω or |c| times the share, in Q31, for c in Q15 with any sign.
 #[inline(always)]
 pub(super) fn add_sliding(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
     match sliding {
         Sliding::Against(omega) if cfg!(not(short_multiply)) => {
-            // c with the sign of c·ω, which is 0 only if one of them is.
+            // c with the sign of c·ω, which is 0 only if a factor is 0.
             let product = c.wrapping_mul(i32::from(omega.to_bits()));
             sum.wrapping_add(c.wrapping_mul(sign(product)) << 16)
         }
@@ -98,7 +98,7 @@ pub(super) fn add_sliding(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
     }
 }
 
-/// The same of a constant c in Q31, from 0 on.
+/// The same for a constant c ≥ 0 in Q31.
 #[inline(always)]
 pub(super) fn add_constant(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
     match sliding {
@@ -110,17 +110,17 @@ pub(super) fn add_constant(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
     }
 }
 
-/// A torque in Q31 as a number: the `Table` was checked, so it fits.
+/// A torque in Q31 as a number: the `Table` was checked, so that it fits.
 #[inline(always)]
 pub(super) fn torque(sum: i32) -> Q15 {
     Q15::from_bits((sum >> 16) as i16)
 }
 
-/// Limited to the range of the number, for a whole part of any size.
+/// Limited to the range of the number, for an integer part of any size.
 #[inline(always)]
 pub(super) fn limited(x: i32) -> Outcome<Q15> {
     if cfg!(not(short_multiply)) {
-        // Without a branch, where an instruction can be left out on a condition.
+        // Conditional instructions need no branch.
         let value = x.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
         return Outcome {
             value: Q15::from_bits(value as i16),
@@ -133,7 +133,7 @@ pub(super) fn limited(x: i32) -> Outcome<Q15> {
             saturated: false,
         };
     }
-    // Or the two ways are made one, and the way that most ticks take longer.
+    // Without the fence the branches are merged, and the frequent one takes longer.
     fence();
     Outcome {
         value: Q15::from_bits((x >> 31 ^ 0x7fff) as i16),
@@ -141,13 +141,12 @@ pub(super) fn limited(x: i32) -> Outcome<Q15> {
     }
 }
 
-/// net/J towards zero, for net in Q15 (17 bits) and J in Q16, greater than 0. One division of 32 bits, in software where
-/// the processor has none.
+/// net/J towards zero, for net in Q15 (17 bits) and J in Q16, greater than 0. One 32-bit division, in software where the processor has none.
 #[inline(always)]
 pub(super) fn quotient(net: i32, inertia: i32) -> Outcome<Q15> {
     let (magnitude, divisor) = (net.unsigned_abs(), inertia.unsigned_abs());
     if magnitude << 1 >= divisor {
-        // |net/J| ≥ 1; −1 itself is given as saturated, too.
+        // |net/J| ≥ 1; −1 itself counts as saturated, too.
         return Outcome {
             value: if net < 0 { Q15::MIN } else { Q15::MAX },
             saturated: true,

@@ -1,15 +1,15 @@
 //! Rows of 16-bit numbers, for processors without a long multiplication (Cortex-M0, M0+).
 //!
-//! The same equation as everywhere, in per-unit numbers [`Q15`]:
+//! The common equation in per-unit numbers [`Q15`]:
 //!
 //! ```text
 //! inverse:  T = J(φ)·α + (V(φ)·ω + b(φ))·ω − load(φ) + c(φ)·sgn ω,      V = ½·J′·ω_b²/T_b
 //! forward:  α = (T − (V(φ)·ω + b(φ))·ω + load(φ) − c(φ)·sgn ω)/J(φ)
 //! ```
 //!
-//! J and load are quadratics in every cell, made from uniform quadratic splines, V is the slope of J's: all three are
-//! continuous but for the rounding of their numbers (test `value_and_slope_hardly_step_at_knots`). b, c and 1/J are straight lines from knot to knot. A
-//! [`Scale::limited_to`](crate::Scale::limited_to) makes the best of 16 bits.
+//! J and load are quadratics in every cell, from uniform quadratic splines, and V is proportional to the slope of J: all three are continuous except
+//! for the rounding of their numbers (test `value_and_slope_hardly_step_at_knots`). b, c and 1/J are linear between the knots. A
+//! [`Scale::limited_to`](crate::Scale::limited_to) makes the best use of 16 bits.
 
 mod check;
 mod fill;
@@ -29,12 +29,11 @@ use crate::number::Sliding;
 use crate::number::error::RangeError;
 use crate::{Outcome, Phase, Q15};
 
-/// Rows of packed 16-bit numbers: 12 bytes a cell, and 4 more for each of load, b(φ), c(φ) and 1/J. The words of a row are
-/// listed in `docs/table-image.md`.
+/// Rows of packed 16-bit numbers: 12 bytes per cell, and 4 more for each of load, b(φ), c(φ) and 1/J. `docs/table-image.md` lists the words of a row.
 ///
-/// 16 bits cannot go below some units of 2⁻¹⁵ of the torque base; with more cells the numbers of a cell become smaller, and the
-/// error does not: for the example press it stays above 1.2e-4 of the peak torque (test `the_floor_is_the_stated_one`). Forward dynamics takes one multiplication with [`curves::RECIPROCAL`], without it one division
-/// of 32 bits, which processors without a divider do in software.
+/// The error has a floor of some units of 2⁻¹⁵ of the torque base: more cells make the numbers of a cell smaller, but not the error. For the example
+/// press it stays above 1.2e-4 of the peak torque (test `the_floor_is_the_stated_one`). Forward dynamics needs one multiplication with
+/// [`curves::RECIPROCAL`], without it one 32-bit division, which processors without a divider do in software.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rows16;
 
@@ -66,7 +65,7 @@ fn row_of<'a>(table: &Table<'a, Rows16>, cell: u32) -> &'a [u32] {
     rows.nth(cell as usize).unwrap_or_default()
 }
 
-/// What a line of the row at `phase` reads, if the set has this curve.
+/// The value of a line of the row at `phase`, if the set has this curve.
 fn line(table: &Table<'_, Rows16>, phase: Phase, curve: Set, index: usize) -> f64 {
     if !has(table.set(), curve) {
         return 0.0;
@@ -110,7 +109,7 @@ impl Format for Rows16 {
         let word = |index| row::at(row, index);
         let start = word(row::start(set));
         let load = if has(set, curves::LOAD) {
-            // Half a unit of 2⁻¹⁵ rounds the torque.
+            // The word contains half a unit of 2⁻¹⁵ to round the torque.
             32_768.0 - f64::from(kernel::minus_load(0, word(0), start, u))
         } else {
             0.0
@@ -144,7 +143,7 @@ impl Format for Rows16 {
     fn cell_curves(table: &Table<'_, Self>, cell: u32, _: f64) -> Option<CellCurves> {
         let (set, constants) = (table.set(), table.constants());
         let word = |index| row::at(row_of(table, cell), index);
-        // A line of a word, in units of its upper half: the lower half adds its fraction.
+        // The line of a word, in units of its upper half, to which the lower half adds its fraction.
         let line = |index| {
             let word: u32 = word(index);
             [
@@ -160,7 +159,7 @@ impl Format for Rows16 {
         let [v0, v1] = line(row::velocity(set));
         let load = if has(set, curves::LOAD) {
             let [g1, g2] = line(0);
-            // Half a unit of 2⁻¹⁵ rounds the torque.
+            // The word contains half a unit of 2⁻¹⁵ to round the torque.
             [0.5 - f64::from(start as i16), -g1, -g2, 0.0]
         } else {
             [0.0; 4]

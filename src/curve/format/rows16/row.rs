@@ -1,7 +1,6 @@
-//! How a row of 16-bit numbers is packed.
+//! Packing of a row of 16-bit numbers.
 //!
-//! Words in this order; a row has those that its set of [`curves`] needs. Upper half : lower half, signed 16-bit numbers
-//! except J₀.
+//! Words in this order; a row has the words of its set of [`curves`]. Upper half : lower half, signed 16-bit numbers except J₀.
 //!
 //! | word | of the set | content | units |
 //! |---|---|---|---|
@@ -10,11 +9,10 @@
 //! | v₀ : v₁ | always | V(u) = v₀ + v₁·u, the velocity torque at ω = 1 | 2⁻¹⁵ |
 //! | J₀ : g₀ | always | J₀ unsigned; g₀ is 0 without `LOAD` | 2⁻¹⁶, 2⁻¹⁵ |
 //! | b₀ : b₁ | `VISCOUS` | b(u) = b₀ + b₁·u | 2⁻¹⁵ |
-//! | c₀ : c₁ | `COULOMB` | c(u) = c₀ + c₁·u, whose magnitude the tick takes | 2⁻¹⁵ |
+//! | c₀ : c₁ | `COULOMB` | c(u) = c₀ + c₁·u, of which the tick uses the magnitude | 2⁻¹⁵ |
 //! | r₀ : r₁ | `RECIPROCAL` | 1/J(u) = (r₀ + r₁·u)/2ᵏ | 1 |
 //!
-//! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half of its word the fraction of a unit that
-//! it is when it is read as an unsigned number.
+//! u is the place in the cell, 0 to 1. Every lower half, read as an unsigned fraction of a unit, also adds to the upper half of its word.
 
 use crate::curve::curves::{self, Set, has};
 
@@ -53,7 +51,7 @@ pub(super) const fn reciprocal(set: Set) -> usize {
     coulomb(set) + has(set, curves::COULOMB) as usize
 }
 
-/// Two halves of a word.
+/// A word from two halves.
 pub(super) const fn word(upper: u16, lower: u16) -> u32 {
     (upper as u32) << 16 | lower as u32
 }
@@ -61,7 +59,7 @@ pub(super) const fn word(upper: u16, lower: u16) -> u32 {
 /// The rows of a table.
 pub(super) type Rows<'a> = crate::curve::format::Rows<'a, u32, 3, 4, 5, 6, 7>;
 
-/// A word of a row; 0 beyond its end, where the compiler sees that no read is.
+/// A word of a row; 0 beyond its end, where the compiler sees no read.
 #[inline(always)]
 pub(super) fn at(row: &[u32], index: usize) -> u32 {
     row.get(index).copied().unwrap_or(0)

@@ -8,18 +8,18 @@ use crate::curve::{Table, TableError};
 use crate::number::{Outcome, Sliding, fence};
 use crate::{Phase, Q15};
 
-/// What a tick takes of a table.
+/// Values that a tick reads from a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Tick<'a> {
     rows: Rows<'a>,
-    /// A constant b, Q30, and half a unit to round (V·ω + b).
+    /// A constant b, Q30, plus half a unit to round (V·ω + b).
     viscous: i32,
     /// A constant c, Q31.
     coulomb: i32,
     shift: Shift,
 }
 
-/// 0 to 15: the compiler knows that it is less than 32, so that shifting by it costs one instruction.
+/// 0 to 15: the compiler knows that it is less than 32, so that a shift by it costs one instruction.
 #[derive(Clone, Copy, Debug)]
 #[repr(u32)]
 #[rustfmt::skip]
@@ -134,7 +134,7 @@ impl<'a> Tick<'a> {
     ) -> [Outcome<Q15>; 2] {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
-            // Or both ways out share their last instructions, and every tick takes more of them.
+            // Without the fence both exits share their last instructions, and every tick needs more of them.
             fence();
             return [Outcome::default(); 2];
         };
@@ -153,11 +153,11 @@ impl<'a> Tick<'a> {
             kernel::inertia(row::at(row, row::inertia(set)), start, u)
         };
         let outcome = |torque| self.outcome(set, torque, resisting, inertia);
-        // Not by `map`, which may become a loop.
+        // Not by `map`: it may become a loop.
         [outcome(torques[0]), outcome(torques[1])]
     }
 
-    /// (torque − resisting)/J, of 1/J or J.
+    /// (torque − resisting)/J, by 1/J or J.
     #[inline(always)]
     fn outcome(&self, set: Set, torque: Q15, resisting: i32, inertia: i32) -> Outcome<Q15> {
         let net = i32::from(torque.to_bits()).wrapping_sub(resisting);
@@ -177,7 +177,7 @@ impl<'a> Tick<'a> {
         kernel::of_speed(velocity, b, omega)
     }
 
-    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, of the row of a cell and the place in it.
+    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, from the row of a cell and the place in it.
     pub(super) fn contributions(
         &self,
         set: Set,
@@ -204,7 +204,7 @@ impl<'a> Tick<'a> {
         .map(kernel::torque)
     }
 
-    /// b in Q30, and half a unit to round (V·ω + b).
+    /// b in Q30, plus half a unit to round (V·ω + b).
     #[inline(always)]
     fn viscous(&self, set: Set, row: &[u32], u: i32) -> i32 {
         if has(set, curves::VISCOUS) {
@@ -227,7 +227,7 @@ impl<'a> Tick<'a> {
         sum
     }
 
-    /// sum − load, and half a unit of the result to round it: that of a load is in the table.
+    /// sum − load, plus half a unit of the result for rounding, which the table of a load contains.
     #[inline(always)]
     fn with_load(set: Set, sum: i32, row: &[u32], start: u32, u: i32) -> i32 {
         if has(set, curves::LOAD) {

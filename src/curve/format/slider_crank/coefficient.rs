@@ -1,15 +1,14 @@
-//! Which coefficients there are, and the order in which they lie.
+//! The coefficients and their order.
 
 use core::fmt;
 
 use crate::Set;
 use crate::curve::curves;
 
-/// What a slider-crank has beside the curves themselves: the upper bits of a set of curves, one for each coefficient.
+/// Terms of a slider-crank in addition to the curves themselves: the upper bits of a set of curves, one for each coefficient.
 ///
-/// The curves are those of [`curves`]: `LOAD` brings the coefficient of X, `VISCOUS` that of X², `COULOMB` that of |X|, and
-/// `CONSTANT_VISCOUS`, `CONSTANT_COULOMB` those that do not depend on φ.
-/// [`slider_crank::set_in_use`](crate::slider_crank::set_in_use) finds the set.
+/// The curves are in [`curves`]: `LOAD` adds the coefficient of X, `VISCOUS` of X², `COULOMB` of |X|, and `CONSTANT_VISCOUS`, `CONSTANT_COULOMB`
+/// those independent of φ. [`slider_crank::set_in_use`](crate::slider_crank::set_in_use) finds the set.
 pub mod terms {
     use crate::Set;
 
@@ -25,15 +24,15 @@ pub mod terms {
     pub const LOAD_ROD: Set = 1 << 12;
     /// Viscous friction of the rod: the part of b in X·sin φ.
     pub const VISCOUS_SIN: Set = 1 << 13;
-    /// Viscous friction at a point beside the rod's line: the part of b in X·cos φ.
+    /// Viscous friction at a point off the rod's line: the part of b in X·cos φ.
     pub const VISCOUS_COS: Set = 1 << 14;
-    /// Coulomb friction of the rod's turning: the part of c in |Ψ|.
+    /// Coulomb friction of the rod's rotation: the part of c in |Ψ|.
     pub const COULOMB_ROD: Set = 1 << 15;
     /// All.
     pub const ALL: Set = 0xff00;
 }
 
-/// A coefficient: what it multiplies, and its unit.
+/// A coefficient: its function of φ, and its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(usize)]
@@ -76,7 +75,7 @@ pub enum Coefficient {
     CoulombConstant,
 }
 
-/// How many there are at most.
+/// Greatest number of coefficients.
 pub(crate) const COEFFICIENTS: usize = 18;
 
 impl Coefficient {
@@ -102,7 +101,7 @@ impl Coefficient {
         Self::CoulombConstant,
     ];
 
-    /// The bits that a set must have for it.
+    /// The bits of the set that it needs.
     pub(crate) const fn bits(self) -> Set {
         match self {
             Self::Ratio | Self::Offset | Self::Inertia | Self::InertiaSquare | Self::InertiaSin => {
@@ -154,7 +153,7 @@ pub(crate) const fn words(set: Set) -> usize {
     words
 }
 
-/// Whether every term comes with its curve.
+/// Whether every term has its curve.
 pub(crate) const fn is_known(set: Set) -> bool {
     let curves =
         curves::ALL | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB | terms::INERTIA_COS;

@@ -6,9 +6,8 @@
 //! J = J₀ + a·X² + s·X·sin φ + c·X·cos φ
 //! ```
 //!
-//! Every mass of a slider-crank, of whatever link and wherever its centre is, gives a J of this form; every weight and constant
-//! force a load in X, sin φ, cos φ; viscous friction a b like J. docs/closed-form.md derives it. For a slider on the left,
-//! λ and e/l change their signs.
+//! Every mass of any link, with its centre anywhere, gives a J of this form; every weight and constant force a load in X, sin φ, cos φ; viscous
+//! friction a b like J. docs/closed-form.md derives it. For a slider on the left, λ and e/l change their signs.
 
 #[allow(clippy::indexing_slicing, reason = "lengths known at compile time")]
 mod coefficient;
@@ -32,17 +31,16 @@ use crate::number::error::RangeError;
 use crate::number::{Kernel as _, Sliding};
 use crate::{Domain, Outcome, Phase, Scale};
 
-/// A slider-crank in closed form, `f32`, SI units: no cells, 20 to 72 bytes for any accuracy that single precision has.
+/// A slider-crank in closed form, `f32`, SI units: no cells, 20 to 72 bytes, with an accuracy of single precision.
 ///
-/// The words lie as [`Coefficient::ALL`] says, as far as the set has them; the upper bits of
-/// the set are [`terms`]. [`slider_crank::form`](crate::slider_crank::form) makes them from a machine.
+/// Order of the words: [`Coefficient::ALL`], as far as the set has them; the upper bits of the set are [`terms`].
+/// [`slider_crank::form`](crate::slider_crank::form) computes them from a machine.
 ///
-/// The inverse square root is `micromath`'s, made exact by three steps of Newton's iteration; sine and cosine are those of
+/// The inverse square root is `micromath`'s, refined by three steps of Newton's iteration; sine and cosine are those of
 /// [`Harmonic`](crate::Harmonic).
 ///
-/// **Accuracy**: of the torque 1e-6 of the sum of its terms' largest sizes for (r + |e|)/l ≤ 0.5, 3e-6 up to
-/// [`STEEPEST`] (test `the_tick_rounds_as_stated`). Cost: 101 instructions on a Cortex-M4F with a load
-/// and constant friction, the same for every argument; docs/closed-form.md.
+/// **Accuracy**: the torque to 1e-6 of the sum of its terms' largest magnitudes for (r + |e|)/l ≤ 0.5, 3e-6 up to [`STEEPEST`] (test
+/// `the_tick_rounds_as_stated`). Cost: 101 instructions on a Cortex-M4F with a load and constant friction, for every argument; docs/closed-form.md.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SliderCrankForm;
 
@@ -64,7 +62,7 @@ fn crank(table: &Table<'_, SliderCrankForm>) -> Crank {
     Crank::new(table.words(), table.set())
 }
 
-/// sum + c·sgn ω, if the machine has it.
+/// sum + c·sgn ω, if the machine has friction.
 #[inline(always)]
 fn with_friction(sum: f32, values: &Values, set: Set, sliding: Sliding<f32>) -> f32 {
     if has(set, curves::COULOMB | curves::CONSTANT_COULOMB) {
@@ -95,7 +93,7 @@ impl Format for SliderCrankForm {
         if table.domain() != Domain::Turn {
             return Err(TableError::Stroke);
         }
-        // In units where J·ω² is no torque the tick would need a factor.
+        // If J·ω² is not in the unit of torque, the tick would need a factor.
         let factor = table.scale().velocity_base();
         if !(factor > 1.0 - 1e-6 && factor < 1.0 + 1e-6) {
             return Err(TableError::SpeedBase);
@@ -136,7 +134,7 @@ impl Format for SliderCrankForm {
         _: &mut [f64],
         _: &mut [f32],
     ) -> Result<(), E> {
-        // They are those of a mechanism: `slider_crank::form`.
+        // The coefficients come from a mechanism: `slider_crank::form`.
         Err(TableError::SliderCrank.into())
     }
 
@@ -164,7 +162,7 @@ impl Format for SliderCrankForm {
         let crank = crank(table);
         crank.check_lengths()?;
         crank.check_inertia(table.set())?;
-        // Below this no sum of a tick overflows, whatever the phase. NaN is not less than anything.
+        // Below this no sum of a tick overflows at any phase. A comparison with NaN is false.
         if crank.usage().torque < 1e30 {
             Ok(crank)
         } else {
@@ -222,7 +220,7 @@ impl Format for SliderCrankForm {
         let values = tick.at(set, phase);
         let resisting = Crank::resisting(&values, set, omega);
         let resisting = with_friction(resisting, &values, set, sliding);
-        // Floating point has room for every acceleration.
+        // Floating point represents every acceleration.
         let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
         [outcome(torques[0]), outcome(torques[1])]
     }

@@ -6,14 +6,14 @@ use crate::curve::curves::{self, Set, has};
 use crate::curve::format::harmonic::Circular as _;
 use crate::curve::{TableError, Usage};
 
-/// Places looked at to show the inertia positive: at first, and at most.
+/// Numbers of places in the proof of a positive inertia: at first, and at most.
 const PLACES: [u32; 2] = [64, 4096];
 /// Largest (r + |e|)/l.
 pub const STEEPEST: f32 = 0.95;
-/// Roundings of J, of the sum of the sizes of its parts.
+/// Rounding of J, relative to the sum of the magnitudes of its parts.
 const ROUNDINGS: f32 = 32.0 * f32::EPSILON;
 
-/// The coefficients of a table, zero where the machine has none.
+/// The coefficients of a table, zero where absent.
 #[derive(Clone, Copy, Debug)]
 pub struct Crank {
     of: [f32; COEFFICIENTS],
@@ -30,12 +30,12 @@ pub(super) struct Values {
     pub(super) coulomb: f32,
 }
 
-/// 1/√w for w from 1 − [`STEEPEST`]² to 1: `micromath`'s, whose 3.5 % three steps of Newton's iteration bring down to roundings.
+/// 1/√w for w from 1 − [`STEEPEST`]² to 1: three steps of Newton's iteration reduce `micromath`'s error of 3.5 % to rounding.
 #[inline(always)]
 fn inverse_root(w: f32) -> f32 {
     let half = 0.5 * w;
     let step = |q: f32| q * (1.5 - half * q * q);
-    // Not a loop: optimised for size it would stay one.
+    // Not a loop: the compiler would keep it when optimising for size.
     step(step(step(micromath::F32(w).invsqrt().0)))
 }
 
@@ -56,7 +56,7 @@ impl Crank {
 
     #[inline(always)]
     fn get(&self, coefficient: C) -> f32 {
-        // The length is known, and so is the index: no check is left.
+        // Length and index are known: the check is optimised away.
         self.of
             .get(coefficient as usize)
             .copied()
@@ -138,7 +138,7 @@ impl Crank {
         values.slope * (0.5 * omega * omega)
     }
 
-    /// ½·J′·ω² − load + b·ω, of the curves that the machine has.
+    /// ½·J′·ω² − load + b·ω, with the machine's curves.
     #[inline(always)]
     pub(super) fn resisting(values: &Values, set: Set, omega: f32) -> f32 {
         let mut sum = Self::velocity(values, omega);
@@ -151,7 +151,7 @@ impl Crank {
         sum
     }
 
-    /// Whether the rod is long enough for a full turn, with a margin: below it, the root loses its digits.
+    /// Checks that the rod is long enough for a full turn, with a margin: below it, the root loses its digits.
     pub(super) fn check_lengths(&self) -> Result<(), TableError> {
         if size(self.get(C::Ratio)) + size(self.get(C::Offset)) <= STEEPEST {
             Ok(())
@@ -176,7 +176,7 @@ impl Crank {
         [square * most + rest, square * slope + rest]
     }
 
-    /// Bounds of the curves' sizes.
+    /// Bounds of the curves' magnitudes.
     pub(super) fn usage(&self) -> Usage {
         let ([most, slope], [y, dy]) = (self.reach(), self.bounds());
         let of = |parts: &[(C, f32)]| -> f32 {
@@ -212,8 +212,8 @@ impl Crank {
         usage
     }
 
-    /// Shows J positive everywhere: at 64 places its least value must exceed what J′ can take off on the way to the middle
-    /// between two of them, and the rounding; else 128, up to 4096 places are looked at.
+    /// Proves that J is positive everywhere: its least value at 64 places must exceed the possible decrease by J′ up to the middle between two of
+    /// them, and the rounding. Otherwise the number of places doubles, up to 4096.
     pub(super) fn check_inertia(&self, set: Set) -> Result<(), TableError> {
         let usage = self.usage();
         let rounding = ROUNDINGS * usage.inertia;
@@ -249,8 +249,8 @@ impl Crank {
 mod tests {
     use super::{STEEPEST, inverse_root};
 
-    /// Newton's step takes a relative error δ to 1.5·δ²: 3.5 % to 1.8e-3, 5e-6, 4e-11. What is left are roundings of the last step:
-    /// two of 2⁻²⁴ count fully, that of the difference near 1 by half.
+    /// Newton's step takes a relative error δ to 1.5·δ²: 3.5 % to 1.8e-3, 5e-6, 4e-11. The roundings of the last step remain: two of 2⁻²⁴ count
+    /// fully, the rounding of the difference near 1 by half.
     #[test]
     fn the_inverse_root_is_exact_but_for_roundings() {
         let least = 1.0 - STEEPEST * STEEPEST;
