@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::size_json::schema;
 use crate::support::schema::faults;
 use crate::support::{Folder, Run, jred, jred_with, sizeable_machines};
 use serde_json::Value;
@@ -41,7 +40,7 @@ fn every_output_names_what_is_chosen() {
     let json = with_catalogue("size", "lift.toml", &["--format", "json"])
         .ends(0)
         .json();
-    assert_eq!(faults(&schema(), &json), [""; 0]);
+    assert_eq!(faults(&json), [""; 0]);
     let best = &json["fit"][0];
     let named = |key: &str| best[key].as_str().unwrap();
     assert_eq!(

@@ -31,6 +31,7 @@ mod rules;
 mod search_commands;
 mod sensitivity_commands;
 mod size_json;
+mod schemas;
 mod split;
 mod support;
 mod vary;

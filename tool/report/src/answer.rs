@@ -111,7 +111,11 @@ impl<'a> Answer<'a> {
                 Box::new(output::json_parts(course, self.data.clone(), Map::new()))
             }
             (None, Format::Json) => once(format!("{:#}\n", Value::Object(self.data.clone()))),
-            (Some(course), Format::Table) => output::parts(course, format, &self.text(screen)),
+            (Some(course), Format::Table) => {
+                let gap = if self.blocks.is_empty() { "" } else { "\n" };
+                let text = self.text(screen);
+                output::parts(course, format, &format!("{}{gap}", text.trim_end()))
+            }
             (None, Format::Table) => once(self.text(screen)),
             (course, Format::Csv) => match (&self.csv, course) {
                 (Some(csv), _) => once(csv.clone()),

@@ -182,7 +182,7 @@ fn the_check_of_a_stroke() {
         "s = -100 to 150 mm",
         "no dead centre",
         "m_red ",
-        "drive torque",
+        "drive force",
     ] {
         assert!(text.contains(words), "{words} is not in\n{text}");
     }

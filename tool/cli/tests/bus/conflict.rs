@@ -67,7 +67,7 @@ fn a_chopper_above_the_highest_voltage() {
             "{text}"
         );
         assert!(!text.contains("requires a brake resistor"), "{text}");
-        assert!(!text.contains("A suitable brake resistor"), "{text}");
+        assert!(!text.contains("required: "), "{text}");
         assert!(!speaks_of_resistors(&answer), "{answer:#}");
         let expected = serde_json::json!(["chopper_voltage", "max_voltage"]);
         assert_eq!(answer["conflict"]["any of"], expected);
@@ -88,8 +88,8 @@ fn a_chopper_above_the_highest_voltage() {
     // What is advised mends it.
     before[1].1 = "740 V".to_owned();
     let (text, answer) = run(&folder, &before, &[], &more, 1);
-    assert!(text.contains("The bus requires a brake resistor"), "{text}");
-    assert!(!text.contains("No brake resistor can work here"), "{text}");
+    assert!(text.contains("resistor    required: "), "{text}");
+    assert!(!text.contains("no brake resistor can work here"), "{text}");
     assert!(answer["conflict"].is_null() && speaks_of_resistors(&answer));
     let kinds = mend(&folder, &before, &[], &more);
     assert_eq!(kinds[0], "brake_resistor.resistance", "{kinds:?}");
@@ -110,7 +110,7 @@ fn a_supply_above_the_highest_voltage() {
             "{text}"
         );
         assert!(
-            !text.contains("Any one of these changes is sufficient"),
+            !text.contains("any one of these changes is sufficient"),
             "{text}"
         );
         assert_eq!(answer["cures"], serde_json::json!([]));
@@ -172,8 +172,9 @@ brake_resistor = {{ resistance = "{resistance}", power = "1 kW" }}
     };
     let text = conveyor("20 Ohm").ends(1).out;
     let (_, cures) = text
-        .split_once("Any one of these changes is sufficient:\n")
+        .split_once("any one of these changes is sufficient\n")
         .unwrap();
-    assert_eq!(cures, ONLY);
+    let (cures, _) = cures.split_once("\n\n").unwrap();
+    assert_eq!(cures, ONLY.trim_end());
     conveyor("40 Ohm").ends(0);
 }

@@ -82,7 +82,7 @@ pub(super) fn mend(
 ) -> Vec<String> {
     let (text, answer) = run(folder, before, others, more, 1);
     assert!(
-        text.contains("\nAny one of these changes is sufficient:\n- "),
+        text.contains("\nany one of these changes is sufficient\n- "),
         "{text}"
     );
     let mut kinds = Vec::new();
@@ -201,14 +201,13 @@ fn a_resistor_that_is_too_weak() {
     for more in [&["--in-step"][..], &[]] {
         let (text, answer) = run(&folder, &before, &[&lift], more, 1);
         for words in [
-            "The brake resistor is short of",
+            "resistor    is short of",
             "W mean power",
             "J pulse energy",
-            "A suitable brake resistor: ",
+            "resistor    required: ",
         ] {
             assert!(text.contains(words), "{words}\n{text}");
         }
-        assert!(!text.contains("The bus requires"), "{text}");
         let lacks = &answer["brake resistor lacks"];
         for (name, key, has) in [
             ("brake resistor mean power", "mean [W]", 50.0),

@@ -76,7 +76,7 @@ fn three_axes() {
     let text = bus(&files, &[]);
     says(
         &text,
-        &["3. Servo press", "Phases with the highest mean brake power"],
+        &["axis 3 Servo press", "with the highest mean brake power"],
     );
     assert!(!text.out.contains("More than three axes"));
     // A fourth: found one phase at a time, which is said.
@@ -159,8 +159,8 @@ fn periods_that_do_not_meet() {
         says(
             &text,
             &[
-                &format!("Checked against bounds that are valid for any phases: {words}."),
-                &format!("not checked: brake resistor pulse energy: no bound exists, and {words}"),
+                &format!("checked against bounds that are valid for any phases: {words}"),
+                &format!("not checked brake resistor pulse energy: no bound exists, and {words}"),
             ],
         );
         assert!(answer["not checked"].to_string().contains(words));
@@ -329,7 +329,7 @@ fn a_resistor_of_the_catalogue() {
     says(
         &text,
         &[
-            "Brake resistor: enough, the smallest of the catalogue that fits. The bus requires at most",
+            "resistor enough, the smallest of the catalogue that fits; required: at most",
         ],
     );
     let answer = json(&files, &more);

@@ -49,6 +49,13 @@ pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     run
 }
 
+/// A listing without its columns: each line with single spaces.
+pub(crate) fn squeezed(text: &str) -> String {
+    let lines = text.lines();
+    let lines = lines.map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ") + "\n");
+    lines.collect()
+}
+
 impl Run {
     /// The run, which must have ended with `code`.
     pub(crate) fn ends(self, code: i32) -> Self {

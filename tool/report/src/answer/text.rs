@@ -6,6 +6,9 @@ use super::{Answer, Block};
 /// Names up to this width are a column of their own.
 const WIDEST: usize = 20;
 
+/// Between the name of a fact and its text.
+const GAP: &str = "  ";
+
 /// In front of a fact.
 const INDENT: &str = "  ";
 
@@ -29,13 +32,13 @@ impl Answer<'_> {
                     screen.fill(&mut text, "", INDENT, heading);
                 }
                 Block::Fact(name, says) => {
-                    let rest = " ".repeat(INDENT.len() + width + 1);
+                    let rest = " ".repeat(INDENT.len() + width + GAP.len());
                     let colon = if name.chars().count() > width {
                         ":"
                     } else {
                         ""
                     };
-                    let name = format!("{INDENT}{name:<width$}{colon} ");
+                    let name = format!("{INDENT}{name:<width$}{colon}{GAP}");
                     screen.fill(&mut text, &name, &rest, says);
                 }
                 Block::Code(code) => {

@@ -86,9 +86,9 @@ pub fn answer(findings: &Findings) -> Answer<'static> {
     motions(findings, &mut answer);
     inertia(findings, &mut answer);
     answer.fact(
-        "two ways to the drive torque",
+        format!("drive {}", c.vocabulary().torque),
         format!(
-            "d'Alembert's principle and the reduced equation differ by {} of the largest term{}",
+            "by d'Alembert's principle and by the reduced equation: they differ by {} of the largest term{}",
             exponent(findings.agreement.dalembert),
             if findings.agreement.of_motion {
                 ""

@@ -1,6 +1,6 @@
 //! A result of mixed cells, numbers and words.
 
-use comfy_table::{ColumnConstraint, ContentArrangement};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
 use serde_json::{Map, Value, json};
 
 use super::rows::csv_line;
@@ -70,6 +70,19 @@ impl Reading {
         })
     }
 
+    /// Whether the cells of each column are numbers.
+    pub(crate) fn are_numbers(&self) -> Vec<bool> {
+        let is_number = |cell: &Cell| match cell {
+            Cell::Empty | Cell::Number(_) => true,
+            Cell::Text(text) => text.is_empty() || text == "–" || text.parse::<f64>().is_ok(),
+        };
+        let column = |k: usize| {
+            let cells = || self.rows.iter().filter_map(|row| row.get(k));
+            cells().all(is_number) && cells().any(|cell| !matches!(cell, Cell::Empty))
+        };
+        (0..self.columns.len()).map(column).collect()
+    }
+
     /// Header and rows, every digit.
     pub(crate) fn csv(&self) -> String {
         let header = self.columns.iter().map(|name| Cell::from(name.as_str()));
@@ -87,6 +100,11 @@ impl Reading {
             .set_width(width.unwrap_or(WIDEST));
         for column in table.column_iter_mut().take(self.whole) {
             column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+        for (column, right) in table.column_iter_mut().zip(self.are_numbers()) {
+            if right {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
         }
         let lines: Vec<String> = table
             .lines()

@@ -39,30 +39,9 @@ pub(crate) struct SizeData<'a> {
     /// Duration of a cycle.
     #[serde(rename = "cycle [s]")]
     cycle: f64,
-    /// Torque at a drive link that turns, without drive train.
-    #[serde(
-        rename = "drive link torque [N m]",
-        skip_serializing_if = "Option::is_none"
-    )]
-    link_torque: Option<Figures>,
-    /// Speed of a drive link that turns.
-    #[serde(
-        rename = "drive link speed [rad/s]",
-        skip_serializing_if = "Option::is_none"
-    )]
-    link_speed: Option<Figures>,
-    /// Force at a drive link that slides, without drive train.
-    #[serde(
-        rename = "drive link force [N]",
-        skip_serializing_if = "Option::is_none"
-    )]
-    link_force: Option<Figures>,
-    /// Speed of a drive link that slides.
-    #[serde(
-        rename = "drive link speed [m/s]",
-        skip_serializing_if = "Option::is_none"
-    )]
-    slide_speed: Option<Figures>,
+    /// Duty at the drive link, without drive train.
+    #[serde(flatten)]
+    link: LinkData,
     /// Torque at the input of the drive train, which is the gearbox output.
     #[serde(rename = "input torque [N m]")]
     input_torque: Figures,
@@ -116,6 +95,28 @@ impl Data for SizeData<'_> {
 
 /// The form of the JSON.
 pub(crate) type Form = SizeData<'static>;
+
+/// Duty at a drive link that turns or slides.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+enum LinkData {
+    Turns {
+        /// Torque.
+        #[serde(rename = "drive link torque [N m]")]
+        torque: Figures,
+        /// Speed.
+        #[serde(rename = "drive link speed [rad/s]")]
+        speed: Figures,
+    },
+    Slides {
+        /// Force.
+        #[serde(rename = "drive link force [N]")]
+        force: Figures,
+        /// Speed.
+        #[serde(rename = "drive link speed [m/s]")]
+        speed: Figures,
+    },
+}
 
 #[derive(Serialize, JsonSchema)]
 struct SupplyData {
@@ -266,16 +267,22 @@ pub fn json(
     let shown = asked.map(|asked| &asked.candidate).or(first);
     let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
     // The drive link's own units: a rotary motor may drive a slide through a screw.
-    let turns = file.machine.mechanism().coordinate() == Coordinate::Angle;
     let effort = duty.figures(|i| i.terms.total());
     let speed = duty.figures(|i| i.omega);
+    let link = match file.machine.mechanism().coordinate() {
+        Coordinate::Angle => LinkData::Turns {
+            torque: effort,
+            speed,
+        },
+        Coordinate::Length => LinkData::Slides {
+            force: effort,
+            speed,
+        },
+    };
     let data = SizeData {
         version: env!("CARGO_PKG_VERSION"),
         cycle: duty.duration,
-        link_torque: turns.then_some(effort),
-        link_speed: turns.then_some(speed),
-        link_force: (!turns).then_some(effort),
-        slide_speed: (!turns).then_some(speed),
+        link,
         input_torque: duty.figures(|i| i.input_torque),
         input_speed: duty.figures(|i| i.input_speed),
         input_inertia: duty.figures(|i| i.input_inertia),
