@@ -10,8 +10,8 @@
 //! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not computed |
 //! | S1 torques | [`Model::Relative`]: shares of the rated rise, from the squared torque |
 //!
-//! In the relative model the S1 torque causes the rated rise at each speed, so p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are the losses as a share of
-//! the rated ones, and τ·ϑ′ = p − ϑ. The loss of S1 torque from standstill to a speed represents friction and iron losses there. Without time
+//! In the relative model the S1 torque causes the rated rise at each speed, so p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are the losses as a share
+//! of the rated ones, and τ·ϑ′ = p − ϑ. The loss of S1 torque from standstill to a speed represents friction and iron losses there. Without time
 //! constants only the mean losses count: [`mean`].
 
 pub mod classify;

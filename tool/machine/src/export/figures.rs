@@ -80,7 +80,7 @@ pub(super) fn rust_arguments(table: &Candidate) -> String {
     format!("{format}, {{ {set} }}")
 }
 
-/// The same with the crate's name before every name, for a file that imports nothing.
+/// The same with the crate's name before every name, for a file without imports.
 pub(super) fn full_rust_arguments(table: &Candidate) -> String {
     let mut text = format!("jred::{}", rust_arguments(table));
     for (name, full) in [
@@ -105,7 +105,7 @@ fn rust_type(pieces: &Candidate) -> String {
     format!("jred::Pieces<'static, {arguments}, {count}>")
 }
 
-/// The part of a number range that is left, in bits.
+/// The unused part of a number range, in bits.
 fn headroom(usage: f32) -> Option<f64> {
     (usage > 0.0).then(|| -f64::from(usage).log2())
 }
@@ -241,7 +241,7 @@ impl Export {
         text
     }
 
-    /// What of the drive train is not in the table.
+    /// Parts of the drive train that are not in the table.
     fn left_out(&self) -> Option<String> {
         let named: Vec<String> = self
             .branches
@@ -260,7 +260,7 @@ impl Export {
         ))
     }
 
-    /// What a closed form costs, and how to have a table.
+    /// The cost of a closed form, and how to get a table.
     fn closed(&self) -> String {
         let core = self.task.core;
         let of = |layout| core.instructions(Number::F32, layout).unwrap_or_default();
@@ -278,7 +278,7 @@ impl Export {
         )
     }
 
-    /// Where the pieces are, and what each takes.
+    /// The ranges of the pieces, and the size of each.
     fn pieces(&self, chosen: &Candidate) -> String {
         let mut text = format!(
             "in Rust: {} pieces, {}\n",
@@ -424,7 +424,7 @@ impl Export {
         })
     }
 
-    /// The number type and layout that were chosen.
+    /// The chosen number type and layout.
     pub fn kind(&self) -> (Number, LayoutName) {
         let chosen = self.chosen();
         (chosen.number, chosen.layout)

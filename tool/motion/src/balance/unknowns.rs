@@ -8,7 +8,8 @@ use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};
 use super::{Counterweight, Fault, Goal, Request, largest};
 
-/// Largest torque of an unknown, in terms of the machine's largest torque: it bounds springs, whose stiffness is otherwise unbounded where they have no effect.
+/// Largest torque of an unknown, in terms of the machine's largest torque: it bounds springs, whose stiffness is otherwise unbounded where
+/// they have no effect.
 const MOST_TORQUE: f64 = 1e3;
 
 /// Largest free length of a spring, in terms of its longest length.

@@ -9,10 +9,10 @@ use crate::analysis::simulate::watch::{At, Watch};
 use crate::number::columns::Columns;
 use crate::number::numerics;
 
-/// The fewest positions over a turn at which the motion is looked at.
+/// Fewest positions per turn at which the motion is evaluated.
 const FEWEST: usize = 360;
 
-/// Speeds at which the motor's characteristic is looked at.
+/// Speeds at which the motor's characteristic is evaluated.
 const SPEEDS: u32 = 256;
 
 /// A turn of the steady motion.
@@ -24,17 +24,17 @@ pub struct Figures {
     pub turns: u32,
     /// Duration of a cycle (s).
     pub period: f64,
-    /// Mean over the time, 2π·turns/period (rad/s); negative: the drive link turns clockwise.
+    /// Mean over time, 2π·turns/period (rad/s); negative: the drive link turns clockwise.
     pub mean_speed: f64,
     /// Largest and smallest speed (rad/s), by magnitude, each with its position (rad).
     pub fastest: [f64; 2],
     /// See `fastest`.
     pub slowest: [f64; 2],
-    /// δ = (ω_max − ω_min)/ω_mean with the mean over the time.
+    /// δ = (ω_max − ω_min)/ω_mean with the mean over time.
     pub delta: f64,
     /// The same with the mean (ω_max + ω_min)/2.
     pub delta_of_extremes: f64,
-    /// Mean, RMS and largest magnitude of the motor torque over the time (N·m).
+    /// Mean, RMS and largest magnitude of the motor torque over time (N·m).
     pub torque: [f64; 3],
     /// Mean and largest power of the motor (W).
     pub power: [f64; 2],
@@ -42,11 +42,11 @@ pub struct Figures {
     pub motor_speed: f64,
     /// Work of the motor, of the process loads, and losses in a cycle (J).
     pub works: [f64; 3],
-    /// By how much the kinetic energy of all that moves changes over a cycle, from its least to its largest value (J).
+    /// Fluctuation of the kinetic energy of all moving parts over a cycle, from its least to its largest value (J).
     pub fluctuation: f64,
-    /// The largest energy balance as a share of the energy turned over.
+    /// The largest energy imbalance as a share of the exchanged energy.
     pub imbalance: f64,
-    /// The course over the time.
+    /// The course over time.
     pub course: Columns,
     /// z = ½ω² at equal positions over the turn.
     pub(super) nodes: Vec<(f64, State)>,
@@ -65,7 +65,7 @@ impl Figures {
                 None => starting(begin),
                 Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
                     Reached::End(y) => y,
-                    // A fixed point that stops by a hair is none.
+                    // A fixed point just above a standstill is not a cycle.
                     Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
                 },
             };
@@ -190,20 +190,20 @@ pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
     Ok((fastest[0] - slowest[0]) * period / turning.span())
 }
 
-/// ½ω² at a place, and its slope along the way.
+/// ½ω² at a place, and its slope along the path.
 fn squares(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
     Ok([z, alpha * turning.direction])
 }
 
-/// The kinetic energy ½Jω² of all that moves (J), and its slope along the way.
+/// The kinetic energy ½Jω² of all moving parts (J), and its slope along the path.
 fn kinetic(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let [inertia, slope] = turning.plant.inertia(turning.at(x))?;
     let [_, along] = squares(turning, x, z)?;
     Ok([inertia * z, inertia * along + turning.direction * slope * z])
 }
 
-/// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the cycle it is.
+/// The largest (`side` = 1) or smallest (−1) speed, and its distance from the start of the cycle.
 fn extreme_speed(
     turning: &Turning,
     nodes: &[(f64, State)],
@@ -214,8 +214,8 @@ fn extreme_speed(
     Ok([(2.0 * most).sqrt(), x])
 }
 
-/// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², which is given with its slope, and how far from the start
-/// of the cycle it is.
+/// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², given with its slope, and its distance from the start of the
+/// cycle.
 fn extreme(
     turning: &Turning,
     nodes: &[(f64, State)],

@@ -1,4 +1,4 @@
-//! The flywheel that gives a coefficient of speed fluctuation, exactly and by the classical method.
+//! The flywheel for a coefficient of speed fluctuation, exactly and by the classical method.
 
 use std::cell::Cell;
 
@@ -21,22 +21,22 @@ const LARGEST: f64 = 1e8;
 /// The flywheel for a coefficient of speed fluctuation.
 #[derive(Debug)]
 pub struct Flywheel {
-    /// δ asked for.
+    /// Requested δ.
     pub delta: f64,
-    /// Inertia to add on the drive link (kg·m²); 0: the machine runs as evenly without.
+    /// Inertia to add on the drive link (kg·m²); 0: none is needed.
     pub inertia: f64,
     /// The cycle with it.
     pub cycle: Cycle,
     /// The classical estimate.
     pub classical: Classical,
-    /// The shafts on which it can sit, from the motor to the drive link: this one alone if the motor acts there, or none is needed.
+    /// The possible shafts, from the motor to the drive link; only the drive link if the motor acts there, or if no flywheel is needed.
     pub places: Vec<Place>,
 }
 
-/// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
+/// A shaft of the drive train with its flywheel, or the reason why no flywheel there reaches the fluctuation.
 #[derive(Debug)]
 pub struct Place {
-    /// The stage that the shaft drives, counted from 0; as many as there are stages: the drive link.
+    /// The stage that the shaft drives, counted from 0; the number of stages means the drive link.
     pub shaft: usize,
     /// The flywheel.
     pub wheel: Result<Wheel, SteadyError>,
@@ -44,8 +44,8 @@ pub struct Place {
 
 /// A flywheel on one of the shafts.
 ///
-/// What it stores on its way to the machine passes the stages behind it with their losses, so that the inertia is not that on the
-/// drive link divided by the squared ratio, unless the train has no losses.
+/// Its stored energy passes the stages behind it with their losses. So its inertia is the one on the drive link divided by the squared ratio only if
+/// the train has no losses.
 #[derive(Clone, Debug)]
 pub struct Wheel {
     /// Inertia for δ (kg·m²).
@@ -65,15 +65,15 @@ pub struct Wheel {
 /// The flywheel by Wittenbauer's method: constant motor torque, energies at the constant mean speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Classical {
-    /// ΔW: from the least to the largest excess of the work that reaches the drive link over that of the machine (J).
+    /// ΔW: difference between the largest and the least excess of the work at the drive link over that of the machine (J).
     pub work: f64,
     /// The constant speed (rad/s).
     pub speed: f64,
-    /// ΔW/(δ·ω²) (kg·m²): what the machine must have in all.
+    /// ΔW/(δ·ω²) (kg·m²): the required total inertia.
     pub total: f64,
-    /// Mean of J over the angle, which the machine has (kg·m²), with drive train and rotor.
+    /// Existing inertia: the mean of J over the angle (kg·m²), with drive train and rotor.
     pub own: f64,
-    /// What a flywheel would add, at least 0 (kg·m²).
+    /// Inertia of the flywheel, at least 0 (kg·m²).
     pub inertia: f64,
 }
 
@@ -135,7 +135,7 @@ impl Flywheel {
         })
     }
 
-    /// That at the motor's shaft (kg·m²), where the motor drives the machine through stages.
+    /// The flywheel at the motor's shaft (kg·m²), if the motor drives the machine through stages.
     pub fn at_motor(&self) -> Option<f64> {
         let first = self.places.first()?.wheel.as_ref().ok()?;
         (self.places.len() > 1).then_some(first.inertia)
@@ -175,19 +175,19 @@ impl Wheel {
     }
 }
 
-/// A flywheel that is sought on one shaft or another.
+/// The search for a flywheel on one of the shafts.
 struct Task<'a> {
     turning: &'a Turning<'a>,
     search: &'a Search<'a>,
     /// The cycle without it.
     own: Option<&'a Cycle>,
     delta: f64,
-    /// That of the cycle before.
+    /// Start of the previous cycle.
     guess: Cell<Option<Guess>>,
 }
 
 impl Task<'_> {
-    /// What is asked of the cycle with a flywheel of this inertia on a shaft; an error if the machine stops.
+    /// Calls `ask` with the cycle for a flywheel of this inertia on a shaft; an error if the machine stops.
     fn with<T>(
         &self,
         shaft: usize,
@@ -216,9 +216,9 @@ impl Task<'_> {
             })
     }
 
-    /// By how much 1/δ of the machine with this flywheel exceeds that asked for.
+    /// Excess of 1/δ of the machine with this flywheel over the requested one.
     fn evenness(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
-        // Where it stops there is no evenness at all.
+        // A machine that stops has no evenness.
         let none = -1.0 / self.delta;
         let found = self.among(shaft, inertia, |with, ended| match ended.found {
             Found::Cycle(begin) => Ok(1.0 / figures::delta(with, begin)? + none),
@@ -230,7 +230,7 @@ impl Task<'_> {
         }
     }
 
-    /// The inertia with which the evenness, lacking without a flywheel, is that asked for, near a guess. 1/δ grows nearly with the inertia.
+    /// The inertia with the requested evenness, found near a guess, if the machine without a flywheel lacks it. 1/δ grows nearly with the inertia.
     fn inertia(&self, shaft: usize, guess: f64) -> Result<f64, SteadyError> {
         let [own, _] = self.turning.plant.inertia(self.turning.at(0.0))?;
         let without = self.own.map_or(0.0, |cycle| 1.0 / cycle.figures.delta);
@@ -264,7 +264,7 @@ impl Task<'_> {
 }
 
 impl Task<'_> {
-    /// A flywheel with which the machine comes round, where it may just stop with this one.
+    /// A slightly larger flywheel with which the machine completes a turn, where it may just stop with this one.
     fn running(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
         let mut more = 1e-12;
         let mut with = inertia;
@@ -275,13 +275,13 @@ impl Task<'_> {
         Ok(with)
     }
 
-    /// The motor torque at which a slow turn gains and loses nothing.
+    /// The motor torque with which a slow turn neither gains nor loses energy.
     fn mean_torque(&self) -> Result<f64, SteadyError> {
         Ok(self.turning.keeping(HAIR)?.abs())
     }
 }
 
-/// The machine with a flywheel on the shaft that drives a stage, or behind the last one on the drive link.
+/// The machine with a flywheel on the shaft that drives a stage, or after the last one on the drive link.
 fn with_flywheel(
     file: &MachineFile,
     shaft: usize,
@@ -298,11 +298,11 @@ fn with_flywheel(
 }
 
 impl Classical {
-    /// At the constant `speed` (rad/s).
+    /// The estimate at constant `speed` (rad/s).
     fn of(turning: &Turning, delta: f64, speed: f64) -> Result<Self, SteadyError> {
         let plant = &turning.plant;
-        // Torque at the drive link that keeps the speed, in the direction of motion. What the drive train loses of a constant motor
-        // torque is constant, and no flywheel stores it.
+        // Torque at the drive link that keeps the speed, in the direction of motion. The train's loss of a constant motor torque is constant, and no
+        // flywheel stores it.
         let asked = |x: f64| -> Result<f64, SteadyError> {
             let state = [turning.at(x), turning.direction * speed];
             Ok(plant.resisting(&turning.moment(), state)? * turning.direction)
