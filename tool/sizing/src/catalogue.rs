@@ -112,7 +112,7 @@ impl Catalogue {
         Loader::load(vec![group], Remarks::default(), skip_broken_rows)
     }
 
-    /// Opens the catalogue of these sources, or the built-in one if there are none.
+    /// Opens the catalogue of these sources, or the built-in one without sources.
     ///
     /// # Errors
     /// A file that cannot be read, a missing or unknown column, broken rows (all in one error), a duplicate key, a list with

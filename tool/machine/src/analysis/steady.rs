@@ -79,8 +79,8 @@ impl Steady {
 
 /// The steady cycle of the machine under the motor of the simulation, which also gives the angle at which a turn begins.
 ///
-/// Accuracy: the energy at the end of the turn equals that at its start to 1e-12 of itself (1e-10 with a load from a table, whose third derivative
-/// jumps at each row), and the energy balance closes to 1e-10 of the exchanged energy (tests `steady`).
+/// Accuracy: the energy at the end of the turn equals that at its start within a relative 1e-12 (1e-10 with a load from a table, whose third
+/// derivative jumps at each row), and the energy balance closes to 1e-10 of the exchanged energy (tests `steady`).
 ///
 /// # Errors
 /// No steady cycle: the machine stops, or runs away; no full turn, no motor torque; the machine cannot be placed.

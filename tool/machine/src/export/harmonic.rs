@@ -40,8 +40,8 @@ impl Search<'_> {
         let Some(most) = (0..=most).rev().find(fits) else {
             return Ok(Answer::TooLarge(bytes(0)));
         };
-        // Without a limit each number of harmonics just reaches some error: the largest torque is halved until no number does. With a limit the
-        // required error is reduced slightly, repeatedly.
+        // Without a limit on the torque error, the tolerance starts at the largest torque and is halved until even the most harmonics miss it.
+        // With a limit it is reduced slightly, repeatedly.
         let [omega, alpha] = self.goal.range;
         let peak = |place: &super::reference::Place| place.exact.torque(omega, alpha).total().abs();
         let peaks = self.reference.places.iter().map(peak);

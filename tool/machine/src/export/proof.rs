@@ -144,7 +144,7 @@ impl Export {
         Ok(())
     }
 
-    /// The proof of all tables together: the largest bounds, or why there are none.
+    /// The proof of all tables together: the largest bounds, or the reason for their absence.
     pub fn proof(&self) -> Option<Proven> {
         let all = self.chosen().tables.iter().map(|table| table.proof.clone());
         all.reduce(|a, b| {
@@ -205,7 +205,7 @@ impl Export {
         }
     }
 
-    /// The same for JSON: the bounds, or why there are none; null if not requested.
+    /// The same for JSON: the bounds, or the reason for their absence; null if not requested.
     pub(super) fn proof_json(&self) -> Value {
         match self.proof() {
             None => Value::Null,

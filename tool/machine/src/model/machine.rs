@@ -42,7 +42,7 @@ pub struct MachineFile {
     pub table_turns: u32,
     /// The springs and dampers, in the order of the machine's.
     pub elements: Vec<NamedElement>,
-    /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; empty if there is none.
+    /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; it can be empty.
     pub drive_train: DriveTrain,
     /// Friction variator between the motor and the drive train, if there is one.
     pub variator: Option<Variator>,

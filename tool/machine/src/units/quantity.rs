@@ -25,7 +25,7 @@ impl Quantity {
 /// Reads `text` as a quantity of the `kind`.
 ///
 /// # Errors
-/// No number, no unit or a wrong one, or a value outside the range of the kind.
+/// A missing number, a missing or wrong unit, or a value outside the range of the kind.
 pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     let tidy = unit::tidy(text);
     if tidy.is_empty() {
@@ -187,7 +187,7 @@ fn scaled(number: &str, scale: f64) -> f64 {
 /// Splits "1.2e-3 kg m^2" into its number and its unit.
 ///
 /// # Errors
-/// No number, more than one, or one that is not written with digits and a decimal point.
+/// A missing number, more than one, or one that is not written with digits and a decimal point.
 pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
     unit::short_enough(text)?;
     let bytes = text.as_bytes();

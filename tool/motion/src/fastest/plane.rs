@@ -24,7 +24,7 @@ const POINTS: usize = 3000;
 pub struct Plane {
     /// Successive stretches of the motion, each with its active limit.
     pub stretches: Vec<(Binding, Vec<[f64; 2]>)>,
-    /// The largest speed, lower where limits of acceleration contradict each other; empty if there is none.
+    /// The largest speed, lower where limits of acceleration contradict each other; empty without a limit.
     pub ceiling: Vec<[f64; 2]>,
     /// Speeds above which the limits only allow slowing down, where they are below the largest speed.
     pub holding: Vec<[f64; 2]>,

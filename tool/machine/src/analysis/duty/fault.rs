@@ -56,7 +56,7 @@ impl<E: Into<Error>> From<E> for Fault {
 }
 
 impl Fault {
-    /// The cure; empty if there is none.
+    /// The cure; empty for errors without one.
     pub fn cure(&self) -> String {
         match self {
             Self::Machine(error) => error.cure().to_string(),

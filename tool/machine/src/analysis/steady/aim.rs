@@ -60,7 +60,7 @@ pub(super) struct Guess {
     factor: f64,
 }
 
-/// A cycle, or the reason why there is none.
+/// A cycle, or the reason for its absence.
 pub(super) struct Ended {
     pub(super) found: Found,
     pub(super) held: Option<Held>,

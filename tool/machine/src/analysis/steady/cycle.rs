@@ -43,7 +43,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The cycle from a search result, or why there is none.
+    /// The cycle from a search result, or the reason for its absence.
     pub(super) fn of(
         turning: &Turning,
         ended: Ended,

@@ -74,7 +74,7 @@ impl Motion {
         })
     }
 
-    /// The highest cut-off frequency (Hz) of `smoothing` that reduces the noise to 5 % of the acceleration; `None` if there is none.
+    /// The highest cut-off frequency (Hz) of `smoothing` that reduces the noise to 5 % of the acceleration; `None` if no cut-off does.
     pub fn quiet_cutoff(&self, noise: &Noise) -> Option<f64> {
         let (curve, of_speeds) = self.curve()?;
         let (t, _) = curve.points();

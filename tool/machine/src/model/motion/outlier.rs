@@ -38,7 +38,7 @@ pub struct Outlier {
 }
 
 impl Motion {
-    /// The largest outlier of a recorded motion; `None` if there is none.
+    /// The largest outlier of a recorded motion; `None` without outliers.
     pub fn outlier(&self) -> Option<Outlier> {
         let (curve, of_speeds) = self.curve()?;
         let (mut t, mut y) = curve.points();

@@ -44,7 +44,7 @@ impl<'a> Edges<'a> {
         Self(all.filter(|machine| !machine.places.is_empty()).collect())
     }
 
-    /// The first edge ahead of a position of the first drive link in a direction; infinite if there is none.
+    /// The first edge ahead of a position of the first drive link in a direction; infinite if no edge is ahead.
     pub(super) fn ahead(&self, phi: f64, direction: f64) -> f64 {
         let nearest = self.0.iter().map(|machine| {
             let [own, ..] = machine.geared.state([phi, 0.0, 0.0]);
