@@ -223,7 +223,9 @@ fn the_largest_values_are_found_between_the_rows() {
     let text = press("--reactions", "angle", "table").out;
     let lines = text.lines().filter(|line| line.starts_with("  largest "));
     let lines = lines.collect::<Vec<_>>().join("\n");
-    assert!(lines.contains("T_drive") && lines.contains("guide F") && lines.contains(" N at phi = "));
+    assert!(
+        lines.contains("T_drive") && lines.contains("guide F") && lines.contains(" N at phi = ")
+    );
     assert!(!lines.contains("guide M"), "{lines}");
 }
 

@@ -57,17 +57,37 @@ fn every_answer_follows_its_schema() {
     let mut runs: Vec<Vec<String>> = Vec::new();
     for file in &files {
         for command in [
-            "check", "reduce", "reduce --points --reactions", "size --explain --all --motor sgm*", "size --pareto mass,rms-torque",
-            "ratio", "bus", "simulate --duration 0.2s", "steady --torque 20Nm --delta 0.05", "steady --mean-speed 60rpm",
-            "balance --least holding", "fastest", "retime", "sensitivity", "tolerance --samples 8",
-            "export --torque-error 1% --format json", "export --prove --torque-error 5% --format json --type i32",
+            "check",
+            "reduce",
+            "reduce --points --reactions",
+            "size --explain --all --motor sgm*",
+            "size --pareto mass,rms-torque",
+            "ratio",
+            "bus",
+            "simulate --duration 0.2s",
+            "steady --torque 20Nm --delta 0.05",
+            "steady --mean-speed 60rpm",
+            "balance --least holding",
+            "fastest",
+            "retime",
+            "sensitivity",
+            "tolerance --samples 8",
+            "export --torque-error 1% --format json",
+            "export --prove --torque-error 5% --format json --type i32",
         ] {
             let mut words = command.split(' ').map(str::to_owned);
             let name = words.next().unwrap();
             runs.push([vec![name, file.clone()], words.collect()].concat());
         }
     }
-    runs.extend(["rules", "rules fanuc", "split --ratio 50 --stages 2 --pinion 0.001"].map(|c| c.split(' ').map(str::to_owned).collect()));
+    runs.extend(
+        [
+            "rules",
+            "rules fanuc",
+            "split --ratio 50 --stages 2 --pinion 0.001",
+        ]
+        .map(|c| c.split(' ').map(str::to_owned).collect()),
+    );
     let mut met = BTreeSet::new();
     for mut run in runs {
         let formats = run.iter().any(|word| word == "--format");
@@ -82,7 +102,12 @@ fn every_answer_follows_its_schema() {
         }
         let answer = answer.json();
         let faults = faults(&answer);
-        assert!(faults.is_empty(), "{}:\n{}", run.join(" "), faults.join("\n"));
+        assert!(
+            faults.is_empty(),
+            "{}:\n{}",
+            run.join(" "),
+            faults.join("\n")
+        );
         met.insert(answer["schema"].as_str().unwrap().to_owned());
     }
     let forms = VALIDATORS.iter().map(|(form, _)| *form);

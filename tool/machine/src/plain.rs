@@ -1,15 +1,15 @@
-//! Texts that show all that they hold. Characters that are not seen, or that turn the order of what is seen, are refused where
-//! names and titles are read, and escaped where a path or an argument is printed.
+//! Texts without hidden characters. Characters that are invisible, or that change the display order, are refused where names and titles are read, and
+//! escaped where a path or an argument is printed.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Whether a character is not seen or changes how others are seen: a control character, an end of line or paragraph, a
-/// direction of writing, a space without width, a byte order mark, a filler, a selector of variants, a tag. These are
-/// Unicode's `Default_Ignorable_Code_Point`, the marks of annotations and the empty Braille pattern.
+/// Whether a character is invisible or changes the display of others: a control character, an end of line or paragraph, a mark of the writing
+/// direction, a space without width, a byte order mark, a filler, a variation selector, a tag. These are Unicode's `Default_Ignorable_Code_Point`,
+/// the marks of annotations and the empty Braille pattern.
 pub fn is_hidden(c: char) -> bool {
-    // Nearly all are ASCII, in answers of a hundred megabytes.
+    // Fast path for ASCII, in results of a hundred megabytes.
     !(' '..='~').contains(&c)
         && (c.is_control()
             || matches!(
@@ -24,14 +24,14 @@ pub fn is_hidden(c: char) -> bool {
 
 /// The first hidden character of a text.
 pub fn hidden(text: &str) -> Option<char> {
-    // Names are ASCII nearly always, and then the bytes tell.
+    // Fast path: names are nearly always ASCII.
     if text.bytes().all(|b| (b' '..=b'~').contains(&b)) {
         return None;
     }
     text.chars().find(|c| is_hidden(*c))
 }
 
-/// What a hidden character is, with its code: `U+000D, a control character`.
+/// Description of a hidden character, with its code: `U+000D, a control character`.
 pub fn described(c: char) -> String {
     let kind = match c {
         '\n' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => "an end of line",
@@ -48,8 +48,8 @@ pub fn described(c: char) -> String {
 pub const CURE: &str =
     "remove it: names, titles and other texts are one line of characters that can be seen";
 
-/// A text in which every hidden character but ends of lines and tabs is replaced by a visible one of as many bytes, so that
-/// places in it stay.
+/// A text in which every hidden character except ends of lines and tabs is replaced by a visible one of equal length in bytes, so that positions in
+/// it stay valid.
 pub fn masked(text: &str) -> Cow<'_, str> {
     let is_end = |rest: &str| rest.starts_with(['\n', '\t']) || rest.starts_with("\r\n");
     let mask = |(at, c): (usize, char)| {
@@ -69,13 +69,12 @@ pub fn masked(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.char_indices().map(mask).collect())
 }
 
-/// A text in one line, its hidden characters as `\u000d`.
+/// A text on one line, its hidden characters as `\u000d`.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     without(text, is_hidden)
 }
 
-/// A text of several lines, with tabs; other hidden characters as `\u000d`, beyond U+FFFF as two such halves, which JSON
-/// reads as that character.
+/// A text of several lines, with tabs; other hidden characters as `\u000d`, beyond U+FFFF as two such surrogates, which JSON reads as that character.
 pub fn lines(text: &str) -> Cow<'_, str> {
     without(text, |c| is_hidden(c) && !matches!(c, '\n' | '\t'))
 }
@@ -97,7 +96,7 @@ fn without(text: &str, is_hidden: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// A path as it is shown.
+/// A path for display.
 #[expect(
     clippy::disallowed_methods,
     reason = "the one place where a path becomes a text"
@@ -106,7 +105,7 @@ pub fn path(path: impl AsRef<Path>) -> String {
     escaped(&path.as_ref().display().to_string()).into_owned()
 }
 
-/// The most characters of a value in a message.
+/// Most characters of a value in a message.
 const MOST: usize = 60;
 
 /// Whether a message shows all of a value.
@@ -114,7 +113,7 @@ pub fn is_short(value: &str) -> bool {
     value.len() <= MOST || value.chars().nth(MOST).is_none()
 }
 
-/// A value as a message shows it: in one line, a long one cut.
+/// A value for a message: on one line, a long one truncated.
 pub fn cut(value: &str) -> String {
     let value = escaped(value);
     match value.char_indices().nth(MOST) {

@@ -1,15 +1,15 @@
-//! Counterweights and springs that relieve the drive: of all within bounds, those with which what it gives is least.
+//! Counterweights and springs that relieve the drive: the best set within given bounds.
 //!
-//! The torque of a motion is linear in the mass m of a body that is fixed to a link, in its moments S = m·(u, v) and its inertia Θ about
-//! the origin of the link's frame, and in the stiffness k and the preload k·l₀ of a spring:
+//! The torque of a motion is linear in the mass m of a body fixed to a link, in its moments S = m·(u, v) and inertia Θ about the origin of the link's
+//! frame, and in the stiffness k and preload k·l₀ of a spring:
 //!
 //! ```text
 //! T = J·α + ½·J′·ω² + U′ + … = T₀ + Σ p·t,   p = m, S_u, S_v, Θ, k, k·l₀
 //! m·Θ ≥ S_u² + S_v²,   m ≤ the most,   Θ ≤ R²·m,   k ≥ 0,   0 ≤ k·l₀ ≤ 3·l_max·k
 //! ```
 //!
-//! The bounds of a real body and a real spring are convex, so is the RMS or the peak of T: the result is the global optimum, with a gap
-//! that is stated. T is that at the drive link, with the inertia of the drive train and without its losses.
+//! The bounds of a real body and a real spring are convex, and so is the RMS or the peak of T. The result is therefore the global optimum, with a
+//! stated gap. T is the torque at the drive link, with the inertia of the drive train but without its losses.
 
 use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Reducible as _};
@@ -27,17 +27,17 @@ mod barrier;
 mod rows;
 mod unknowns;
 
-/// Positions over the range at which weight and inertia are looked at.
+/// Positions over the range at which weight and inertia are evaluated.
 const POSITIONS: usize = 1440;
 
-/// Share by which the RMS over the motion may rise for the sake of another goal without a word.
+/// Share by which the RMS over the motion may rise for another goal before it is reported.
 const HEATS: f64 = 0.1;
 
-/// Share of the largest value below which all that is left is rounding.
+/// Share of the largest value below which a value counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
 jred_machine::words! {
-    /// What is to be least.
+    /// Quantity to minimise.
     pub enum Goal default Rms {
         /// RMS of the drive link's torque over the motion: the heat in the motor.
         Rms = "rms",
@@ -55,28 +55,28 @@ jred_machine::words! {
 pub struct Counterweight {
     /// Index of the link.
     pub link: usize,
-    /// The most it may weigh (kg).
+    /// Largest mass (kg).
     pub most: f64,
-    /// How far it may be from the origin of the link's frame (m).
+    /// Largest distance from the origin of the link's frame (m).
     pub reach: f64,
 }
 
 impl Counterweight {
-    /// Its m, S_u, S_v and Θ at their most.
+    /// Largest m, S_u, S_v and Θ.
     fn most(&self) -> [f64; 4] {
         let moment = self.most * self.reach;
         [self.most, moment, moment, moment * self.reach]
     }
 }
 
-/// What is asked.
+/// A balancing request.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// What is to be least.
+    /// Quantity to minimise.
     pub goal: Goal,
-    /// Links that may carry something.
+    /// Links that may carry a counterweight.
     pub counterweights: Vec<Counterweight>,
-    /// Springs whose stiffness and free length are sought, as numbers of the file's elements.
+    /// Springs whose stiffness and free length are unknown, as indices of the file's elements.
     pub springs: Vec<usize>,
     /// How finely the motion is sampled.
     pub sampling: duty::Sampling,
@@ -85,19 +85,19 @@ pub struct Request {
 /// Why there is no answer.
 #[derive(Clone, Debug)]
 pub enum Fault {
-    /// The machine cannot be placed somewhere.
+    /// The mechanism cannot be assembled at a position.
     Machine(Error),
-    /// The duty of the motion cannot be found.
+    /// The duty of the motion cannot be computed.
     Duty(duty::Fault),
-    /// The motion is missing that the torque is sought for.
+    /// The goal is a torque over the motion, but the file has no motion.
     NoMotion,
-    /// There is nothing to make less: the torque, or the deviation of the inertia, is zero everywhere.
+    /// The torque, or the deviation of the inertia, is already zero everywhere.
     Nothing,
-    /// Nothing of what is sought changes it.
+    /// No unknown has an effect on the goal.
     NoEffect,
-    /// A spring is sought for the inertia, in which it has no part.
+    /// A spring is requested for the inertia, which it does not change.
     SpringForInertia,
-    /// With what is best, a follower leaves its cam, or a rope goes slack: which, at which state, with which force, and the cure.
+    /// With the optimum a follower leaves its cam or a rope goes slack: which one, at which state, with which force, and the cure.
     Parts(Box<Parted>),
 }
 
@@ -116,7 +116,7 @@ impl From<duty::Fault> for Fault {
     }
 }
 
-/// Figures of a machine, before or after.
+/// Figures of a machine, before or after balancing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// RMS and peak of the drive link's torque over the motion (N·m); `None` without a motion.
@@ -132,7 +132,7 @@ pub struct Figures {
 }
 
 impl Balanced {
-    /// Share by which the RMS over the motion rises, if it does by more than a motor is likely to bear unnoticed.
+    /// Share by which the RMS over the motion rises, if by more than a tenth.
     pub fn heats(&self) -> Option<f64> {
         let [Some([was, _]), Some([is, _])] = [self.before.torque, self.after.torque] else {
             return None;
@@ -142,7 +142,7 @@ impl Balanced {
 }
 
 impl Figures {
-    /// What is to be least.
+    /// The figure that a goal minimises.
     pub fn of(&self, goal: Goal) -> f64 {
         let [rms, peak] = self.torque.unwrap_or_default();
         match goal {
@@ -154,28 +154,28 @@ impl Figures {
     }
 }
 
-/// The best of what was asked.
+/// The optimum.
 #[derive(Clone, Debug)]
 pub struct Balanced {
-    /// The counterweights, in the order of the request; `None`: none is best.
+    /// The counterweights, in the order of the request; `None`: no counterweight is best.
     pub masses: Vec<Option<Attached>>,
-    /// The springs, in the order of the request; `None`: none is best.
+    /// The springs, in the order of the request; `None`: no spring is best.
     pub springs: Vec<Option<Element>>,
-    /// How hard each spring pulls and pushes at most (N, or N·m of one in torsion against and towards growing angles), over the motion, or
-    /// without one over the range.
+    /// Largest pull and push of each spring (N; for a torsion spring N·m against and towards growing angles), over the motion, or without a motion
+    /// over the range.
     pub efforts: Vec<Option<[f64; 2]>>,
     /// With the springs of the file, without counterweights.
     pub before: Figures,
-    /// With what was found.
+    /// With the optimum.
     pub after: Figures,
-    /// No counterweight and spring within the bounds makes it less than this.
+    /// Lower bound: no counterweight and spring within the bounds reaches less.
     pub bound: f64,
 }
 
-/// Finds them.
+/// Finds the optimum.
 ///
 /// # Errors
-/// A machine that cannot be placed, no motion, nothing to balance, nothing that has an effect.
+/// The machine cannot be assembled, the motion is missing, there is nothing to balance, or nothing has an effect.
 pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault> {
     if request.goal == Goal::Inertia && !request.springs.is_empty() {
         return Err(Fault::SpringForInertia);
@@ -210,7 +210,7 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
     })
 }
 
-/// The links on which a counterweight of the request has an effect, by their names: each is tried alone.
+/// Names of the links on which a counterweight of the request has an effect. Each is tried alone.
 pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
     let Some(asked) = request.counterweights.first() else {
         return Vec::new();
@@ -235,7 +235,7 @@ pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
     links.map(|(_, name)| name.clone()).collect()
 }
 
-/// How hard these springs pull and push at most over the motion, or without one over the range.
+/// Largest pull and push of these springs over the motion, or without a motion over the range.
 fn efforts(
     file: &MachineFile,
     duty: Option<&Duty>,
@@ -264,7 +264,7 @@ fn duty(file: &MachineFile, request: &Request) -> Result<Option<Duty>, Fault> {
     Ok(duty.transpose()?)
 }
 
-/// Contacts press and ropes pull over the motion.
+/// Checks that contacts press and ropes pull over the motion.
 fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
     let joints = OneWay::all(file.machine.mechanism());
     if joints.is_empty() {

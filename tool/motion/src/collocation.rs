@@ -1,7 +1,7 @@
-//! What the programmes for the gentlest and for the fastest motion share: the way as a path over a parameter u, and the square of the pace
-//! du/dt along it in elements, whose equations hold at stations.
+//! Collocation shared by the programmes for the gentlest and the fastest motion. The path is a function of a parameter u. The square of the pace
+//! du/dt is interpolated in elements, whose equations are satisfied at stations.
 //!
-//! - [`shape`]: the path, which gives the motion the form of its ends;
+//! - [`shape`]: the path, which adapts the motion to its ends;
 //! - [`pieces`]: unknowns at the ends of elements, and the cubic between them;
 //! - [`torque`]: the motor torque at a station, with its derivatives.
 

@@ -1,7 +1,7 @@
-//! One-sided contacts in a motion that was made: a follower that leaves its cam, a rope that goes slack.
+//! One-sided contacts in a computed motion: a follower that leaves its cam, a rope that goes slack.
 //!
-//! No limit of a fastest motion looks at them. The force of a contact is a straight line in the acceleration, so a place and a speed say up to which
-//! acceleration it is kept.
+//! No limit of a fastest motion covers them. The force of a contact is linear in the acceleration, so place and speed give the largest acceleration
+//! that keeps it.
 
 use jred::Error;
 use jred_machine::analysis::contact::{Lost, OneWay, lost};
@@ -11,25 +11,26 @@ use jred_machine::model::schedule::Now;
 
 use crate::trace::Trace;
 
-/// Shares of a step at which its contacts are looked at.
+/// Shares of a step at which its contacts are checked.
 const SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Share of the largest acceleration that keeps a contact that is named as a limit: between the places it may be a little smaller.
+/// Share of the contact-keeping acceleration that is suggested as a limit: between the checked places it may be slightly smaller.
 const LEFT: f64 = 0.98;
 
-/// A contact that a motion loses, and what keeps it.
+/// A contact that a motion loses, and limits that keep it.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// The contact, where and when.
     pub lost: Lost,
-    /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) with which it is kept, those that are exceeded; `None`: none of them alone.
+    /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) that keep the contact, where the motion exceeds them; `None`: no
+    /// such limit alone keeps it.
     pub limits: Option<[Option<f64>; 2]>,
 }
 
-/// The contact that a motion of the drive link loses.
+/// The first contact that a motion of the drive link loses.
 ///
 /// # Errors
-/// Those of the machine.
+/// The mechanism cannot be placed somewhere.
 pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error> {
     let nodes = trace.nodes();
     if nodes.len() < 2 || OneWay::all(file.machine.mechanism()).is_empty() {
@@ -42,8 +43,8 @@ pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error
     Ok(Some(Broken { lost, limits }))
 }
 
-/// The largest accelerations, while the speed grows and while it falls, that keep all contacts at the places and speeds of a motion, and where it stands
-/// there; of the kinds that exceed them.
+/// The largest acceleration and deceleration that keep all contacts at the places and speeds of a motion, also at rest. Only kinds that the motion
+/// exceeds are given.
 fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>, Error> {
     let joints = OneWay::all(file.machine.mechanism());
     let mut most = [f64::INFINITY; 2];

@@ -1,13 +1,13 @@
-//! The free motion of a machine under a drive of the catalogue: its torque within its envelope, its rotor, gearbox and losses.
+//! The free motion of a machine under a drive of the catalogue: torque within its envelope, with rotor, gearbox and losses.
 //!
 //! ```text
 //! T = c·x,   x = (i·α, τ₊, τ₋, i·ω, sgn ω)          the motor, in front of the drive train ([`Coefficients`])
 //! −T_brake(n) ≤ T ≤ T_drive(n)                     its envelope, in the direction in which it turns
 //! ```
 //!
-//! Without a controller the motor gives all it has up to its largest speed, and holds that. Where the envelope drops, there and between two
-//! of its pieces, the torque falls over the last thousandth of the speed; beyond the largest speed the motor brakes, with its full braking torque from a
-//! thousandth above. So the equations stay continuous, and a machine that is as fast as its motor can be is a steady state.
+//! Without a controller the motor gives its full torque up to its largest speed, and keeps that speed. Where the envelope drops, at the largest speed
+//! and between two pieces, the torque falls over the last thousandth of the speed. Beyond the largest speed the motor brakes, with full braking
+//! torque from a thousandth above. This keeps the equations continuous, and the largest motor speed is a steady state.
 
 use jred_machine::analysis::simulate::{
     Observer, Simulated, SimulationError, Together, Working, simulate_under,
@@ -31,7 +31,7 @@ pub const EASE: f64 = 1e-3;
 /// Why a drive cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unfit {
-    /// Its peak torque is not known.
+    /// Its peak torque is missing.
     NoPeak,
     /// Its gearbox locks itself.
     SelfLocking {
@@ -45,11 +45,11 @@ pub enum Unfit {
 pub struct Driven {
     /// The motion.
     pub simulated: Simulated,
-    /// What the drive bears.
+    /// Loads on the drive.
     pub loads: Loads,
 }
 
-/// The largest value of something that a drive bears, and what it may bear.
+/// The largest value of a load on the drive, and its limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
     /// Its time (s).
@@ -58,7 +58,7 @@ pub struct Peak {
     pub phi: f64,
     /// The value.
     pub value: f64,
-    /// What is allowed, if that is known.
+    /// The limit, if there is one.
     pub allowed: Option<f64>,
 }
 
@@ -74,40 +74,40 @@ impl Peak {
         }
     }
 
-    /// Whether more is borne than is allowed.
+    /// Whether the value exceeds its limit.
     pub fn exceeds(&self) -> bool {
         self.allowed.is_some_and(|allowed| self.value > allowed)
     }
 }
 
-/// What a drive bears over a motion.
+/// Loads on a drive over a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loads {
     /// Torque of the gearbox output (N·m), against its acceleration torque.
     pub gearbox_torque: Option<Peak>,
     /// Speed of the motor (rad/s), against the largest input speed of the gearbox.
     pub motor_speed: Peak,
-    /// The winding, or the motor as a whole: its rise above the surroundings (K), from cold; or a share of the rated rise.
+    /// Temperature rise of the winding, or of the motor as a whole, from a cold start: above the surroundings (K), or as a share of the rated rise.
     pub heat: Option<Heat>,
 }
 
-/// How warm the motor gets, which is cold at the start.
+/// Heating of the motor from a cold start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heat {
-    /// The hottest, above the surroundings (K), or a share of the rated rise.
+    /// The largest rise above the surroundings (K), or as a share of the rated rise.
     pub hottest: Peak,
-    /// Whether rises are shares of the rated one.
+    /// Whether rises are shares of the rated rise.
     pub relative: bool,
 }
 
 /// The motor of a drive.
 struct DriveMotor<'a> {
     actuator: &'a Actuator,
-    /// +1 or −1: the way it drives without a controller.
+    /// +1 or −1: the direction in which it drives without a controller.
     sense: f64,
 }
 
-/// The largest torque as a motor (N·m) at a speed (not negative), which falls over the last of each piece that drops.
+/// The largest driving torque (N·m) at a speed (not negative). It falls over the last part of each piece that drops.
 fn eased(limit: &Limit, speed: f64) -> f64 {
     let pieces = limit.pieces();
     let Some(k) = pieces.iter().position(|piece| speed <= piece.to) else {
@@ -178,7 +178,7 @@ impl Motor for DriveMotor<'_> {
     }
 }
 
-/// Observes what the drive bears.
+/// Observes the loads on the drive.
 struct LoadObserver<'a> {
     drive: Drive<'a>,
     prepared: &'a Prepared,
@@ -193,7 +193,7 @@ struct Warming {
     network: Network,
     rise: Rise,
     relative: bool,
-    /// Whether the housing has a temperature of its own that is followed.
+    /// Whether the housing has a temperature of its own.
     housing: bool,
 }
 
@@ -327,14 +327,15 @@ impl Observer for LoadObserver<'_> {
     }
 }
 
-/// The simulation of machines with a drive in the place of the first one's motor: without a controller its full torque, the way in which the
-/// file's own motor drives, else the way of `start_speed`, else towards growing positions; with one, the drive limits the controller's torque. The motor
-/// is as warm as the surroundings at the start.
+/// Simulates machines with a drive in place of the first machine's motor, which starts at the temperature of the surroundings.
 ///
-/// Accuracy: that of [`simulate_under`]; the temperature follows straight lines of the torque between a quarter of the integrator's steps.
+/// Without a controller the drive gives its full torque. Its direction is that of the file's own motor, else of `start_speed`, else towards growing
+/// positions. With a controller the drive limits the controller's torque.
+///
+/// Accuracy: as [`simulate_under`]; the temperature uses a linear torque between quarters of the integrator's steps.
 ///
 /// # Errors
-/// A drive that cannot be simulated, or those of the machine at the start.
+/// The drive cannot be simulated, or the machines cannot start.
 pub fn driven(
     machines: &Together,
     simulation: &Simulation,
@@ -378,7 +379,7 @@ pub fn driven(
     }))
 }
 
-/// The way of the motor without a controller.
+/// The direction of the motor without a controller.
 fn sense(file: &MachineFile, simulation: &Simulation) -> f64 {
     let ratio = file.drive_train.ratio().signum();
     let own = simulation.torque.as_ref().map(|own| own.torque(0.0));

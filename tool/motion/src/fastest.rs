@@ -1,11 +1,11 @@
-//! Minimum time: the fastest motion of a machine along its way within the limits of its drive.
+//! Minimum time: the fastest motion of a machine along its path within the limits of its drive.
 //!
-//! One degree of freedom and an inertia that is positive everywhere: at every place and speed the limits leave an interval of
-//! accelerations, and the fastest motion is at one end of it, or at a limit of the speed, all the time. It is found by two sweeps along
-//! the way (`sweep`), and by refining the cells of the way until the time does not change any more: there is no grid to choose.
+//! With one degree of freedom and an inertia that is positive everywhere, the limits leave an interval of accelerations at every place and speed. The
+//! fastest motion is always at one end of it or at a speed limit. Two sweeps along the path find it (`sweep`). The cells of the path are refined
+//! until the time no longer changes: there is no grid to choose.
 //!
-//! [`solve`] is exact for any torque-speed limits, for viscous and Coulomb friction and losses. If it finds no motion, there is none, with
-//! two exceptions: limits that leave separate ranges of speed (`sweep` says why), and a force in a joint that only speed keeps within its limit.
+//! [`solve`] is exact for any torque-speed limits, for viscous and Coulomb friction and losses. If it finds no motion, no motion exists, with two
+//! exceptions: limits that leave separate ranges of speed (`sweep` says why), and a joint force that only speed keeps within its limit.
 
 mod between;
 pub mod corners;
@@ -53,7 +53,7 @@ pub use slowed::Slowing;
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::Ends;
 
-/// Cells in a turn of a machine that changes within it, about the middle of the way where they are longest.
+/// Cells per turn of a machine that changes within a turn, at the middle of the path, where cells are longest.
 const PER_TURN: f64 = 16.0;
 
 /// A move to be made as fast as possible.
@@ -65,36 +65,36 @@ pub struct Task {
     pub to: f64,
     /// Speeds at the start and at the end, in the direction of the move (rad/s, or m/s); 0: at rest.
     pub speeds: [f64; 2],
-    /// What is kept besides the limits of the motor.
+    /// Limits besides those of the motor.
     pub limits: Limits,
-    /// Whether it goes on for ever: its end is its start, with a speed that is sought; `speeds` are not asked for.
+    /// Whether the move repeats endlessly: its end is its start, with a speed to be found; `speeds` are ignored.
     pub endless: bool,
 }
 
 /// The fastest motion.
 #[derive(Clone, Debug)]
 pub struct Fastest {
-    /// How long it takes (s).
+    /// Duration (s).
     pub time: f64,
     /// Estimated error of the time (s), from the last two numbers of cells.
     pub error: f64,
     /// The motion.
     pub trace: Trace,
-    /// Which limit it follows from where to where.
+    /// The active limit of each part of the path.
     pub phases: Vec<Phase>,
-    /// Share by which a limit is exceeded in the nodes and at five places between two of them, at most 1e-6, mostly 1e-9: torques as a share of the motor's torque at rest.
-    /// Limits of jerk and torque rate: at three places between them.
+    /// Largest share by which a limit is exceeded at the nodes and at five places between two nodes: at most 1e-6, mostly 1e-9. Torques are shares of
+    /// the motor's torque at rest. With limits of jerk and torque rate: at three places between two nodes.
     pub excess: f64,
-    /// Cells of the way.
+    /// Cells of the path.
     pub cells: usize,
-    /// No motion takes less time (s), where it is not known that this one takes the least: the fastest without limits of jerk and torque rate.
+    /// Lower bound of the time (s), where the optimum is not proven: the fastest motion without limits of jerk and torque rate.
     pub bound: Option<f64>,
 }
 
 /// The fastest motion of a machine with a drive.
 ///
 /// # Errors
-/// There is none, or none can be computed: where, and what is missing.
+/// No motion exists, or none can be computed: where, and which data are missing.
 pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fastest, NoMotion> {
     if task.endless {
         return endless::solve(file, actuator, task, SWEEP_EXCESS);
@@ -105,10 +105,10 @@ pub fn solve(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<Fas
     refine(file, actuator, task, SWEEP_EXCESS)
 }
 
-/// The motion with the least price.
+/// The motion with the lowest price.
 ///
 /// # Errors
-/// Those of [`solve`].
+/// As [`solve`].
 pub fn priced(
     file: &MachineFile,
     actuator: &Actuator,
@@ -147,7 +147,7 @@ pub fn priced(
     asked.in_own_unit()?.solve(start)
 }
 
-/// The time (s) in which the accelerations of a motion's ends rise from zero under the limits of rates.
+/// The time (s) in which the accelerations at a motion's ends rise from zero under the rate limits.
 fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
     let [Some(first), Some(last)] = [trace.nodes().first(), trace.nodes().last()] else {
         return Ok(0.0);
@@ -166,10 +166,10 @@ fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
     Ok(most)
 }
 
-/// The time (s) of the fastest motion alone, without a look at what is between its nodes.
+/// The time (s) of the fastest motion alone, without checks between its nodes.
 ///
 /// # Errors
-/// Those of [`solve`].
+/// As [`solve`].
 pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64, NoMotion> {
     let alone = f64::INFINITY;
     let found = if task.endless {
@@ -182,7 +182,7 @@ pub fn time(file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<f64,
     found.map(|found| found.time)
 }
 
-/// The fastest motion without limits of rates, looked at between its nodes where `within` is finite.
+/// The fastest motion without rate limits, checked between its nodes where `within` is finite.
 fn refine(
     file: &MachineFile,
     actuator: &Actuator,
@@ -194,7 +194,7 @@ fn refine(
     Course::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
 }
 
-/// The way of a task, if it can be gone at all.
+/// The path of a task, if its ends are valid.
 fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Way<'a>, NoMotion> {
     let length = task.to - task.from;
     let numbers = [task.from, task.to, task.speeds[0], task.speeds[1]];
@@ -212,14 +212,13 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     Ok(Way::new(file, actuator.clone(), length.signum()))
 }
 
-/// Cells that a way of many turns takes at least. Those of a machine that changes within a turn must show it, and corners are borders of
-/// cells.
+/// The least number of cells for a path of many turns. The cells must resolve changes within a turn, and corners are borders of cells.
 fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion> {
     let Domain::Turn = field.way.file.machine.domain() else {
         return Ok(0);
     };
     let turns = length / TAU;
-    // Nodes lie as the cosine of equal parts: the longest cell is π/2 times the mean one.
+    // Nodes are spaced as the cosine of equal parts: the longest cell is π/2 times the mean.
     let each = (PER_TURN * FRAC_PI_2).max(4.0 * corners::count(field) as f64);
     let [_, most] = CELLS;
     let most = most as f64 / 4.0;

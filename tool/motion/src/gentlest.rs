@@ -1,21 +1,21 @@
-//! The gentlest motion: of all motions over a way in a given time the one with the least RMS torque, energy or peak torque.
+//! The gentlest motion: of all motions over a path in a given time the one with the least RMS torque, energy or peak torque.
 //!
 //! ```text
 //! minimise ∫ c(T) dt,   T = T(φ, v, a),   with ∫ dφ/v the given time
 //! ```
 //!
-//! In x = v² it is ∫ c(T)/√x dφ with T a straight line in (x′, x) at each φ: T²/√x and 1/√x are convex, so a stationary motion is the
-//! global optimum. Three things disturb that: viscous friction (√x enters T), the losses of gears (T bends where the power changes its
-//! direction), and a time longer than the motion would take of itself (the multiplier of the time is negative, as where a weight must be
-//! held). Whatever holds, [`bound`](self) gives a lower bound for all motions from a verification function, and the gap to it.
+//! In x = v² this is ∫ c(T)/√x dφ, with T linear in (x′, x) at each φ. T²/√x and 1/√x are convex, so a stationary motion is the global optimum. Three
+//! things disturb that: viscous friction (√x enters T), losses of gears (T bends where the power changes direction), and a time longer than the
+//! unconstrained optimum (then the multiplier of the time is negative, as where a weight must be held). In every case [`bound`](self) gives a lower
+//! bound for all motions from a verification function, and the gap to it.
 //!
-//! - [`mesh`](self): w, the square of the pace along the path, in cubic pieces, the machine at Gauss points.
-//! - [`solve`](self): Newton's method.
+//! - [`mesh`](self): w, the square of the pace along the path, in cubic pieces, with the machine at Gauss points;
+//! - [`solve`](self): Newton's method;
 //! - [`bound`](self): the lower bound;
-//! - [`task`](self): mesh after mesh, and the time that is better waited;
-//! - [`waiting`](self): a wait on the way, where holding costs less than at the ends;
-//! - [`scale`](self): the unit of its numbers, and its largest load;
-//! - [`outcome`](self): cost, optimum and motion of what was found.
+//! - [`task`](self): successive meshes, and time that is better spent waiting;
+//! - [`waiting`](self): a wait on the path, where holding costs less than at the ends;
+//! - [`scale`](self): the unit of the numbers, and the largest load;
+//! - [`outcome`](self): cost, optimum and motion of a solution.
 
 use std::rc::Rc;
 
@@ -37,40 +37,40 @@ mod solve;
 mod task;
 mod waiting;
 
-/// What is to be least.
+/// Quantity to minimise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objective {
     /// ∫T² dt: the RMS torque, copper loss.
     Rms,
-    /// ∫(copper·T² + max(T·ω, 0)) dt: copper loss and the mechanical power that the motor draws; what flows back is not counted.
+    /// ∫(copper·T² + max(T·ω, 0)) dt: copper loss and the mechanical power that the motor draws; returned power is not deducted.
     Energy {
         /// Copper loss per square of the torque (W/(N·m)²).
         copper: f64,
     },
-    /// The peak of |T|, as the mean of a high power of it ([`PEAK_POWER`]).
+    /// The peak of |T|, approximated by the mean of a high power ([`PEAK_POWER`]).
     Peak,
 }
 
-/// The power whose mean stands for the peak. The least peak of all motions is not less than the least of these means.
+/// The power whose mean approximates the peak. The least peak of all motions is not less than the least of these means.
 pub const PEAK_POWER: i32 = 64;
 
-/// One move: a way in a time, in one direction.
+/// One move: a path in a given time, in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Travel {
-    /// Where it starts (rad, or m).
+    /// Start position (rad, or m).
     pub start: f64,
-    /// How far it goes, with its sign.
+    /// Signed length.
     pub distance: f64,
-    /// How long it takes (s).
+    /// Duration (s).
     pub duration: f64,
-    /// Speeds at its ends along the way (rad/s, or m/s); zero is rest.
+    /// Speeds at the ends along the path (rad/s, or m/s); zero is rest.
     pub speeds: [f64; 2],
-    /// With a ramp, the accelerations at ends that move, along the way (rad/s², or m/s²).
+    /// With a ramp, the accelerations at moving ends, along the path (rad/s², or m/s²).
     pub accelerations: [f64; 2],
-    /// Share of the time in which the acceleration rises from zero to its first peak, and falls from its last one to zero; 0: it begins and ends with a
-    /// jump. At an end that moves, the share in which it leaves what is given there.
+    /// Share of the time in which the acceleration rises from zero to its first peak, and falls from its last peak to zero; 0: it begins and ends
+    /// with a jump. At a moving end, the share in which it leaves the given acceleration.
     pub ramp: f64,
-    /// Whether it goes on for ever: the end is the start, at a speed that is sought.
+    /// Whether the move repeats endlessly: the end is the start, at a speed to be found.
     pub ring: bool,
 }
 
@@ -101,11 +101,11 @@ impl Travel {
 pub enum Fault {
     /// The machine cannot be placed somewhere.
     Machine(Error),
-    /// A figure is zero, negative or not finite where it may not be.
+    /// A figure is zero, negative or not finite, which is not allowed.
     Figure(&'static str, f64),
-    /// Nothing that moves has inertia.
+    /// Nothing in motion has inertia.
     NoInertia,
-    /// The method did not come to an end: no motion of finite cost was found.
+    /// The method did not converge: no motion of finite cost was found.
     NotFound,
 }
 
@@ -115,29 +115,29 @@ impl From<Error> for Fault {
     }
 }
 
-/// What is known of an optimum.
+/// Quality of an optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Optimum {
-    /// No motion is better, by more than the gap.
+    /// No motion is better by more than the gap.
     Global,
-    /// Motions near it are not better; of others it is not known. The reason.
+    /// No nearby motion is better; distant ones may be. With the reason.
     Local(Reason),
 }
 
 /// Why an optimum may be local only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// The time is longer than the motion takes of itself: waiting before or after it, where it is free, is better.
+    /// The time is longer than the unconstrained optimum: waiting before or after, where it is free, is better.
     LongTime,
     /// Viscous friction.
     Viscous,
     /// Losses of gears.
     Losses,
-    /// The search did not come to its end: of the motions on the way this is the best.
+    /// The search did not converge: this is the best motion found.
     Ended,
-    /// Something else: the bound is too low.
+    /// Another reason: the bound is too low.
     Bound,
-    /// The motion takes more than the search counted: its polynomials do not follow what was found.
+    /// The final motion costs more than the search computed: its polynomials do not follow the solution.
     Written,
 }
 
@@ -146,27 +146,27 @@ pub enum Reason {
 pub struct Gentle {
     /// The move.
     pub travel: Travel,
-    /// How long it moves (s): less than the time of the move where waiting costs less than to move slowly.
+    /// Time in motion (s): less than the duration of the move where waiting costs less than moving slowly.
     pub moving: f64,
-    /// Where it waits in the rest of the time (rad, or m).
+    /// Where it waits for the rest of the time (rad, or m).
     pub waits_at: f64,
-    /// ∫c dt: of the square of the torque (N²·m²·s), of the power (J), of the torque's power in units of itself.
+    /// ∫c dt: of the squared torque (N²·m²·s), of the power (J), or of the torque's high power in its own unit.
     pub cost: f64,
-    /// No motion costs less; for the RMS torque and the energy.
+    /// Lower bound of the cost; for the RMS torque and the energy.
     pub bound: Option<f64>,
-    /// Lower bound on the peak torque of all motions in this time (N·m), where the peak is to be least and the optimum is global.
+    /// Lower bound of the peak torque of all motions in this time (N·m), if the peak is minimised and the optimum is global.
     pub least_peak: Option<f64>,
-    /// What a second more costs: negative where it saves.
+    /// Cost of one more second; negative if it saves.
     pub per_second: f64,
-    /// What is known of it.
+    /// Quality of the optimum.
     pub optimum: Optimum,
-    /// Share by which the cost changed when the mesh was halved for the last time.
+    /// Relative change of the cost at the last halving of the mesh.
     pub discretisation: f64,
     /// Number of elements.
     pub elements: usize,
-    /// The motion law that is better than what was found, if one is: then the motion is its.
+    /// The motion law, if one is better than the solution; the motion is then by this law.
     pub law: Option<&'static str>,
-    /// The motion, in polynomials one after another.
+    /// The motion, as successive polynomials.
     pub phases: Vec<Phase>,
 }
 
@@ -182,14 +182,14 @@ impl Gentle {
     }
 }
 
-/// Elements of the first mesh, and most of the last.
+/// Elements of the first mesh, and the largest number.
 const FIRST: usize = 32;
 const MOST: usize = 512;
 
 /// The mesh is fine enough when halving it changes the cost by less than this share.
 const FINE: f64 = 1e-9;
 
-/// An optimum with a larger gap is not called global.
+/// Largest gap of an optimum that counts as global.
 pub const GAP: f64 = 1e-4;
 
 /// The gentlest motion.
@@ -202,7 +202,7 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
     of(way, travel, objective, true)
 }
 
-/// The same, without the lower bound, which takes most of the time: a motion that is not convex counts as local.
+/// The same without the lower bound, which takes most of the time: a motion that is not convex counts as local.
 ///
 /// # Errors
 /// See [`Fault`].
@@ -223,8 +223,7 @@ fn of(way: &Way, travel: &Travel, objective: Objective, prove: bool) -> Result<G
     }
 }
 
-/// The gentlest motion that waits at its ends alone, where they are at rest; at one of them in any case if it must. With a lower
-/// bound if that is wanted.
+/// The gentlest motion that waits only at its ends, where they are at rest, and at one of them in any case if it must. With a lower bound on request.
 fn from_end_to_end(
     way: &Way,
     travel: &Travel,
@@ -266,14 +265,14 @@ fn from_end_to_end(
     let mut solved = match whole {
         Some(whole) if !(rests && whole.waits(&held)) => whole,
         whole if rests => match task.shorter(&held) {
-            // Where no wait is found, the motion without one will do.
+            // If no wait is found, the motion without one is used.
             Err(Fault::NotFound) => whole.ok_or(Fault::NotFound)?,
             found => found?,
         },
         _ => return Err(Fault::NotFound),
     };
     let moving = solved.moving;
-    // In a shorter time the acceleration rises otherwise.
+    // In a shorter time the acceleration rises differently.
     let shorter = task.fitted(moving)?;
     if moving < travel.duration
         && let Some(again) = shorter.solve(moving, FIRST, None)?
@@ -292,7 +291,7 @@ fn from_end_to_end(
         }
         let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
-        // What is left of a torque that can be none is rounding.
+        // If the torque can be zero, the rest is rounding.
         let torque = cost.powf(1.0 / f64::from(powers[1]));
         change = if powers[0] != powers[1] {
             f64::INFINITY

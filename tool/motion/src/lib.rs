@@ -1,16 +1,16 @@
-//! Motions made for a machine and its drive.
+//! Motion synthesis for a machine and its drive.
 //!
-//! Between `jred-sizing`, which knows what a drive can do, and `jred-report`. `jred-machine` says what a *given* motion asks of
-//! the drive; here the motion itself is what is sought. Results are data; nothing is printed.
+//! This crate lies between `jred-sizing`, which computes what a drive can do, and `jred-report`. `jred-machine` computes the duty of a *given*
+//! motion; here the motion itself is the unknown. Results are data; nothing is printed.
 //!
-//! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion;
-//! 2. [`moves`]: what a prescribed motion is made of, moves and pauses;
+//! 1. [`way`]: the machine and its drive along the path, all quantities counted in the direction of the motion;
+//! 2. [`moves`]: the parts of a prescribed motion, moves and pauses;
 //! 3. [`fastest`]: minimum time;
-//! 4. [`trace`]: a motion that was made, and the files that it becomes;
+//! 4. [`trace`]: a finished motion, and its export formats;
 //! 5. [`plan`]: the same as the table that firmware follows;
 //! 6. [`gentlest`]: least RMS torque, energy or peak in a given time;
-//! 7. [`retime`]: the moves of a machine file in the gentlest way, beside the motion laws;
-//! 8. [`suited`]: drives, each with the motion that is the gentlest for it;
+//! 7. [`retime`]: the gentlest moves of a machine file, compared with motion laws;
+//! 8. [`suited`]: drives, each with its own gentlest motion;
 //! 9. [`balance`]: counterweights and springs that relieve the drive;
 //! 10. [`driven`]: the free motion under a drive.
 #![forbid(unsafe_code)]

@@ -1,10 +1,10 @@
-//! What was worked out once, by the place that it belongs to.
+//! Cached results by place.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-/// Spreads the bits of places over a table: theirs differ in the middle of the word, and nobody chooses them to collide.
+/// Hash for places: spreads their bits over the table. Places differ in the middle of the word, and nobody chooses them to collide.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Spreader(u64);
 
@@ -26,7 +26,7 @@ impl Hasher for Spreader {
     }
 }
 
-/// Values by their places; a place is as many bits as it has numbers.
+/// Values by place; the key is the bits of the place's numbers.
 #[derive(Debug)]
 pub(crate) struct Memo<K, V>(RefCell<HashMap<K, V, BuildHasherDefault<Spreader>>>);
 
@@ -37,7 +37,7 @@ impl<K, V> Default for Memo<K, V> {
 }
 
 impl<K: Copy + Eq + Hash, V: Clone> Memo<K, V> {
-    /// The value of a place, which is worked out if it is not known.
+    /// The value of a place, computed by `make` the first time.
     ///
     /// # Errors
     /// Those of `make`.

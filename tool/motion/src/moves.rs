@@ -1,5 +1,4 @@
-//! A prescribed motion as a chain of moves in one direction, the pauses between them, and the parts that are kept as they are because the
-//! machine does its work there.
+//! A prescribed motion as a chain of moves in one direction, pauses between them, and kept parts, in which the machine does its work.
 
 mod kept;
 mod timeline;
@@ -23,19 +22,19 @@ pub enum Part {
     Move(Move),
     /// A move in one direction that begins at the end of a kept part, or ends at the start of one, and passes there without rest.
     Passing(Move, Passing),
-    /// A part that is kept as it is.
+    /// A part that is kept unchanged.
     Kept(Kept),
     /// A pause: the drive link is at rest.
     Dwell {
         /// Position of the drive link (rad, or m).
         at: f64,
-        /// How long (s).
+        /// Duration (s).
         duration: f64,
     },
 }
 
 impl Part {
-    /// How long it takes (s).
+    /// Duration (s).
     pub const fn duration(&self) -> f64 {
         match self {
             Self::Move(Move { duration, .. })
@@ -45,7 +44,7 @@ impl Part {
         }
     }
 
-    /// Where it begins (rad, or m).
+    /// Start position (rad, or m).
     pub const fn from(&self) -> f64 {
         match self {
             Self::Move(Move { from, .. })
@@ -68,11 +67,11 @@ impl Part {
 /// A move of the drive link in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// Where it begins (rad, or m).
+    /// Start position (rad, or m).
     pub from: f64,
-    /// Where it ends (rad, or m).
+    /// End position (rad, or m).
     pub to: f64,
-    /// How long it takes in the motion (s).
+    /// Its duration in the motion (s).
     pub duration: f64,
 }
 
@@ -81,23 +80,22 @@ pub struct Move {
 pub struct Passing {
     /// Speeds (rad/s, or m/s), not negative.
     pub speeds: [f64; 2],
-    /// Accelerations (rad/s², or m/s²), those of the kept parts there.
+    /// Accelerations (rad/s², or m/s²) of the kept parts there.
     pub accelerations: [f64; 2],
 }
 
-/// The parts of a motion, one after another. Together they take as long as the motion.
+/// The parts of a motion, in order. Together they take as long as the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     /// The parts.
     pub parts: Vec<Part>,
-    /// Whether the motion never rests and no part of it is kept. Then it is one move, which ends with the speed with which it began.
+    /// Whether the motion never rests and no part of it is kept. Then it is one move, whose end speed equals its start speed.
     pub endless: bool,
     /// Time (s) of the motion at which the first part begins. An endless motion is cut where a kept part or a pause begins, or where it turns back.
     pub begins: f64,
-    /// The segments whose law turns back on its own account. That is not kept: such a segment is one move, or a part of one, from its start
-    /// straight to its end.
+    /// Segments whose law turns back by itself. That is not kept: such a segment is (a part of) one move, straight from its start to its end.
     pub overshoots: Vec<Overshoot>,
-    /// The constant speed, where the motion consists of nothing else. It is not kept, because then no move would be left to optimise.
+    /// The constant speed, if the whole motion consists of it. It is not kept, because then no move would be left to optimise.
     pub given_up: Option<Steady>,
 }
 
@@ -111,7 +109,7 @@ impl Chain {
     }
 }
 
-/// Why a motion is not made of moves and pauses.
+/// Why a motion does not consist of moves and pauses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoMoves {
     /// The motion begins or ends at this speed (rad/s, or m/s), not at rest.

@@ -1,4 +1,4 @@
-//! A motion as the plan that firmware follows: as few rows as keep it to a share of its acceleration.
+//! A motion as the plan that firmware follows: the fewest rows that keep within a share of its acceleration.
 
 mod course;
 mod polynomial;
@@ -12,13 +12,13 @@ use crate::trace::Trace;
 use course::Course;
 use rows::{Asked, Bounds, apart, halve, without_slivers};
 
-/// Share of the greatest acceleration and speed by which a plan may be off, if nothing else is asked.
+/// Default error of a plan, as a share of the greatest acceleration and speed.
 pub const SHARE: f64 = 1e-3;
 
-/// Times of rows are closer than this share of the whole only where the motion ends: twice what a plan resolves.
+/// Least distance of row times, as a share of the whole, except at the end of the motion: twice the resolution of a plan.
 const CLOSE: f64 = 1.0 / 536_870_912.0;
 
-/// Rows that are halved, because they leave the stroke between two looks, before that is an error.
+/// Most rows that are halved because they leave the stroke between two checks, before that is an error.
 const HALVED: usize = 256;
 
 /// A plan.
@@ -26,32 +26,32 @@ const HALVED: usize = 256;
 pub struct Plan {
     /// Its image.
     pub words: Vec<u32>,
-    /// Rows, with that of the end.
+    /// Number of rows, including the end row.
     pub rows: usize,
-    /// What it is off by at most (rad, or m, and s), as firmware with numbers of double precision computes it, over the whole motion.
+    /// Largest errors (rad, or m, and s) over the whole motion, as firmware in double precision computes it.
     pub errors: Errors,
     /// The greatest speed and acceleration.
     pub most: [f32; 2],
-    /// The shortest ramp of the rate (s) with which it keeps the torque of its drive, infinite if none does; `None`: the drive is not known.
+    /// The shortest ramp of the rate (s) that keeps the drive's torque, infinite if no ramp does; `None` without a drive.
     pub ramp: Option<f64>,
-    /// Where it is off by more than was asked, if it is: position, speed and acceleration of the motion contradict each other between two nodes.
+    /// The first error beyond its bound, if any: position, speed and acceleration of the motion contradict each other between two nodes.
     pub excess: Option<Excess>,
 }
 
-/// A quantity by which a plan is off more than it may be.
+/// An error of a plan beyond its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
-    /// Which one.
+    /// The quantity.
     pub quantity: Quantity,
-    /// By how much it is off, and how much it may be (rad, or m, and s).
+    /// The error, and its bound (rad, or m, and s).
     pub error: f64,
     /// As `error`.
     pub allowed: f64,
-    /// When it is off the most (s).
+    /// Time of the largest error (s).
     pub t: f64,
 }
 
-/// What a plan gives at an instant.
+/// A quantity of a plan at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// φ, or s.
@@ -62,7 +62,7 @@ pub enum Quantity {
     Acceleration,
 }
 
-/// What a plan is off by, and when that is.
+/// The largest error of a plan, and its time.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst {
     error: f64,
@@ -70,11 +70,11 @@ struct Worst {
 }
 
 impl Plan {
-    /// Of a motion of the drive link with this range. `share` is that of the greatest acceleration, and of the greatest speed, by which it may be off; `machine` the
-    /// identifier that the machine's tables have.
+    /// A plan of a drive link's motion with this range. `share` is the allowed error relative to the greatest acceleration and speed; `machine` is
+    /// the identifier in the machine's tables.
     ///
     /// # Errors
-    /// A motion that is too long, leaves the stroke, or needs more than 65,535 rows.
+    /// The motion is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
         let bounds = Bounds::of(trace.nodes(), share);
         let close = CLOSE * trace.duration();
@@ -116,10 +116,10 @@ impl Plan {
         })
     }
 
-    /// The same with the shortest ramp of the rate (s), which its image states rounded up.
+    /// The same with the shortest ramp of the rate (s), rounded up in the image.
     ///
     /// # Errors
-    /// A ramp that is negative or NaN.
+    /// The ramp is negative or NaN.
     pub fn with_ramp(mut self, ramp: Option<f64>) -> Result<Self, PlanError> {
         if let Some(ramp) = ramp {
             let least = ramp as f32;
@@ -134,7 +134,7 @@ impl Plan {
         Ok(self)
     }
 
-    /// Its image, byte by byte.
+    /// Its image as bytes.
     pub fn bytes(&self) -> Vec<u8> {
         self.words
             .iter()
@@ -143,7 +143,7 @@ impl Plan {
     }
 }
 
-/// The first quantity that is off by more than its bound.
+/// The first quantity with an error above its bound.
 fn first_excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
     let quantities = [Quantity::Position, Quantity::Speed, Quantity::Acceleration];
     let all = quantities.into_iter().zip(worst).zip(bounds);
@@ -157,7 +157,8 @@ fn first_excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
     })
 }
 
-/// What the image gives beside the motion, over all of its time: the polynomials of a row and of a step of the motion differ by one, of which a bound is found.
+/// The errors of the image against the motion, over all of its time: the difference of the polynomials of a row and of a step of the motion is one
+/// polynomial, which is bounded.
 fn measure(words: &[u32], trace: &Trace, asked: &Asked, close: f64) -> [Worst; 3] {
     let rows = course::rows(words, asked.domain);
     let mut all = [Worst::default(); 3];
@@ -178,7 +179,7 @@ fn measure(words: &[u32], trace: &Trace, asked: &Asked, close: f64) -> [Worst; 3
                     row.position - before.phi,
                 );
                 let exact = step.part((from - before.t) / after.step, width / after.step, 0.0);
-                // A corner lies where a row can begin, to a unit of its time; of two that are closer one is left.
+                // A corner lies where a row can begin, to a unit of its time; of two closer corners one is left.
                 let is_corner = width <= close || asked.leaves_out(from.midpoint(to));
                 let known = std::array::from_fn(|k| all[k].error - row.rounding[k]);
                 let looked = if is_corner { 2 } else { 3 };

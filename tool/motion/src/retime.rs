@@ -1,4 +1,4 @@
-//! The moves of a machine file, each in the time that it has, in the gentlest way; beside it the motion laws.
+//! The gentlest moves of a machine file, each in its own time, compared with the motion laws.
 
 use jred::Error;
 use jred::machine::motion::Law;
@@ -22,7 +22,7 @@ mod figures;
 mod law;
 mod standing;
 
-/// The laws of VDI 2143 between two rests, by the names of machine files.
+/// The laws of VDI 2143 between two rests, by their names in machine files.
 pub const LAWS: [(&str, Law); 9] = [
     (
         "parabola",
@@ -47,14 +47,14 @@ pub const LAWS: [(&str, Law); 9] = [
     ("polynomial-4567", Law::Polynomial4567),
 ];
 
-/// What is asked.
+/// A request.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// What moves the machine.
+    /// The drive.
     pub actuator: Actuator,
-    /// Copper loss per square of the torque (W/(N·m)²), where it is known.
+    /// Copper loss per square of the torque (W/(N·m)²), if known.
     pub copper: Option<f64>,
-    /// What is to be least.
+    /// Quantity to minimise.
     pub goal: Goal,
     /// Share of a move's time over which its acceleration rises and falls; 0: it jumps at rest.
     pub ramp: f64,
@@ -65,9 +65,9 @@ pub struct Request {
 /// A motion of the comparison.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What it asks.
+    /// Its figures.
     pub figures: Figures,
     /// The motion itself.
     pub motion: Motion,
@@ -78,18 +78,17 @@ pub struct Row {
 pub struct Retimed {
     /// The motion of the file.
     pub own: Figures,
-    /// Links that stand still while the drive moves, with the time (s) for which they do in the motion of the file and in the gentlest one, where
-    /// these differ.
+    /// Links that are at rest while the drive moves, with the time (s) of that in the motion of the file and in the gentlest one, where these differ.
     pub standing: Vec<(String, [f64; 2])>,
-    /// The laws, or of a rotation without rest the classical motions.
+    /// The motion laws; for a rotation without rest the classical motions.
     pub laws: Vec<Row>,
     /// The gentlest motion.
     pub best: Figures,
-    /// Its moves, one after another.
+    /// Its moves, in order.
     pub moves: Vec<Gentle>,
-    /// Lower bound of the figure that is to be least, for all motions with these moves in these times.
+    /// Lower bound of the goal's figure, for all motions with these moves in these times.
     pub bound: Option<f64>,
-    /// What the motion is made of.
+    /// The parts of the motion.
     pub chain: Chain,
     /// The motion.
     pub motion: Motion,
@@ -98,7 +97,7 @@ pub struct Retimed {
 }
 
 impl Retimed {
-    /// What is known of the optimum: of all moves the least.
+    /// Quality of the optimum: the worst of all moves.
     pub fn optimum(&self) -> Optimum {
         let all = self.moves.iter().map(|gentle| gentle.optimum);
         all.fold(Optimum::Global, |all, own| match all {
@@ -119,13 +118,13 @@ impl Retimed {
 pub enum Obstacle {
     /// The machine cannot be placed somewhere.
     Machine(Error),
-    /// The duty of a motion cannot be found.
+    /// The duty of a motion cannot be computed.
     Duty(duty::Fault),
-    /// The motion is not made of moves, nor does it turn for ever.
+    /// The motion neither consists of moves nor turns endlessly.
     NoMoves(NoMoves),
-    /// The figures of the copper loss are not known.
+    /// Data for the copper loss are missing.
     NoCopper,
-    /// A move of the motion, by its number from 1 on.
+    /// A move of the motion cannot be made, by its number from 1.
     Move(usize, Move, Fault),
 }
 
@@ -144,10 +143,10 @@ impl From<duty::Fault> for Obstacle {
     }
 }
 
-/// Share by which the motion may take more than the search counted.
+/// Share by which the motion's cost may exceed the one that the search computed.
 const AGREES: f64 = 1e-3;
 
-/// The motion of a file in the gentlest way, beside the laws.
+/// The gentlest motion of a file, compared with the laws.
 ///
 /// # Errors
 /// See [`Obstacle`].
@@ -158,7 +157,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     let laws = asked.beside()?;
     let mut best = asked.made_of(&gentle)?;
     let mut figures = asked.figures(&best)?;
-    // The mean of a high power is not quite the peak: a law may have a lower one.
+    // The mean of a high power is not quite the peak: a law may have a lower peak.
     if request.goal == Goal::Peak
         && let Some(name) = asked.better_law(&laws, figures.peak)
     {
@@ -174,7 +173,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     let duration = best.duration();
     let fixed = [asked.held()?, asked.kept_peak()?];
     let bound = bound(&gentle, fixed, duration, request.goal);
-    // What the search counts must be what the motion takes.
+    // The cost of the search must agree with the cost of the motion.
     let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + fixed[0];
     let counted = figure(cost, duration, request.goal);
     let differs = figures.of(request.goal) - counted > AGREES * counted;
@@ -199,7 +198,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     })
 }
 
-/// The gentlest motion alone: without a lower bound, and without other motions beside it.
+/// The gentlest motion alone: without a lower bound and without the laws.
 ///
 /// # Errors
 /// See [`Obstacle`].
@@ -214,8 +213,8 @@ pub(crate) fn alone(
     Ok(asked.made_of(&moves)?)
 }
 
-/// The bound of all moves together, with what pauses and kept parts cost, and their peak. Not that of the motion less what the search left: the written motion may take more than the
-/// one that was found.
+/// The bound of all moves together, with the cost of pauses and kept parts, and their peak. It does not use the cost of the final motion, which may
+/// exceed that of the search.
 fn bound(moves: &[Gentle], [cost, peak]: [f64; 2], duration: f64, goal: Goal) -> Option<f64> {
     if goal == Goal::Peak {
         let least = moves.iter().map(|gentle| gentle.least_peak);

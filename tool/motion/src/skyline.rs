@@ -1,14 +1,14 @@
-//! Symmetric linear equations of which each row is kept from its first entry on.
+//! Symmetric linear equations in skyline storage: each row is kept from its first entry.
 //!
-//! Factored as L·D·Lᵀ without exchange of rows: O(n·b²) where a row begins b places before the diagonal, and a few full rows at the
-//! end (what closes a ring, what the time must be) cost O(n·b) each. The signs of D are the inertia of the matrix.
+//! Factored as L·D·Lᵀ without exchange of rows: O(n·b²) where a row begins b places before the diagonal. Full rows at the end (closing a ring, the
+//! condition of the time) cost O(n·b) each. The signs of D are the inertia of the matrix.
 
 /// The lower half of a symmetric matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Skyline {
-    /// Column in which each row begins.
+    /// First column of each row.
     first: Vec<usize>,
-    /// Where each row begins in `values`; one more than there are rows.
+    /// Start of each row in `values`; one more than the number of rows.
     start: Vec<usize>,
     values: Vec<f64>,
 }
@@ -49,7 +49,7 @@ impl Skyline {
         &self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// The factors; also the number of negative pivots. `None`: a pivot is zero, or not a number.
+    /// The factors, and the number of negative pivots; `None` if a pivot is zero or NaN.
     pub(crate) fn factor(mut self) -> Option<(Factors, usize)> {
         let mut negative = 0;
         for i in 0..self.first.len() {
@@ -114,8 +114,8 @@ impl Factors {
 mod tests {
     use super::Skyline;
 
-    /// A ring of ten with a full last row, indefinite: the solution put in gives the right side, and the signs of the pivots are those
-    /// of the eigenvalues, of which the border makes one negative.
+    /// A ring of ten with a full last row, indefinite. The solution reproduces the right side. The signs of the pivots are those of the eigenvalues,
+    /// of which the border makes one negative.
     #[test]
     fn a_bordered_band_is_solved() {
         let n = 11;

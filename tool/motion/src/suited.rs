@@ -1,4 +1,4 @@
-//! The motion that suits a drive best, and the drive: every drive near the border between fit and refused with its own gentlest motion.
+//! Chooses drive and motion together: each borderline drive is tried with its own gentlest motion.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,10 +16,10 @@ use crate::moves::{self, Chain};
 use crate::retime::{self, Figures, Goal, Obstacle, Request};
 use crate::way::Actuator;
 
-/// Suitable and refused drives, of the file's motion and of the machine's own gentlest one, that get a motion of their own.
+/// Number of suitable and of refused drives, under the file's motion and under the machine's own gentlest one, that get their own motion.
 const TRIED: usize = 8;
 
-/// What drives are judged with.
+/// Data for judging drives.
 pub struct Judging<'a> {
     /// The machine.
     pub file: &'a MachineFile,
@@ -31,46 +31,46 @@ pub struct Judging<'a> {
     pub motors: &'a [Prepared],
     /// How finely the duty is sampled.
     pub sampling: Sampling,
-    /// Leaves of a selection what is asked for.
+    /// Removes drives that were not requested from a selection.
     pub narrow: &'a (dyn Fn(&mut Selection) + Sync),
 }
 
-/// A drive with the motion that is the gentlest for it.
+/// A drive with its gentlest motion.
 #[derive(Clone, Debug)]
 pub struct Tried<'c> {
     /// The drive.
     pub drive: Drive<'c>,
-    /// What the motion of the file asks of it.
+    /// Its figures with the motion of the file.
     pub own: Figures,
-    /// What its gentlest motion asks.
+    /// Its figures with its gentlest motion.
     pub gentlest: Figures,
-    /// Its place among drives with their own motions; `None`: with its own motion it violates a rule.
+    /// Its rank among drives with their own motions; `None` if it violates a rule with its own motion.
     pub order: Option<Order<'c>>,
     motion: Motion,
     cycle: Cycle,
 }
 
-/// The drive that comes first with its own motion, and what is said beside it.
+/// The best drive with its own motion, and accompanying results.
 #[derive(Clone, Debug)]
 pub struct Suited<'c> {
-    /// The drives that were tried, in their order; those that violate a rule last.
+    /// The tried drives, in order of rank; those that violate a rule last.
     pub tried: Vec<Tried<'c>>,
-    /// The first drive with the motion of the file, and its place.
+    /// The first drive with the motion of the file, and its rank.
     pub before: Option<(Drive<'c>, Order<'c>)>,
-    /// What the motion of the file is made of.
+    /// The parts of the file's motion.
     pub chain: Chain,
-    /// With the motion of the first drive tried, another one that comes before it: its own motion would be worse for it.
+    /// A drive that ranks higher under the motion of the first tried drive, although its own motion would be worse for it.
     pub ahead: Option<Drive<'c>>,
 }
 
 impl<'c> Suited<'c> {
-    /// The drive that comes first; `None`: with its own motion none of them satisfies the rules.
+    /// The best drive; `None` if no drive satisfies the rules with its own motion.
     pub fn best(&self) -> Option<&Tried<'c>> {
         self.tried.first().filter(|tried| tried.order.is_some())
     }
 
-    /// The same, if it is as good as the first drive with the motion of the file. `None`: the motion of the file stays. The least RMS torque takes
-    /// another course of speed and torque, which may exceed what a small drive has of them.
+    /// The same, if it is as good as the first drive with the motion of the file; `None` if the motion of the file stays. The motion of least RMS
+    /// torque distributes speed and torque differently, which may exceed the limits of a small drive.
     pub fn better(&self) -> Option<&Tried<'c>> {
         let as_good = |tried: &&Tried| match (&self.before, &tried.order) {
             (Some((_, before)), Some(order)) => order.is_as_good_as(before),
@@ -85,17 +85,17 @@ impl<'c> Suited<'c> {
     }
 }
 
-/// The first drives of a motion: those that fit, and those near the border.
+/// The first drives of a motion: those that fit, and borderline ones.
 struct First<'a> {
     fit: Vec<(DriveId, Drive<'a>, Order<'a>)>,
     tried: BTreeMap<DriveId, Drive<'a>>,
 }
 
 impl<'a> Judging<'a> {
-    /// Each of the first drives with the motion of least RMS torque for it.
+    /// Each of the first drives with its motion of least RMS torque.
     ///
     /// # Errors
-    /// Those of [`retime::retime`].
+    /// As [`retime::retime`].
     pub fn best(&self) -> Result<Suited<'a>, Obstacle> {
         let own = self.cycle(self.own)?;
         let before = self.first(&own);
@@ -113,7 +113,7 @@ impl<'a> Judging<'a> {
         let tried = threads::map(&first, |(id, drive)| self.with_own(*id, *drive, &own));
         suited.tried = tried.into_iter().collect::<Result<_, _>>()?;
         suited.sort();
-        // With the motion of the best drive another one may come first, which was not tried.
+        // With the motion of the best drive, an untried drive may rank first.
         for _ in 0..TRIED {
             let Some(best) = suited.best() else { break };
             let listed = self.first(&best.cycle);
@@ -131,7 +131,7 @@ impl<'a> Judging<'a> {
         Ok(suited)
     }
 
-    /// A drive with its own motion; the cycle is that of the file's motion.
+    /// A drive with its own motion; `own` is the cycle of the file's motion.
     fn with_own(&self, id: DriveId, drive: Drive<'a>, own: &Cycle) -> Result<Tried<'a>, Obstacle> {
         let request = self.request(Some(&drive));
         let motion = self.gentlest(&request)?;
@@ -146,7 +146,7 @@ impl<'a> Judging<'a> {
         })
     }
 
-    /// For a drive, or for the machine alone.
+    /// The request for a drive, or for the machine alone.
     fn request(&self, drive: Option<&Drive>) -> Request {
         let actuator = drive.map_or_else(without_drive, |drive| {
             let envelope = Envelope::at(drive.motor, drive.amplifier, &self.file.site);
@@ -194,7 +194,7 @@ impl<'a> Judging<'a> {
         }
     }
 
-    /// The place of a drive with a motion of this cycle; `None`: it violates a rule.
+    /// The rank of a drive with a motion of this cycle; `None` if it violates a rule.
     fn order(&self, id: DriveId, drive: Drive<'a>, cycle: &Cycle) -> Option<Order<'a>> {
         let Self {
             file,

@@ -1,4 +1,4 @@
-//! A motion that was made, over the time: for drives (profile, cam table) and for `jred size`, which reads the profile as a motion.
+//! A finished motion over time, for drives (profile, cam table) and for `jred size`, which reads the profile as a motion.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -11,7 +11,7 @@ use jred_machine::model::motion::step_at;
 pub use jred_machine::model::motion::Node;
 
 jred_machine::words! {
-    /// The unit in which an electronic cam's master is counted.
+    /// The unit of an electronic cam's master.
     pub enum Master default Degree {
         /// A turn is 360.
         Degree = "deg",
@@ -33,8 +33,8 @@ impl Master {
     }
 }
 
-/// A motion through nodes: between two of them the speed is the cubic through both speeds and accelerations, the position the quintic
-/// that has positions as well.
+/// A motion through nodes. Between two nodes the speed is the cubic through both speeds and accelerations, the position the quintic through the
+/// positions as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     /// Whether positions are angles or lengths.
@@ -43,7 +43,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// At rest at a position, at t = 0.
+    /// A motion that starts at rest at a position, at t = 0.
     pub fn from_rest(coordinate: Coordinate, phi: f64) -> Self {
         Self {
             coordinate,
@@ -57,12 +57,12 @@ impl Trace {
         }
     }
 
-    /// Through nodes in the order of their times, the first at t = 0.
+    /// A motion through nodes in the order of their times, the first at t = 0.
     pub const fn new(coordinate: Coordinate, nodes: Vec<Node>) -> Self {
         Self { coordinate, nodes }
     }
 
-    /// The same motion in the words of an axis.
+    /// The same motion in the coordinate of an axis.
     #[must_use]
     pub fn of_axis(&self, axis: &Axis) -> Self {
         let node = |node: &Node| {
@@ -92,12 +92,12 @@ impl Trace {
         &self.nodes
     }
 
-    /// Length (s).
+    /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.nodes.last().map_or(0.0, |node| node.t)
     }
 
-    /// Goes on with another motion, whose first node lies where this one ends. A pause ends where it began, to the last digit.
+    /// Appends another motion, whose first node lies where this one ends. A pause ends where it began, to the last digit.
     pub fn then(&mut self, next: &[Node]) {
         let pauses = matches!(self.nodes.as_slice(), [.., before, end] if stays(before, end) && before.omega == 0.0);
         let Some(end) = self.nodes.pop() else {
@@ -122,8 +122,8 @@ impl Trace {
         }
     }
 
-    /// One node more. What a motion has left of its speed where it stops is rounding, and a machine with friction would feel its direction
-    /// throughout the pause: it is none.
+    /// Appends a node. A remaining speed at a stop is rounding; it is set to zero, because friction would otherwise have its direction throughout the
+    /// pause.
     fn push(&mut self, node: Node) {
         if let Some(before) = self.nodes.last_mut().filter(|before| stays(before, &node)) {
             before.omega = 0.0;
@@ -131,7 +131,7 @@ impl Trace {
         self.nodes.push(node);
     }
 
-    /// Goes on at rest.
+    /// Appends a pause.
     pub fn dwell(&mut self, duration: f64) {
         let Some(end) = self.nodes.last_mut() else {
             return;
@@ -147,7 +147,7 @@ impl Trace {
         self.push(after);
     }
 
-    /// The state at a time (s), clamped to the motion; where the acceleration jumps, the one after.
+    /// The state at a time (s), clamped to the motion; where the acceleration jumps, the later one.
     pub fn at(&self, t: f64) -> State<f64> {
         match (step_at(&self.nodes, t), self.nodes.last()) {
             (Some(([before, after], share)), Some(last)) if t < last.t => {
@@ -162,12 +162,12 @@ impl Trace {
         }
     }
 
-    /// The way (rad, or m) between the nodes around a time, at its end those before: its sign is the direction, 0 where the machine stands.
+    /// Travel (rad, or m) between the nodes around a time, at the end between the last two. Its sign is the direction, 0 at rest.
     pub fn heading(&self, t: f64) -> f64 {
         step_at(&self.nodes, t).map_or(0.0, |([before, after], _)| after.phi - before.phi)
     }
 
-    /// Equal times over the motion, both ends included.
+    /// Rows at equal times over the motion, both ends included.
     fn rows(&self, count: usize) -> impl Iterator<Item = (f64, State<f64>)> {
         let (end, last) = (self.duration(), count.max(2) - 1);
         (0..=last).map(move |k| {
@@ -176,8 +176,8 @@ impl Trace {
         })
     }
 
-    /// The nodes with positions, speeds and accelerations, which `[motion] type = "profile"` reads as this motion; where the acceleration
-    /// jumps, two rows of the same time.
+    /// The nodes with positions, speeds and accelerations, which `[motion] type = "profile"` reads as this motion. Where the acceleration jumps there
+    /// are two rows of the same time.
     pub fn profile(&self) -> String {
         let mut text = match self.coordinate {
             Coordinate::Angle => "t [s],phi [rad],omega [rad/s],alpha [rad/s^2]\n",
@@ -187,7 +187,7 @@ impl Trace {
         let last = self.nodes.len().saturating_sub(1);
         let mut before = f64::NEG_INFINITY;
         for (k, node) in self.nodes.iter().enumerate() {
-            // A step that is shorter than the last digit of the time is none.
+            // A step shorter than the last digit of the time is dropped.
             if node.t <= before && k < last {
                 continue;
             }
@@ -201,7 +201,7 @@ impl Trace {
             } = node;
             let [earlier, later] = *alpha;
             let mut row = |alpha: f64| {
-                // Nothing is written as -0. Writing to a string cannot fail.
+                // Avoids -0. Writing to a string cannot fail.
                 let [phi, omega, alpha] = [*phi, *omega, alpha].map(|value| value + 0.0);
                 let _ = writeln!(text, "{t},{phi},{omega},{alpha}");
             };
@@ -215,8 +215,8 @@ impl Trace {
         text
     }
 
-    /// An electronic cam's table: positions over a master that turns once, evenly, in the length of the motion, with the first and second derivative by the
-    /// master. Every column is in the unit of its head: a derivative is what the differences of the first two columns tend to.
+    /// An electronic cam's table: positions over a master that turns once, evenly, in the duration of the motion, with the first and second
+    /// derivative by the master. Every column is in the unit of its header: a derivative is the limit of the differences of the first two columns.
     pub fn cam(&self, rows: usize, master: Master) -> String {
         let symbol = self.coordinate.symbol();
         let symbol = if symbol == "φ" { "phi" } else { symbol };
@@ -243,7 +243,7 @@ impl Trace {
     }
 }
 
-/// Whether a motion stays where it is from one node to the next, where it is at rest.
+/// Whether a motion rests from one node to the next.
 fn stays(before: &Node, after: &Node) -> bool {
     let zeros = [before.alpha[1], after.alpha[0], after.omega];
     zeros.into_iter().all(|value| value == 0.0) && before.phi.total_cmp(&after.phi).is_eq()

@@ -1,16 +1,14 @@
-//! The machine and its drive along the way: what the motor must give at a place, a speed and an acceleration, and what it can.
+//! The machine and its drive along the path: the motor torque required at a place, a speed and an acceleration, and the torque available.
 //!
-//! A motion that goes one way passes each place once, so the place is the variable and the time a quadrature. Everything here is
-//! counted along the way: the speed v is not negative, the acceleration a is positive where v grows, and a torque of the motor is
-//! positive where it drives.
+//! A motion in one direction passes each place once, so the place is the variable and the time a quadrature. All quantities are counted along the
+//! path: the speed v is not negative, the acceleration a is positive where v grows, and a motor torque is positive where it drives.
 //!
 //! ```text
 //! T(φ, v, a) = c·x,   x = (i·a, τ₊, τ₋, i·v, 1),   τ = train(J·a + ½·J′·v² + F(φ) + b·v + C)
 //! ```
 //!
-//! with the coefficients c of the drive ([`Coefficients`]), J, J′, load F, viscous friction b and Coulomb friction C of the machine, all
-//! at the drive link, and the losses of the drive train. T rises with a, in straight lines that meet where the power at a stage
-//! changes its direction.
+//! with the coefficients c of the drive ([`Coefficients`]); J, J′, load F, viscous friction b and Coulomb friction C of the machine, all at the drive
+//! link; and the losses of the drive train. T rises with a, in straight lines that meet where the power at a stage changes direction.
 
 mod flows;
 
@@ -26,19 +24,19 @@ use jred_sizing::motor::envelope::Envelope;
 
 use flows::Flows;
 
-/// What moves the machine: a drive at its supply.
+/// A drive at its supply, which moves the machine.
 #[derive(Clone, Debug)]
 pub struct Actuator {
     /// Motor torque as a linear form in the loads at the gearbox output.
     pub coefficients: Coefficients,
     /// Motor speed per speed of the gearbox output, positive.
     pub ratio: f64,
-    /// What the motor can give.
+    /// Limits of the motor.
     pub envelope: Envelope,
 }
 
 impl Actuator {
-    /// A drive of the catalogue within an envelope, which is that of its motor and amplifier at the supply.
+    /// A drive of the catalogue with the envelope of its motor and amplifier at the supply.
     pub fn new(drive: &Drive<'_>, envelope: Envelope) -> Self {
         Self {
             coefficients: drive.coefficients(),
@@ -54,7 +52,7 @@ impl Actuator {
     }
 }
 
-/// No drive: the torque at the input of the machine's drive train, without limits.
+/// Without a drive: the torque at the input of the machine's drive train, without limits.
 pub fn without_drive() -> Actuator {
     Actuator {
         coefficients: GEARBOX_OUTPUT,
@@ -68,29 +66,29 @@ pub fn without_drive() -> Actuator {
 pub struct Way<'a> {
     /// The machine.
     pub file: &'a MachineFile,
-    /// What moves it.
+    /// The drive.
     pub actuator: Actuator,
     /// +1 where φ grows, −1 where it falls.
     pub direction: f64,
     /// Signed ratio of the drive train.
     ratio: f64,
-    /// The torque of the motor.
+    /// Torque of the motor.
     motor: Flows,
-    /// That of the gearbox output, the input of the drive train.
+    /// Torque of the gearbox output, the input of the drive train.
     gearbox: Flows,
 }
 
 /// The torque of the gearbox output as a linear form in the loads there.
 const GEARBOX_OUTPUT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
 
-/// The machine at a place, worked out once for all speeds.
+/// The machine at a place, evaluated once for all speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Position of the drive link (rad, or m).
     pub phi: f64,
     /// J (kg·m²) of the machine at the drive link, without drive train and drive.
     pub inertia: f64,
-    /// Its slope along the way (kg·m²/rad).
+    /// J′, its slope along the path (kg·m²/rad).
     pub inertia_slope: f64,
     /// F: the torque (N·m) that holds the machine at rest here without friction, positive where weight and loads resist the
     /// motion.
@@ -101,7 +99,7 @@ pub struct Place {
     pub coulomb: f64,
 }
 
-/// The motor torque that a state asks for.
+/// The required motor torque of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Demand {
     /// Torque (N·m), positive where it drives.
@@ -111,7 +109,7 @@ pub struct Demand {
 }
 
 impl Place {
-    /// What resists the motion at a speed without an acceleration (N·m), and the inertia (kg·m²).
+    /// Resistance to the motion at a speed without acceleration (N·m), and the inertia (kg·m²).
     fn load(&self, speed: f64) -> [f64; 2] {
         let carried = 0.5 * self.inertia_slope * speed * speed;
         let resisting = carried + self.load + self.viscous * speed + self.coulomb;
@@ -120,7 +118,7 @@ impl Place {
 }
 
 impl<'a> Way<'a> {
-    /// The way of a machine under a drive; `direction` is +1 or −1.
+    /// The path dynamics of a machine under a drive; `direction` is +1 or −1.
     pub fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
         let train = &file.drive_train;
         Self {
@@ -146,7 +144,7 @@ impl<'a> Way<'a> {
         self.place_now(&self.now(), phi)
     }
 
-    /// In motion along this way.
+    /// The state of a motion in this direction.
     pub fn now(&self) -> Now {
         Now {
             omega: Some(self.direction),
@@ -183,18 +181,17 @@ impl<'a> Way<'a> {
         speed * self.ratio.abs() * self.actuator.ratio
     }
 
-    /// The motor torque that a place, a speed (not negative) and an acceleration ask for. At rest, friction is that of a motion
-    /// that begins.
+    /// The motor torque required at a place, a speed (not negative) and an acceleration. At rest, friction is that of a starting motion.
     pub fn demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
         self.motor.demand(place.load(speed), acceleration, speed).0
     }
 
-    /// Which way power flows through the stages: where it changes, the demand bends.
+    /// Index of the power flow through the stages: where it changes, the demand bends.
     pub fn flow(&self, place: &Place, speed: f64, acceleration: f64) -> usize {
         self.motor.demand(place.load(speed), acceleration, speed).1
     }
 
-    /// The motor torque that holds the machine at rest, without friction; positive against the way back.
+    /// The motor torque that holds the machine at rest, without friction; positive if it acts in the direction of motion.
     pub fn holding(&self, place: &Place) -> f64 {
         let input = self.file.drive_train.input(&TrainOutput {
             torque: place.load,
@@ -214,29 +211,29 @@ impl<'a> Way<'a> {
         Ok(self.holding(&self.place_at_rest(phi)?))
     }
 
-    /// The torque at the gearbox output, the input of the drive train, that they ask for; positive where it drives.
+    /// The torque required at the gearbox output, the input of the drive train; positive where it drives.
     pub fn gearbox_demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
         self.gearbox
             .demand(place.load(speed), acceleration, speed)
             .0
     }
 
-    /// The acceleration that a motor torque gives: the inverse of [`demand`](Self::demand).
+    /// The acceleration by a motor torque: the inverse of [`demand`](Self::demand).
     pub fn acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
         self.motor.acceleration(place.load(speed), torque, speed)
     }
 
-    /// The acceleration that a torque at the gearbox output gives.
+    /// The acceleration by a torque at the gearbox output.
     pub fn gearbox_acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
         self.gearbox.acceleration(place.load(speed), torque, speed)
     }
 
-    /// Whether the torque of the motor bends where power changes its direction.
+    /// Whether the motor torque bends where power changes direction.
     pub fn bends(&self) -> bool {
         !self.motor.is_lossless()
     }
 
-    /// Least and largest acceleration that the motor can give at a place and speed; infinite where no limit is known.
+    /// Least and largest acceleration that the motor can give at a place and speed; infinite without a limit.
     pub fn accelerations(&self, place: &Place, speed: f64) -> [f64; 2] {
         let limits = self.actuator.torques(self.motor_speed(speed));
         limits.map(|torque| {
@@ -249,23 +246,23 @@ impl<'a> Way<'a> {
     }
 }
 
-/// The machine with its drive in both directions: for a motion that turns round.
+/// The machine with its drive in both directions, for a motion that turns back.
 #[derive(Clone, Debug)]
 pub struct BothWays<'a>([Way<'a>; 2]);
 
 impl<'a> BothWays<'a> {
-    /// Under a drive.
+    /// The machine under a drive.
     pub fn new(file: &'a MachineFile, actuator: &Actuator) -> Self {
         Self([1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction)))
     }
 
-    /// The way in which φ grows.
+    /// The direction in which φ grows.
     pub const fn forwards(&self) -> &Way<'a> {
         &self.0[0]
     }
 
-    /// The motor torque (N·m) of a state, positive where it pushes towards growing φ: what holds the machine where it stands without
-    /// an acceleration. `heading` has the sign of the motion that the state is part of, which friction needs where it begins or ends.
+    /// The motor torque (N·m) of a state, positive towards growing φ; without speed and acceleration the holding torque. `heading` has the sign of
+    /// the motion that contains the state: friction needs it at the start and end.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.

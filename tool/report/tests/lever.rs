@@ -132,8 +132,7 @@ fn a_sliding_drive_link() {
         ..Sets::default()
     };
     let columns = reduce(&file, &request(points)).unwrap();
-    let csv =
-        jred_report::table::output::write(&columns, Format::Csv, "");
+    let csv = jred_report::table::output::write(&columns, Format::Csv, "");
     let header = csv.lines().next().unwrap();
     assert!(header.contains("\"tip, \"\"end\"\" x' [m/m]\""), "{header}");
     assert!(header.contains("lever psi' [rad/m]") && header.contains("\"pin, in the slot F [N]\""));

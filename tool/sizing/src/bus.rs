@@ -1,15 +1,15 @@
-//! The DC bus: what a drive, or several on one bus, draw from it and feed back, the voltage and the brake resistor.
+//! The DC bus: power drawn and fed back by one drive or several, bus voltage and brake resistor.
 //!
-//! The power that a drive draws from the bus is that of the motor's torque, which covers all friction behind it, with the
-//! copper loss and the losses of the amplifier:
+//! The power that a drive draws from the bus is the shaft power of the motor torque (which covers all friction behind it), the copper loss and the
+//! losses of the amplifier:
 //!
 //! ```text
 //! P = T·ω + R·I² + p₀ + p₁·I        R at 20 °C; of a three-phase winding 3/2 of that between two terminals
 //! ```
 //!
-//! Most comes back with the least losses: the copper is taken cold, and left out where the winding's resistance is not
-//! stated. While the motor brakes, I is the current of the torque alone: how far the bus has risen, and how much the
-//! amplifier still weakens the field, is not known. While it drives, the field-weakening current is in I.
+//! The losses are the smallest possible, so that the most energy comes back. The copper is cold, and its loss is omitted if the winding's resistance
+//! is not given. While the motor brakes, I is the current of the torque alone, because the rise of the bus voltage and the remaining field weakening
+//! are unknown. While it drives, I includes the field-weakening current.
 
 pub mod answer;
 pub mod axes;
@@ -60,7 +60,7 @@ pub fn power(
         [sample.t, power]
     });
     let samples: Vec<[f64; 2]> = points.collect();
-    // Where the power turns, the voltage is at an extreme.
+    // The voltage has extremes where the power changes sign.
     let mut points = Vec::with_capacity(samples.len());
     for (k, sample) in samples.iter().enumerate() {
         let [next, b] = *sample;

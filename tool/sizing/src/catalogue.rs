@@ -1,8 +1,8 @@
-//! The catalogue: motors, gearboxes, servo amplifiers and brake resistors, and which of them go together.
+//! The catalogue: motors, gearboxes, servo amplifiers and brake resistors, and their allowed combinations.
 //!
-//! It comes from folders and files in jred's own format (CSV whose header carries the units, or TOML) or in that of the
-//! Motor-Gearbox Database; docs/catalogue.md describes both. A row that cannot be used is an error that names file, row and
-//! column; a row with implausible values is used, with a warning in [`Catalogue::warnings`].
+//! It comes from folders and files in jred's own format (CSV whose header carries the units, or TOML) or in the format of the Motor-Gearbox Database;
+//! docs/catalogue.md describes both. An unusable row is an error that names file, row and column. A row with implausible values is used, with a
+//! warning in [`Catalogue::warnings`].
 
 mod amplifier;
 mod cell;
@@ -44,7 +44,7 @@ pub use voltage::{Basis, MadeFor};
 use fault::{Remarks, Text};
 use load::Loader;
 
-/// Motors, gearboxes, amplifiers and resistors that drives are chosen from.
+/// Motors, gearboxes, amplifiers and resistors from which drives are chosen.
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
     /// Motors, in the order of the files.
@@ -57,19 +57,19 @@ pub struct Catalogue {
     pub resistors: Vec<Resistor>,
     /// Allowed combinations.
     pub pairing: Pairing,
-    /// The currencies of its prices, as their columns name them ("" where none is named), each with the first file that has it.
+    /// The currencies of its prices, as the columns name them ("" if unnamed), each with the first file that uses it.
     pub currencies: Vec<(String, String)>,
     /// Warnings about implausible values, with file and line.
     pub warnings: Vec<String>,
-    /// Number of broken rows skipped.
+    /// Number of skipped broken rows.
     pub left_out: usize,
 }
 
 impl Catalogue {
-    /// Prices must be in one currency to be compared.
+    /// Checks that all prices are in one currency, so that they can be compared.
     ///
     /// # Errors
-    /// Two currencies, or prices with a currency and others without.
+    /// Two currencies, or prices with and without a currency.
     pub fn one_currency(&self) -> Result<(), CatalogueError> {
         let [first, second, ..] = self.currencies.as_slice() else {
             return Ok(());
@@ -84,7 +84,7 @@ impl Catalogue {
         })
     }
 
-    /// Leaves the motors of one kind.
+    /// Keeps the motors of one kind.
     pub fn keep_kind(&mut self, kind: MotorKind) {
         self.keep(|motor| motor.kind == kind, |_| true);
     }
@@ -92,16 +92,16 @@ impl Catalogue {
     /// The built-in catalogue.
     ///
     /// # Errors
-    /// None: a test reads it.
+    /// Never: a test reads it.
     pub fn built_in() -> Result<Self, CatalogueError> {
         Loader::load(vec![files::built_in(|_| true)], Remarks::default(), false)
     }
 
-    /// The catalogue of these files, each a name, which says what it holds, and a text; `skip_broken_rows`: broken rows are left
-    /// out instead of refusing it.
+    /// The catalogue of these files, each given by name and text; the name determines its content. `skip_broken_rows`: broken rows are skipped
+    /// instead of refusing the catalogue.
     ///
     /// # Errors
-    /// Columns missing or unknown, broken rows, keys that are there twice, lists that name what is not there.
+    /// Missing or unknown columns, broken rows, duplicate keys, lists with unknown keys.
     pub fn of_texts<N: Into<String>, T: Into<String>>(
         texts: impl IntoIterator<Item = (N, T)>,
         skip_broken_rows: bool,
@@ -112,7 +112,7 @@ impl Catalogue {
         Loader::load(vec![group], Remarks::default(), skip_broken_rows)
     }
 
-    /// Opens the catalogue of these sources, or the built-in one if there are none.
+    /// Opens the catalogue of these sources, or the built-in one without sources.
     ///
     /// # Errors
     /// A file that cannot be read, a missing or unknown column, broken rows (all in one error), a duplicate key, a list with
@@ -122,7 +122,7 @@ impl Catalogue {
         sources.load()
     }
 
-    /// The built-in catalogue, each half replaced by a file of the user's where one is given.
+    /// The built-in catalogue, with motors or gearboxes replaced by a user's file where one is given.
     ///
     /// # Errors
     /// As [`Catalogue::open`].
@@ -139,7 +139,7 @@ impl Catalogue {
     }
 }
 
-/// On the straight lines between points, level beyond them; one without any.
+/// Linear interpolation between points, constant beyond them; 1 without points.
 fn broken_line(points: &[[f64; 2]], at: f64) -> f64 {
     let after = points.partition_point(|p| p[0] <= at);
     match (

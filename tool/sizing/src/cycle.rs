@@ -1,16 +1,15 @@
 //! One cycle of the duty, prepared so that any number of drives can be checked against it.
 //!
-//! The torque of a motor is a linear form c·x of the five [loads](loads_of) x of an instant, its five coefficients c being all that a
-//! drive contributes. Its values over the cycle follow from c without iterating over the samples:
-//! - its RMS is ‖R·c‖, R being the triangular factor of the samples ([`Cycle::rms_torque`]);
-//! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of
-//!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
+//! The torque of a motor is a linear form c·x of the five [loads](loads_of) x of an instant. A drive contributes only the five coefficients c. The
+//! values over the cycle follow from c without iterating over the samples:
+//! - its RMS is ‖R·c‖, with R the triangular factor of the samples ([`Cycle::rms_torque`]);
+//! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of samples ([`Cycle::peak`],
+//!   [`Cycle::torque_extremes`], [`Cycle::energies`]).
 //!
-//! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`). A peak is
-//! then that of the polynomial through the samples of its panel, and where the power changes its sign the energies are those of that
-//! polynomial: `tests/cycle/between.rs` compares both with closed forms.
-//! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
-//! the search's few levels more (docs/performance.md).
+//! Each equals the result of a loop over all samples, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`). A peak is then the peak
+//! of the polynomial through the samples of its panel, and where the power changes sign the energies are those of that polynomial:
+//! `tests/cycle/between.rs` compares both with closed forms. [`Cycle::new`] is one pass over the samples. After it a drive costs the same at a
+//! thousand samples and at a million, except for a few more levels of the search (docs/performance.md).
 
 use std::sync::OnceLock;
 
@@ -44,10 +43,10 @@ use repeats::Distinct;
 use speeds::Speeds;
 use tree::Tree;
 
-/// Exponent of the mean torque that counts for roller bearings.
+/// Exponent of the mean torque for roller bearings.
 const BEARING: f64 = 10.0 / 3.0;
 
-/// One instant of the cycle, as drives see it.
+/// One instant of the cycle at the gearbox output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Time (s).
@@ -60,7 +59,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// The five loads: see [`loads_of`]. They are not kept: of a million instants that would be another 16 MB.
+    /// The five loads: see [`loads_of`]. They are not stored: for a million instants they would take another 16 MB.
     #[inline]
     pub fn loads(&self) -> [f64; LOADS] {
         loads_of(self.alpha, self.output_torque, self.speed)
@@ -72,13 +71,13 @@ impl Sample {
         self.speed
     }
 
-    /// Power of the motor per ratio (W).
+    /// Motor power divided by the gear ratio (W).
     #[inline]
     fn power(&self, c: &Coefficients) -> f64 {
         self.speed * c.torque(&self.loads())
     }
 
-    /// Whether power flows back to the motor, by more than a rounding of its torque.
+    /// Whether power flows back to the motor, by more than rounding of its torque.
     #[inline]
     fn gives_back(&self, c: &Coefficients, slack: f64) -> bool {
         self.power(c) < -slack * self.speed.abs()
@@ -104,7 +103,7 @@ pub struct Cycle {
     mean_speed: f64,
     peak_output_torque: f64,
     mean_loads: [f64; LOADS],
-    /// The samples at which the machine, and its inertia alone, give most power back: most drives that take any back do so at one of them.
+    /// The samples at which the machine, and its inertia alone, feed back most power: most regenerating drives do so at one of them.
     giving: [Option<usize>; 2],
     /// Largest magnitudes of the loads.
     largest: [f64; LOADS],
@@ -112,7 +111,7 @@ pub struct Cycle {
     power: Factor,
     tree: Tree,
     front: Front,
-    /// What is left of it without its repeats, if there are many.
+    /// The cycle without its repeats, if there are many.
     distinct: Option<Distinct>,
     cubic_mean: OnceLock<f64>,
     /// Sorted only when a thermal model needs it.
@@ -120,7 +119,7 @@ pub struct Cycle {
     bearing_mean: OnceLock<f64>,
 }
 
-/// Where the cycle comes closest to an envelope.
+/// The closest approach of the cycle to an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// |T| as a share of the envelope's torque there; infinite beyond the envelope's largest speed.
@@ -132,7 +131,7 @@ pub struct Peak {
 }
 
 impl Cycle {
-    /// Prepares a duty: one pass over its instants, of which the weights must not be negative.
+    /// Prepares a duty in one pass over its instants, whose weights must not be negative.
     pub fn new(duty: &Duty) -> Self {
         let samples: Vec<Sample> = duty
             .instants
@@ -153,8 +152,8 @@ impl Cycle {
                 mean_loads[k] += sample.weight * load;
             }
         }
-        // A torque is rounded as ½·J′·ω² is, even where nothing is left of it: a machine that turns evenly without a load has
-        // only roundings, and no bound would tell one from the other.
+        // A torque is rounded like ½·J′·ω², even where the sum cancels. A machine that turns evenly without a load has only rounding errors, which no
+        // bound could tell from values.
         for instant in &duty.instants {
             let energy = instant.input_inertia * instant.input_speed * instant.input_speed;
             for torque in [1, 2] {
@@ -230,9 +229,8 @@ impl Cycle {
         self.peak_output_torque
     }
 
-    /// Mean torque at the gearbox output, weighted with the speed: (∫|n|·|T|^p dt/∫|n| dt)^(1/p). The load's share of each
-    /// revolution counts. p = 3 is the root-mean-cube torque of gears, 10/3 that of roller bearings; these two are worked
-    /// out once, any other at every call.
+    /// Mean torque at the gearbox output, weighted with the speed: (∫|n|·|T|^p dt/∫|n| dt)^(1/p), so that the load counts by its share of the
+    /// revolutions. p = 3 is the root-mean-cube torque of gears, 10/3 that of roller bearings. These two are computed once, any other at every call.
     pub fn mean_output_torque(&self, power: f64) -> f64 {
         let once = match power {
             3.0 => &self.cubic_mean,
@@ -261,18 +259,18 @@ impl Cycle {
         self.torque.norm(&coefficients.0) / self.duration.sqrt()
     }
 
-    /// Calls `take` with the index of every sample at which the motor torque (N·m) is larger in magnitude than `bound`, in order: the cost
-    /// is that of these samples.
+    /// Calls `take`, in order, with the index of every sample at which the motor torque (N·m) exceeds `bound` in magnitude. The cost depends on these
+    /// samples only.
     pub(crate) fn beyond(&self, coefficients: &Coefficients, bound: f64, take: impl FnMut(usize)) {
         self.stretches().beyond(coefficients, bound, take);
     }
 
-    /// Samples, in order, of all panels in whose range of speeds (rad/s, at the gearbox output, without sign) something `is_open`.
+    /// Samples, in order, of all panels for whose range of speeds (rad/s, at the gearbox output, without sign) `is_open` is true.
     pub(crate) fn at_speeds(&self, is_open: &impl Fn([f64; 2]) -> bool) -> Vec<usize> {
         self.stretches().at_speeds(is_open)
     }
 
-    /// Calls `take` with every panel of the integrals, in order, and torque and speed of the motor over it; whether they are known.
+    /// Calls `take` with every panel of the integrals, in order, and the motor's torque and speed over it; returns whether they are known.
     pub(crate) fn each_panel(
         &self,
         coefficients: &Coefficients,
@@ -292,7 +290,7 @@ impl Cycle {
         is_known
     }
 
-    /// The sums that bend: see [`Bent`].
+    /// Integrals of functions with bends: see [`Bent`].
     pub(crate) fn bent<'c>(&'c self, coefficients: &'c Coefficients, ratio: f64) -> Bent<'c> {
         Bent::new(self.stretches(), coefficients, ratio)
     }
@@ -312,7 +310,7 @@ impl Cycle {
         self.distinct().largest_magnitude(coefficients)
     }
 
-    /// Energy supplied by the motor over a cycle and energy that flows back to it (J), neither negative.
+    /// Energy supplied by the motor over a cycle and energy that flows back to it (J), both not negative.
     pub fn energies(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
         self.stretches().energies(coefficients, ratio)
     }
@@ -322,8 +320,8 @@ impl Cycle {
         self.distinct().regenerates(coefficients, self.giving)
     }
 
-    /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's
-    /// largest speed, if there is one. Where the envelope knows no limit it is the instant of the largest torque.
+    /// The instant closest to the peak-torque envelope, or furthest beyond it. Instants beyond the envelope's largest speed come first; without a
+    /// limit it is the instant of the largest torque.
     pub fn peak(&self, coefficients: &Coefficients, ratio: f64, envelope: &Envelope) -> Peak {
         let peak = self.distinct().peak(coefficients, ratio, envelope);
         peak.unwrap_or(Peak {
@@ -333,8 +331,8 @@ impl Cycle {
         })
     }
 
-    /// Whether the peak keeps within shares of the envelope, as far as bounds tell: much cheaper than [`Cycle::peak`], which
-    /// settles what they leave open.
+    /// Compares the peak with two shares of the envelope as far as bounds allow. It is much cheaper than [`Cycle::peak`], which settles the open
+    /// cases.
     pub(crate) fn peak_against(
         &self,
         coefficients: &Coefficients,
@@ -355,7 +353,7 @@ impl Cycle {
         }
     }
 
-    /// The same without repeats: for what is sought of one sample.
+    /// The same without repeats, for results that depend on a single sample.
     fn distinct(&self) -> Stretches<'_> {
         let all = self.stretches();
         match &self.distinct {
@@ -388,7 +386,7 @@ impl Cycle {
         ]
     }
 
-    /// The duty at the motor of a drive. The extremes of the power take a pass over the samples; all else does not.
+    /// The duty at the motor of a drive. Only the extremes of the power take a pass over the samples.
     pub fn motor_duty(&self, drive: &Drive) -> MotorDuty {
         let (coefficients, ratio) = (drive.coefficients(), drive.ratio());
         let [least, largest] = self.torque_extremes(&coefficients);
@@ -433,7 +431,7 @@ impl Cycle {
     }
 }
 
-/// The sample with the least of a figure.
+/// The sample with the smallest value of a figure.
 fn least(samples: &[Sample], figure: impl Fn(&Sample) -> f64) -> Option<usize> {
     let all = samples.iter().map(figure).enumerate();
     all.min_by(|a, b| a.1.total_cmp(&b.1))

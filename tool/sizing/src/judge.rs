@@ -1,8 +1,8 @@
-//! Checking a drive: value and rating of every rule as plain numbers; words are added later, for the drives that are shown.
+//! Checking a drive: value and rating of every rule as plain numbers. Messages are added later, for the drives that are shown.
 //!
-//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what the rating is made of
-//! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
-//! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::UNKNOWN`].
+//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and describes the rating (`note`). A rule that does not apply
+//! to a drive, such as a gearbox rule to a direct drive, is omitted from the findings. A rule that applies but lacks data of the catalogue or of the
+//! machine file is set with [`Finding::UNKNOWN`].
 
 use crate::catalogue::{Amplifier, Drive, Resistor};
 use crate::cycle::Cycle;
@@ -54,9 +54,9 @@ impl Default for Findings {
     }
 }
 
-/// Receiver of findings: [`Findings`] stores them, [`Outcome`] evaluates them at once.
+/// Receiver of findings: [`Findings`] stores them, [`Outcome`] evaluates them immediately.
 trait Record {
-    /// Takes the finding of a rule, which thereby applies. Each rule is found once.
+    /// Takes the finding of a rule, which makes the rule apply. Each rule is found once.
     fn set(&mut self, rule: Rule, finding: Finding);
 }
 
@@ -67,7 +67,7 @@ impl Record for Findings {
 }
 
 impl Findings {
-    /// Sets the finding of a rule, which thereby applies.
+    /// Sets the finding of a rule, which makes the rule apply.
     pub const fn set(&mut self, rule: Rule, finding: Finding) {
         self.found[rule as usize] = finding;
         self.apply.add(rule);
@@ -103,7 +103,7 @@ pub struct Context<'a> {
     pub ratio: f64,
     /// Its motor torque as a linear form.
     pub coefficients: Coefficients,
-    /// Brake resistors that one is chosen from, if the machine file gives none.
+    /// Brake resistors to choose from, if the machine file gives no resistor.
     pub resistors: &'a [Resistor],
 }
 
@@ -127,7 +127,7 @@ impl<'a> Context<'a> {
         Self { resistors, ..self }
     }
 
-    /// The brake resistor that is chosen for the drive: the smallest that fits, if the bus needs one and the machine file gives none.
+    /// The brake resistor chosen for the drive: the smallest one that fits, if the bus needs one and the machine file gives no resistor.
     pub fn resistor(&self) -> Option<&'a Resistor> {
         electric::chosen_resistor(self)
     }
@@ -150,7 +150,7 @@ impl<'a> Context<'a> {
         Context { cycle, ..*self }
     }
 
-    /// What the figures of its motor are called and shown in.
+    /// Names and units of its motor's figures.
     pub const fn vocabulary(&self) -> &'static Vocabulary {
         self.drive.motor.kind.vocabulary()
     }
@@ -183,7 +183,7 @@ impl<'a> Context<'a> {
         assumptions
     }
 
-    /// Every rule that applies.
+    /// The findings of all rules that apply.
     pub fn findings(&self, rules: &RuleSet) -> Findings {
         let mut findings = Findings::default();
         self.measure_directly(rules, &mut findings);
@@ -191,8 +191,7 @@ impl<'a> Context<'a> {
         findings
     }
 
-    /// The rules that need no time course: see [`Rule::follows_time`]. The rule set says by which figure a rule is judged,
-    /// where there is more than one.
+    /// The rules that need no time course: see [`Rule::follows_time`]. The rule set selects the figure where there is more than one.
     pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
         voltage::measure(self.motor, findings);
         site::measure(self, findings);
@@ -214,17 +213,17 @@ impl<'a> Context<'a> {
         electric::follow(self, peak_current, findings);
     }
 
-    /// Time (s) and rises of winding and housing (K) over the cycle; `None` where they cannot be followed.
+    /// Time (s) and rises of winding and housing (K) over the cycle; `None` if they cannot be computed.
     pub fn rises(&self) -> Option<Vec<(f64, [f64; 2])>> {
         thermal::course(self)
     }
 
-    /// Voltage of the DC bus over the cycle, \[time (s), voltage (V)\]; nothing where it is not known.
+    /// Voltage of the DC bus over the cycle, \[time (s), voltage (V)\]; empty without data.
     pub fn bus_voltage(&self) -> Vec<[f64; 2]> {
         electric::trace(self)
     }
 
-    /// The findings under a rule set, with words.
+    /// The checks under a rule set, with messages.
     pub fn checks(&self, rules: &RuleSet) -> Vec<Check> {
         let findings = self.findings(rules);
         findings
@@ -234,7 +233,7 @@ impl<'a> Context<'a> {
             .collect()
     }
 
-    /// What is missing for a rule that is not checked, without the figures of this drive.
+    /// The data missing for a rule that is not checked, without figures of this drive.
     pub fn missing(&self, rules: &RuleSet, rule: Rule) -> Option<String> {
         let finding = self.findings(rules).get(rule)?;
         Some(self.words(rules, rule, finding).rating)
@@ -275,8 +274,7 @@ impl<'a> Context<'a> {
         self.ranked(rules).1
     }
 
-    /// The findings that the ranking goes by, and how they come out: without the rules that follow time, if another is
-    /// violated.
+    /// The findings and the outcome for the ranking: without the rules that follow time, if another rule is violated.
     pub fn ranked(&self, rules: &RuleSet) -> (Findings, Outcome) {
         let mut findings = Findings::default();
         self.measure_directly(rules, &mut findings);
@@ -290,14 +288,14 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Words of a check.
+/// Texts of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Words {
     /// Unit in which figure and rating are shown.
     pub unit: &'static str,
     /// SI value of that unit; figures are divided by it.
     pub scale: f64,
-    /// Description of the rating, such as "S1 torque at mean speed"; for a finding without data, what is missing.
+    /// Description of the rating, such as "S1 torque at mean speed"; for a finding without data, the missing data.
     pub rating: String,
     /// Where or how the value was determined; may be empty.
     pub place: String,

@@ -1,16 +1,16 @@
-//! Servo sizing for machines whose inertia depends on the angle: which drives of a catalogue suit a machine.
+//! Servo sizing for machines whose inertia depends on the angle: selects the drives of a catalogue that suit a machine.
 //!
-//! Between [`jred_machine`], which reads and analyses a machine, and `jred-report`, which writes what is found here. Results are
-//! data; nothing is printed.
+//! This crate lies between [`jred_machine`], which reads and analyses a machine, and `jred-report`, which writes the results. Results are data;
+//! nothing is printed.
 //!
-//! 1. [`catalogue`]: motors, gearboxes, amplifiers and resistors, and which go together.
-//! 2. [`motor`]: what a motor can do: winding, torque-speed envelope.
-//! 3. [`cycle`]: what the machine asks of any drive, prepared once, so that a drive takes a fraction of a microsecond.
+//! 1. [`catalogue`]: motors, gearboxes, amplifiers and resistors, and their allowed combinations.
+//! 2. [`motor`]: the limits of a motor: winding, torque-speed envelope.
+//! 3. [`cycle`]: the duty of the machine, prepared once, so that a drive takes a fraction of a microsecond.
 //! 4. [`thermal`] and [`bus`]: the temperatures of a motor and the voltage of the DC bus, over time.
 //! 5. [`judge`]: every rule's figure and rating for one drive.
 //! 6. [`select`]: all drives of a catalogue, judged, filtered, ranked.
 //! 7. [`study`]: many machines: varied quantities, sensitivities, tolerances.
-//! 8. [`explain`] and [`meter`]: why a drive stands where it does, and its limits for the firmware's duty meter.
+//! 8. [`explain`] and [`meter`]: the reasons for a drive's rank, and its limits for the firmware's duty meter.
 #![forbid(unsafe_code)]
 
 pub mod bus;

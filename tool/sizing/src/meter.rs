@@ -1,9 +1,9 @@
-//! The limits of a drive for the firmware's duty meter, [`jred::duty`]: what `jred size --meter` writes.
+//! The limits of a drive for the firmware's duty meter, [`jred::duty`], as `jred size --meter` writes them.
 //!
-//! The rules' shares are in the limits: where the RMS torque may be 80 % of the S1 torque, that is the limit. Curves are
-//! lower bounds of at most [`jred::duty::MAX_POINTS`] points ([`below()`]), the same in all four quadrants, so the lower of
-//! driving and braking; figures are rounded down to single precision. So the meter allows nothing that `jred size` does not.
-//! A rule that is off or lacks its rating gives no limit, and the source says so.
+//! The limits include the rules' shares: if the RMS torque may be 80 % of the S1 torque, that is the limit. Curves are lower bounds of at most
+//! [`jred::duty::MAX_POINTS`] points ([`below()`]). They are the same in all four quadrants, so they follow the lower of driving and braking. Figures
+//! are rounded down to single precision, so the meter allows nothing that `jred size` does not. A rule that is off or lacks its rating gives no
+//! limit, and the source says so.
 
 mod below;
 mod source;
@@ -20,7 +20,7 @@ use jred_machine::model::rules::{MeanTorque, RuleSet};
 use jred_machine::number::rounding::{short, significant};
 use jred_machine::units::Vocabulary;
 
-/// A shortfall within the margin for rounding, which is not mentioned.
+/// Largest shortfall that counts as rounding and is not reported.
 const EXACT: f64 = 1e-5;
 
 /// Form of a limit.
@@ -30,7 +30,7 @@ pub enum Bound {
     Curve(Below),
     /// A figure.
     Figure(f32),
-    /// None: it is not checked.
+    /// No limit: not checked.
     Open,
 }
 
@@ -59,15 +59,15 @@ jred_machine::words! {
 /// One field of [`jred::duty::Limits`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Which field.
+    /// The field.
     pub field: Field,
     /// Its description.
     pub bound: Bound,
-    /// How it is computed, or why there is none.
+    /// How it is computed, or why it is missing.
     pub words: String,
 }
 
-/// The limits of a drive under a rule set, and the figures that its cycle was sized with.
+/// The limits of a drive under a rule set, and the figures of the cycle that it was sized with.
 #[derive(Clone, Debug)]
 pub struct MeterLimits<'a> {
     context: &'a Context<'a>,
@@ -92,12 +92,12 @@ pub fn peak(envelope: &Envelope, share: f64) -> Option<Below> {
     below(end(envelope), &envelope.corners(), floor)
 }
 
-/// The largest speed; where none is known, that of the meter.
+/// The largest speed of the motor or, without data, of the meter.
 fn end(envelope: &Envelope) -> f64 {
     envelope.max_speed().min(jred::duty::MOST_SPEED)
 }
 
-/// The share of a rating that a rule allows; `Err`: why none.
+/// The share of a rating that a rule allows; `Err`: why there is no share.
 fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<Share, String> {
     let limit = rules.limit(rule);
     let share = limit.fail.or(limit.warn);
@@ -108,7 +108,7 @@ fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<Share, String
     })
 }
 
-/// The value that a rule allows.
+/// An allowed share of a rating.
 struct Share {
     share: f64,
     /// Whether sizing only warns beyond it.
@@ -126,7 +126,7 @@ impl Share {
     }
 }
 
-/// The limit of a figure: the smallest of those that the rules give.
+/// The limit of a figure: the smallest limit of several rules.
 fn figure(
     field: Field,
     (rules, kind): (&RuleSet, &Vocabulary),
@@ -273,7 +273,7 @@ impl<'a> MeterLimits<'a> {
             .collect()
     }
 
-    /// The rules that the drive violates, each with its value, its limit and the use of it.
+    /// The violated rules, each with its value, its limit and the use of it.
     pub fn broken(&self) -> Vec<String> {
         let judged = Judged::new(self.context, self.rules);
         let broken = judged.checks.iter();
@@ -294,8 +294,8 @@ impl<'a> MeterLimits<'a> {
     }
 }
 
-/// Limit of the power fed back at the shaft. Apart from losses and the capacitor, all of it reaches the brake resistor, so
-/// the limit is on the safe side. There is none if the cycle itself exceeds it.
+/// Limit of the power fed back at the shaft. Apart from losses and the capacitor, all of it reaches the brake resistor, so the limit is on the safe
+/// side. There is no limit if the cycle itself exceeds it.
 fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
     let mut entry = figure(
         Field::RegenerativePower,

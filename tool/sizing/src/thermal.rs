@@ -5,14 +5,14 @@
 //! | known | model |
 //! |---|---|
 //! | winding's resistance and current, both thermal resistances, both time constants | [`Model::Bodies`], winding and housing |
-//! | the same with the winding's time constant alone | winding and housing, the latter's temperature constant |
+//! | the same with only the winding's time constant | winding and housing, with constant housing temperature |
 //! | winding's resistance and current, thermal resistance, time constant of the motor as a whole | [`Model::Bodies`], one body |
-//! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not followed |
+//! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not computed |
 //! | S1 torques | [`Model::Relative`]: shares of the rated rise, from the squared torque |
 //!
-//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = T²/M₀² + max(0, 1 −
-//! T_S1(n)²/M₀²) are the losses as a share of the rated ones, and τ·ϑ′ = p − ϑ. The loss of the S1 curve from standstill to
-//! a speed represents friction and iron losses there. Mean losses, all that counts without time constants: [`mean`].
+//! In the relative model the S1 torque causes the rated rise at each speed, so p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are the losses as a share
+//! of the rated ones, and τ·ϑ′ = p − ϑ. The loss of S1 torque from standstill to a speed represents friction and iron losses there. Without time
+//! constants only the mean losses count: [`mean`].
 
 pub mod classify;
 pub mod course;
@@ -37,34 +37,34 @@ use network::{Losses, Network};
 /// Housing time constant assumed when none is given, as a multiple of the longest other one.
 const SLOW: f64 = 1e6;
 
-/// A motor as heated bodies.
+/// A thermal model of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Model {
     /// Bodies with time constants; losses in W, rises in K.
     Bodies {
         /// The bodies.
         network: Network,
-        /// Copper loss over squared current (W/A²), the winding at the temperature of the surroundings or at the stated one.
+        /// Copper loss over squared current (W/A²), with the winding at ambient temperature or at the stated one.
         copper: f64,
-        /// Whether the housing's time constant is stated (or there is but one body).
+        /// Whether the housing's time constant is given (or there is only one body).
         follows_housing: bool,
     },
     /// Thermal resistances without time constants: mean losses, steady rises in K.
     Steady {
         /// Winding to housing, housing to surroundings (K/W).
         resistances: [f64; 2],
-        /// Copper loss over squared current (W/A²), the winding at the temperature of the surroundings or at the stated one.
+        /// Copper loss over squared current (W/A²), with the winding at ambient temperature or at the stated one.
         copper: f64,
         /// Growth of the copper loss (1/K).
         growth: f64,
     },
     /// Shares of the rated rise.
     Relative {
-        /// Torque that makes the rated rise at standstill (N·m).
+        /// Torque that causes the rated rise at standstill (N·m).
         standstill: f64,
         /// S1 torque at standstill (N·m) at the site.
         s1: f64,
-        /// Time constant (s), if one is stated.
+        /// Time constant (s), if given.
         time: Option<f64>,
     },
 }
@@ -91,14 +91,14 @@ pub struct Heating {
     pub hottest: Hottest,
     /// Whether they are shares of the rated rise.
     pub relative: bool,
-    /// Whether the housing's rise was found.
+    /// Whether the housing's rise was computed.
     pub housing: bool,
-    /// Whether the ripple over the cycle was followed.
+    /// Whether the ripple over the cycle was computed.
     pub ripple: bool,
 }
 
 impl Heating {
-    /// What the temperatures were determined from, where not all that a model can use is given; `torque` is what the motor gives.
+    /// The basis of the temperatures, if some data for the models are missing; `torque` is the word for the motor's effort.
     pub fn notes(&self, torque: impl Display) -> Vec<String> {
         let mut notes = Vec::new();
         if self.hottest == Hottest::Runaway {
@@ -124,10 +124,10 @@ fn usable(figure: Option<f64>) -> Option<f64> {
 }
 
 impl Model {
-    /// The model for the data given.
+    /// The model for the given data.
     ///
     /// # Errors
-    /// Message about missing data.
+    /// The missing data, as a message.
     pub fn of(
         motor: &Motor,
         prepared: &Prepared,
@@ -188,7 +188,7 @@ impl Model {
         let [winding, whole] = times;
         let derated = motor.derated(surroundings);
         Ok(Self::Relative {
-            // The site leaves a smaller rise, not a smaller torque for the same rise, unless the maker states it so.
+            // The site reduces the rise, not the torque for the same rise, unless the maker states it so.
             standstill: prepared.envelope.standstill_in_sheet(derated.factor) * derated.torque,
             s1,
             time: whole.or(winding),
@@ -256,7 +256,7 @@ impl Model {
         }
     }
 
-    /// The bodies that heat up over the time; of the relative model one, whose rise is a share of the rated one. `None`: no time constants.
+    /// The bodies that heat up over time; in the relative model one body, whose rise is a share of the rated one. `None` without time constants.
     pub fn network(&self) -> Option<Network> {
         match *self {
             Self::Bodies { network, .. } => Some(network),
@@ -276,7 +276,7 @@ impl Model {
         }
     }
 
-    /// The losses while the motor holds the machine at rest with `torque` (N·m); zero: it is without current.
+    /// The losses while the motor holds the machine at rest with `torque` (N·m); zero: without current.
     pub fn at_rest(&self, prepared: &Prepared, torque: f64) -> Losses {
         let root = self.root(prepared, torque, 0.0);
         Losses {
@@ -288,7 +288,7 @@ impl Model {
     /// The hottest rises in an operation of a cycle; `rest` are the losses at rest.
     ///
     /// # Errors
-    /// Message about missing data.
+    /// The missing data, as a message.
     pub fn heating(
         &self,
         load: &Load,
@@ -299,10 +299,10 @@ impl Model {
         self.heated(course, mean, operation, rest)
     }
 
-    /// The same of losses over a cycle, or of their mean: whichever the model asks for.
+    /// The same from losses over a cycle or from their mean, as the model requires.
     ///
     /// # Errors
-    /// Message about missing data.
+    /// The missing data, as a message.
     pub fn heated(
         &self,
         course: impl Fn() -> Course,
@@ -365,11 +365,11 @@ impl Model {
     }
 }
 
-/// Error of the moments of the losses over a panel that are taken from its samples, as a share of the losses.
+/// Allowed error of the moments of the losses over a panel from its samples, as a share of the losses.
 const KNOWN: f64 = 1e-10;
 
-/// The losses over a panel in so many pieces: their moments by the rule of the panel, of the losses at its samples or `between` them. Where they bend
-/// within a piece it is halved.
+/// The losses over a panel in a number of pieces. Their moments come from the panel's quadrature, with the losses at its samples or `between` them. A
+/// piece in which they bend is halved.
 fn pieces_of(
     panel: &Panel,
     known: &[[f64; 2]],
@@ -387,7 +387,7 @@ fn pieces_of(
     let mut k = 0.0;
     while k < parts {
         let [a, b] = [k, k + 1.0].map(|k| 2.0 * k / parts - 1.0);
-        // On −½ to ½.
+        // From −½ to ½.
         let share = |x: f64| (x - a.midpoint(b)) / (b - a);
         let moments = |which: usize| {
             if parts <= 1.0 {
@@ -413,7 +413,7 @@ fn pieces_of(
     pieces
 }
 
-/// Allowed rise (K, or as a share of the rated rise). `None`: no data.
+/// Allowed rise (K, or as a share of the rated rise); `None` without data.
 pub fn allowed_rise(motor: &Motor, surroundings: &Surroundings, relative: bool) -> Option<f64> {
     if relative {
         return Some(motor.derated(surroundings).rise);

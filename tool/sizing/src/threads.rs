@@ -1,9 +1,9 @@
-//! Work on all cores with the feature `threads`, on one without it. The results are the same, in the same order.
+//! Work on all cores with the feature `threads`, on one core without it. The results are the same, in the same order.
 
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
 
-/// The results of `work` for 0, 1, … `count` − 1; each thread has one `room` for all that it does.
+/// The results of `work` for 0, 1, … `count` − 1; each thread has its own `room`.
 pub(crate) fn map_in<R, T: Send>(
     count: u32,
     room: impl Fn() -> R + Send + Sync,
@@ -26,7 +26,7 @@ pub fn map<I: Sync, T: Send>(items: &[I], work: impl Fn(&I) -> T + Send + Sync) 
     items.iter().map(work).collect()
 }
 
-/// Works on each item in its place; `work` has its index as well.
+/// Applies `work` to each item in place, with its index.
 pub(crate) fn for_each<I: Send>(items: &mut [I], work: impl Fn(usize, &mut I) + Send + Sync) {
     #[cfg(feature = "threads")]
     items
@@ -40,7 +40,7 @@ pub(crate) fn for_each<I: Send>(items: &mut [I], work: impl Fn(usize, &mut I) + 
         .for_each(|(k, item)| work(k, item));
 }
 
-/// Sorts by a key; the order of equal ones is not kept.
+/// Sorts by a key; the order of equal items is not kept.
 pub(crate) fn sort_by_key<I: Send, K: Ord>(items: &mut [I], key: impl Fn(&I) -> K + Sync) {
     #[cfg(feature = "threads")]
     items.par_sort_unstable_by_key(key);
@@ -48,8 +48,7 @@ pub(crate) fn sort_by_key<I: Send, K: Ord>(items: &mut [I], key: impl Fn(&I) -> 
     items.sort_unstable_by_key(key);
 }
 
-/// What `work` makes of 0, 1, … `count` − 1, one after the other: by parts of at least `share` that begin `empty` and are
-/// joined.
+/// Folds 0, 1, … `count` − 1 in order, in parts of at least `share` that begin `empty` and are joined.
 pub(crate) fn fold<T: Send>(
     count: usize,
     share: usize,

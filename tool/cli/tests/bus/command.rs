@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::support::{squeezed, 
-    Folder, Run, budget, edited_press, jred, jred_with, near, press_file, press_text,
+use crate::support::{
+    Folder, Run, budget, edited_press, jred, jred_with, near, press_file, press_text, squeezed,
 };
 
 pub(super) const SUPPLY: &str = r#"

@@ -328,9 +328,7 @@ fn a_resistor_of_the_catalogue() {
     let text = bus(&files, &more).ends(0);
     says(
         &text,
-        &[
-            "resistor enough, the smallest of the catalogue that fits; required: at most",
-        ],
+        &["resistor enough, the smallest of the catalogue that fits; required: at most"],
     );
     let answer = json(&files, &more);
     assert_eq!(answer["proposal"], "enough");

@@ -8,8 +8,13 @@ use serde_json::Value;
 /// The form of each command, and its validator.
 pub(crate) static VALIDATORS: LazyLock<Vec<(&str, Validator)>> = LazyLock::new(|| {
     let all = jred_report::answer::schema::all().into_iter();
-    all.map(|(form, schema)| (form, jsonschema::draft202012::new(schema.as_value()).unwrap()))
-        .collect()
+    all.map(|(form, schema)| {
+        (
+            form,
+            jsonschema::draft202012::new(schema.as_value()).unwrap(),
+        )
+    })
+    .collect()
 });
 
 /// The faults of an answer against the schema of the form that it names.
@@ -19,5 +24,7 @@ pub(crate) fn faults(answer: &Value) -> Vec<String> {
         return vec![format!("unknown form {form:?}")];
     };
     let faults = validator.iter_errors(answer);
-    faults.map(|fault| format!("{}: {fault}", fault.instance_path)).collect()
+    faults
+        .map(|fault| format!("{}: {fault}", fault.instance_path))
+        .collect()
 }

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-6;
 /// Number of positions at which a whole range is examined.
 const SCANNED: usize = 1440;
 
-/// A joint that can separate.
+/// A joint that may separate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneWay {
     /// Index of the joint.
@@ -37,14 +37,14 @@ pub struct Parted {
     pub what: String,
     /// Position and speed.
     pub state: String,
-    /// The force that would be needed.
+    /// The required force.
     pub force: String,
     /// Cure.
     pub cure: String,
 }
 
 impl OneWay {
-    /// Those of a mechanism.
+    /// The one-way joints of a mechanism.
     pub fn all(mechanism: &AnyMechanism) -> Vec<Self> {
         let contacts = mechanism.contacts().iter().map(|contact| Self {
             joint: contact.joint,
@@ -60,7 +60,7 @@ impl OneWay {
     /// Force (N) of contact or rope at φ, ω, α; positive while contact is maintained.
     ///
     /// # Errors
-    /// Those of [`contact_force`].
+    /// As [`contact_force`].
     pub fn force(
         self,
         machine: &Machine<AnyMechanism>,
@@ -69,11 +69,11 @@ impl OneWay {
         Ok(contact_force(machine, self.joint, phi, omega, alpha)?)
     }
 
-    /// Warning about a contact that separates somewhere in the range of the drive link at this speed and acceleration
-    /// (rad/s, rad/s²; or m/s, m/s²), for results computed as if it did not.
+    /// Warning about a contact that separates somewhere in the range of the drive link at this speed and acceleration (rad/s, rad/s²; or m/s, m/s²),
+    /// for results computed as if it did not.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub fn warning(
         machine: &Machine<AnyMechanism>,
         [omega, alpha]: [f64; 2],
@@ -110,7 +110,7 @@ impl OneWay {
     /// Why contact is lost at the state φ, ω with this force.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub fn parted(
         self,
         machine: &Machine<AnyMechanism>,

@@ -25,21 +25,21 @@ use refined::insert_extremes;
 pub use smooth::{MOST_RAISED, Panel, Smooth, Values};
 pub(crate) use stretches::{passages, smooth_stretches, turns};
 
-/// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
-/// output of its gearbox is coupled to.
+/// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train, which is coupled to a motor or to the output of its
+/// gearbox.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
     /// Time (s).
     pub t: f64,
     /// Weight in the integral over the cycle (s).
     pub weight: f64,
-    /// φ of the drive link (rad), as the motion counts it.
+    /// φ of the drive link (rad), continuous over several turns.
     pub phi: f64,
     /// ω of the drive link (rad/s).
     pub omega: f64,
     /// α of the drive link (rad/s²).
     pub alpha: f64,
-    /// Its sign is that of the motion, or of the motion that begins here from rest.
+    /// Sign of the motion, or of the motion that begins here from rest.
     pub direction: f64,
     /// J_red of the mechanism at the drive link, without drive train (kg·m²).
     pub inertia: f64,
@@ -55,41 +55,41 @@ pub struct Instant {
     pub input_inertia: f64,
 }
 
-/// A cycle as a row of instants with integration weights.
+/// A cycle as instants with integration weights.
 #[derive(Clone, Debug)]
 pub struct Duty {
     /// The instants, in order of time.
     pub instants: Vec<Instant>,
     /// Length of the cycle (s).
     pub duration: f64,
-    /// Largest torque (N·m) at the input that holds the machine at rest, without losses or the help of friction: against the
-    /// weight at any position, with a payload wherever it is carried, and against weight and process loads at standstill.
+    /// Largest torque (N·m) at the input that holds the machine at rest, without losses or the help of friction: against the weight at any position,
+    /// with a payload wherever it is carried, and against weight and process loads at standstill.
     pub hold_torque: f64,
     /// Data for the mechanical rules.
     pub mechanics: Mechanics,
-    /// Where the instants' smooth stretches begin.
+    /// Starts of the smooth stretches among the instants.
     pub smooth: Smooth,
 }
 
-/// Default number of instants of a cycle, at least, about.
+/// Default least number of instants of a cycle (about).
 pub const STEPS: usize = 2000;
 
-/// The ends of a smooth stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
+/// Share of a smooth stretch by which its ends are moved inside: a jump there belongs to both sides.
 pub(crate) const INSIDE: f64 = 1e-9;
 
-/// How finely a motion is sampled.
+/// Sampling of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Error of the integrals over the cycle, as a share of themselves.
+    /// Relative error of the integrals over the cycle.
     pub tolerance: f64,
-    /// Instants of a cycle, at least, about: those of its course.
+    /// Least number of instants of a cycle (about), for its course.
     pub steps: usize,
 }
 
-/// Default error of the integrals, as a share of themselves.
+/// Default relative error of the integrals.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Least error that can be asked for: rounding is not far below.
+/// Smallest error that can be requested: rounding is close below.
 pub const LEAST_TOLERANCE: f64 = 1e-12;
 
 impl Default for Sampling {
@@ -107,17 +107,16 @@ impl From<usize> for Sampling {
     }
 }
 
-/// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction
-/// and cogging hold that.
+/// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction and cogging hold it.
 const UNHELD: f64 = 0.01;
 
 impl Duty {
-    /// Samples the machine's motion so that the error of every integral over it is known, and not above the tolerance: by Gauss and Kronrod's
-    /// rule on panels, each in a smooth part of the motion, which are halved until it is. The ends of a stretch are taken from inside, so that a
-    /// jump of the acceleration belongs to both sides.
+    /// Samples the machine's motion so that the error of every integral over it is known and not above the tolerance. It uses Gauss-Kronrod
+    /// quadrature on panels, each in a smooth part of the motion, and halves the panels until the errors are small enough. The ends of a stretch are
+    /// moved inside, so that a jump of the acceleration belongs to both sides.
     ///
     /// # Errors
-    /// Those of the machine; integrals that do not reach the tolerance; energy that does not balance.
+    /// An error of the machine; integrals that do not reach the tolerance; energy that does not balance.
     pub fn new(
         file: &MachineFile,
         motion: &Motion,
@@ -185,18 +184,18 @@ impl Duty {
             .sum()
     }
 
-    /// Extremes, mean and RMS of a quantity over the instants. The extremes of what no motor changes, inertia, speed,
-    /// acceleration, torque and power at the input and the torque at the drive link, are instants.
+    /// Extremes, mean and RMS of a quantity over the instants. For quantities that do not depend on the motor, the extremes are among the instants:
+    /// inertia, speed, acceleration, torque and power at the input, and torque at the drive link.
     pub fn figures(&self, quantity: impl Fn(&Instant) -> f64) -> Figures {
         self.figures_at(|k| quantity(&self.instants[k]), |_, _| None)
     }
 
-    /// The same of the values of a quantity, one for each instant.
+    /// The same for the values of a quantity, one for each instant.
     pub fn figures_of(&self, values: &[f64]) -> Figures {
         self.figures_at(|k| values[k], |_, _| None)
     }
 
-    /// The same of what a motor changes: its extremes lie between the instants.
+    /// The same for a quantity that depends on the motor: its extremes may lie between the instants.
     pub fn figures_between(&self, values: &[f64]) -> Figures {
         let between = |k: usize, sign: f64| {
             let panels = self.smooth.panels_beside(k, self.instants.len());

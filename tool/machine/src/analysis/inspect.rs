@@ -43,7 +43,7 @@ const CLOSED: f64 = 1e-9;
 /// Allowed difference of the two drive torques, as a share of the largest term.
 const AGREED: f64 = 1e-10;
 
-/// Allowed difference of work and energy, as a share of the energy that the drive moves.
+/// Allowed difference of work and energy, as a share of the energy exchanged by the drive.
 const BALANCED: f64 = 1e-9;
 
 /// One joint.
@@ -66,14 +66,14 @@ pub struct JointFinding {
 pub struct Transmission {
     /// The index, 0 (dead point) to 1.
     pub index: f64,
-    /// The transmission angle of a dyad with this index (deg); none of a contact or a mesh.
+    /// The transmission angle of a dyad with this index (deg); `None` for a contact or a mesh.
     #[serde(rename = "angle [deg]")]
     pub angle: Option<f64>,
-    /// Position of the drive link (rad or m); none where the index is the same everywhere.
+    /// Position of the drive link (rad or m); `None` if the index is the same everywhere.
     pub at: Option<f64>,
     /// The links of the group.
     pub links: Vec<String>,
-    /// Whether every group keeps the sign of its determinant, and so its branch.
+    /// Whether the determinant of every group keeps its sign, and so its branch.
     pub branch_kept: bool,
 }
 
@@ -165,12 +165,12 @@ impl Findings {
         3 * self.links as i64 - self.constraints() as i64
     }
 
-    /// Freedoms that the joints take.
+    /// Freedoms removed by the joints.
     pub fn constraints(&self) -> usize {
         self.joints.iter().map(|joint| joint.constraints).sum()
     }
 
-    /// What was checked, in words.
+    /// Names of the checks.
     pub fn checked(&self) -> Vec<&'static str> {
         let all = [
             (true, "one degree of freedom"),
@@ -187,7 +187,7 @@ impl Findings {
             .collect()
     }
 
-    /// The rules that are violated, in words.
+    /// Messages about violated rules.
     pub fn violations(&self) -> Vec<String> {
         let mut violations = Vec::new();
         if self.freedoms() != 1 {
@@ -233,7 +233,7 @@ impl Findings {
     }
 }
 
-/// What a linkage that passes change points takes for granted.
+/// Assumption for a linkage that passes change points.
 pub fn change_points(mechanism: &AnyMechanism) -> Option<String> {
     let points = mechanism.change_points();
     let coordinate = mechanism.coordinate();
@@ -259,7 +259,7 @@ fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
     if mechanism.coordinate() == Coordinate::Length {
         return Ok(facts);
     }
-    // The way the motion goes; a cam that swings has the limit of its way forward.
+    // The direction of the motion; an oscillating cam has the limit of its forward direction.
     let direction = file.motion.as_ref().map_or(1.0, |motion| {
         motion.at(motion.duration()).phi - motion.at(0.0).phi
     });
@@ -290,7 +290,7 @@ fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
 }
 
 fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFinding> {
-    // The links that stand in for curves, each with two joints that take its three freedoms, are no parts of the machine.
+    // Links that represent curves, each with two joints that remove its three freedoms, are not parts of the machine.
     let names = mechanism.joint_names().iter();
     let finding = |(k, (joint, name)): (usize, (&Joint, &String))| JointFinding {
         name: name.clone(),
@@ -334,8 +334,8 @@ fn points(joint: &Joint, frames: &Frames) -> Vec<[f64; 2]> {
     }
 }
 
-/// Difference of the speeds of the links from those one turn earlier: |r_c′| by the size of the mechanism, ψ′. Positions
-/// may go on, as those of a rack, a nut or a planet do, but then the reduced curves still repeat.
+/// Difference of the links' speeds from those one turn earlier: |r_c′| relative to the size of the mechanism, and ψ′. Positions may advance, as of a
+/// rack, a nut or a planet, while the reduced curves still repeat.
 fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
     use std::f64::consts::TAU;
     if mechanism.domain() != Domain::Turn {

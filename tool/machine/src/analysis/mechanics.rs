@@ -1,4 +1,4 @@
-//! Data of machine and motion for the mechanical rules, computed once since they do not depend on the drive.
+//! Data of machine and motion for the mechanical rules, computed once because they do not depend on the drive.
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Reducible as _};
@@ -17,23 +17,23 @@ pub use rest::{Held, Rest, constant_loads};
 pub use run_on::{Closing, RunOn, Stopped};
 pub use stop::{Braking, Stop};
 
-/// Figures of machine and motion at the input of the drive train, that is at the gearbox output.
+/// Figures of machine and motion at the input of the drive train, that is, at the gearbox output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanics {
-    /// Moves in a cycle: from rest to rest, where a reversal counts as rest. At least one where the drive link accelerates.
+    /// Moves per cycle: from rest to rest, where a reversal counts as rest. At least one if the drive link accelerates.
     pub moves: u32,
     /// Moves per second.
     pub move_rate: f64,
-    /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed,
-    /// or one over the time of the shortest move; the higher of the two.
+    /// Highest frequency with which the motion excites the machine (Hz): the higher of the largest turning frequency of the drive link and one over
+    /// the time of the shortest move.
     pub drive_frequency: f64,
-    /// Torques at rest, at which the machine would begin to move on: the friction of the drive train may point either way.
+    /// Torques at rest at which the machine would begin to move on: friction of the drive train may act in either direction.
     pub rest: Rest,
-    /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it:
-    /// without acceleration and process loads.
+    /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it, without acceleration and
+    /// process loads.
     pub constant: [f64; 2],
-    /// Whether weight or springs, anywhere in the range, or weight and process loads, where the motion rests, move the machine against
-    /// its own friction when nothing holds it.
+    /// Whether the unheld machine moves against its own friction, by weight or springs anywhere in the range, or by weight and process loads where
+    /// the motion rests.
     pub falls: bool,
     /// States from which an emergency stop may begin.
     pub stop: Stop,
@@ -79,8 +79,8 @@ impl Mechanics {
         motion.with_loads(file, (instants, smooth), 1.0, rest)
     }
 
-    /// The figures of the same motion in `time` times its time, under other loads: those of `instants`, which may be some of its
-    /// instants only. `rest`: the torques at rest without losses.
+    /// The figures of the same motion in `time` times its time, under other loads, from `instants`, which may be only some of them. `rest`: the
+    /// torques at rest without losses.
     #[must_use]
     pub fn with_loads(
         &self,
@@ -117,8 +117,7 @@ impl Mechanics {
     }
 }
 
-/// The largest |x′| of the tool, or |ψ′| of a tool that turns. A position in which the mechanism cannot be placed was refused
-/// before.
+/// The largest |x′| of the tool, or |ψ′| of a turning tool. Positions in which the mechanism cannot be placed were refused before.
 fn tool_slope(file: &MachineFile, instants: &[Instant]) -> Option<f64> {
     let tool = file.site.tool.as_ref()?;
     let mechanism = file.machine.mechanism();

@@ -1,4 +1,4 @@
-//! What follows from a machine and its motion, without any drive.
+//! Analysis of a machine and its motion, without any drive.
 
 pub mod contact;
 pub mod duty;

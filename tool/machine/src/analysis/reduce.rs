@@ -44,7 +44,7 @@ pub struct Sets {
     pub curves: bool,
     /// Each link's share of J_red, with the curves.
     pub links: bool,
-    /// The parts of the drive torque, which the curves have as well.
+    /// The terms of the drive torque, which are also part of the curves.
     pub torques: bool,
     /// Points and links: positions, transfer functions, velocities and accelerations.
     pub points: bool,
@@ -61,14 +61,14 @@ pub struct Request {
     pub over: Over,
     /// Number of rows.
     pub positions: usize,
-    /// Which columns.
+    /// The columns.
     pub sets: Sets,
     /// Speed and acceleration of the drive link at every position instead of those of the motion (rad/s, rad/s², or m/s,
     /// m/s²).
     pub state: Option<[f64; 2]>,
 }
 
-/// One row: where the machine is, and how it moves there, if that is known.
+/// One row: the position of the machine, and its motion there, if known.
 struct Place {
     now: Now,
     phi: f64,
@@ -79,7 +79,7 @@ struct Place {
 /// Data for the columns.
 struct Source<'f> {
     file: &'f MachineFile,
-    /// The machine with its drive train, without what the schedule says.
+    /// The machine with its drive train, without its schedule.
     machine: Machine<AnyMechanism>,
     /// The machines of the schedule.
     machines: Machines<'f>,
@@ -102,13 +102,12 @@ fn time_column() -> Column {
     Column::new(Quantity::Time, "t", "s")
 }
 
-/// The loads and payloads that are not in all rows of the request, because these are without a time of the motion, or without a
-/// direction.
+/// The loads and payloads that some rows of the request omit, because these have no time of the motion, or no direction.
 pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
     not_in(file, || rows(file, request))
 }
 
-/// The same of [`reduce_at`].
+/// The same for [`reduce_at`].
 pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[At]) -> Vec<String> {
     not_in(file, || rows_at(file, request, at))
 }
@@ -129,16 +128,16 @@ fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R)
     missing.chain(carriages.map(|item| item.what)).collect()
 }
 
-/// Columns that belong together.
+/// A set of columns.
 trait Set {
-    /// Their heads.
+    /// Their headers.
     fn heads(&self, source: &Source) -> Vec<Column>;
 
-    /// Their values, as many as heads.
+    /// Their values, one for each header.
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
 }
 
-/// A position of the drive link (rad, or m), and its speed and acceleration there, if they are given.
+/// A position of the drive link (rad, or m), and its speed and acceleration there, if given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct At {
     /// Position.
@@ -147,14 +146,14 @@ pub struct At {
     pub state: Option<[f64; 2]>,
 }
 
-/// The columns asked for, at every position.
+/// The requested columns at every position.
 ///
 /// # Errors
-/// Those of the machine.
+/// Errors of the machine.
 pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     let moves = file.motion.is_some() || request.state.is_some();
     let in_time = request.over == Over::Time || request.state.is_some();
-    // Rows at states of the request have no time, at which a carriage could be somewhere.
+    // Rows at given states have no time, so the position of a carriage is unknown.
     let of_motion = request.state.is_none();
     columns(
         file,
@@ -164,11 +163,11 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     )
 }
 
-/// The columns asked for at these positions, in their order; where no state is given, that of the request, or of the motion where it passes
-/// each position once.
+/// The requested columns at these positions, in their order. Without a given state they use that of the request, or of the motion if it passes each
+/// position once.
 ///
 /// # Errors
-/// Those of the machine.
+/// Errors of the machine.
 pub fn reduce_at(file: &MachineFile, request: &Request, at: &[At]) -> Result<Columns, Error> {
     let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
     let moves = file.motion.is_some() || given;
@@ -188,8 +187,7 @@ fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<It
     })
 }
 
-/// The columns of these rows: whether some have a motion, and velocities and accelerations in time, and whether that is the motion of the
-/// file.
+/// The columns of these rows. The flags: some rows have a motion; some have velocities and accelerations in time; the motion is that of the file.
 fn columns(
     file: &MachineFile,
     request: &Request,
@@ -218,7 +216,7 @@ fn columns(
     Ok(columns)
 }
 
-/// The sets asked for: whether some rows have a motion, and velocities and accelerations in time.
+/// The requested sets. The flags: some rows have a motion; some have velocities and accelerations in time.
 fn sets(
     source: &Source,
     sets: Sets,
@@ -268,11 +266,10 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
     Ok(values)
 }
 
-/// Adds the columns of these sets to rows of a motion, each with its instant and φ, ω and α of the drive link, under names that
-/// begin with `prefix`.
+/// Adds the columns of these sets to rows of a motion, each with its instant and φ, ω and α of the drive link, under names with the given `prefix`.
 ///
 /// # Errors
-/// Those of the machine.
+/// Errors of the machine.
 pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
@@ -307,7 +304,7 @@ struct Row {
     state: Option<State<f64>>,
 }
 
-/// The rows, one after another.
+/// The rows, in order.
 fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = Row> + 'f> {
     if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
         let last = (request.positions - 1).max(1) as f64;
@@ -328,7 +325,7 @@ fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item =
     Box::new(positions(domain, request.positions).map(state))
 }
 
-/// The row of a position: with the given state, or that of the motion, if it passes each position once.
+/// The row of a position: with the given state, or with that of the motion, if it passes each position once.
 fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> Row {
     let pass = match &file.motion {
         Some(motion) if given.is_none() => Pass::of(motion, file.machine.domain()),
@@ -357,8 +354,7 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
     }
 }
 
-/// A motion that passes every position at most once: it goes one way, through exactly one turn or within the stroke.
-/// Dwells count once, at rest.
+/// A motion that passes every position at most once: in one direction, through exactly one turn or within the stroke. Dwells count once, at rest.
 struct Pass<'m> {
     motion: &'m Motion,
     start: f64,
@@ -387,7 +383,7 @@ impl<'m> Pass<'m> {
         })
     }
 
-    /// When the motion passes the position `phi`, for a turn modulo 2π, and its state there.
+    /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
     fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
         let motion = self.motion;
         let ahead = (phi - self.start) * self.way;
@@ -396,7 +392,7 @@ impl<'m> Pass<'m> {
         } else {
             ahead
         };
-        // The ends of a stroke are positions as well; a rounding must not cost them.
+        // The ends of a stroke are positions too, and rounding must not exclude them.
         let slack = 1e-12 * self.length;
         if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
             return None;

@@ -1,4 +1,4 @@
-//! Whether a machine comes round: whether its curves are the same after the drive link has gone on by some angle.
+//! Whether a machine repeats: whether its curves are the same after the drive link has advanced by an angle.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use jred::{Machine, Reducible as _};
 use crate::model::coordinate;
 use crate::model::mechanism::AnyMechanism;
 
-/// Positions of a turn that are compared, beside the edges of loads and cams.
+/// Positions per turn that are compared, besides the edges of loads and cams.
 const POSITIONS: usize = 720;
 
 /// Curves that differ by less than this share of their size are the same.
@@ -24,21 +24,20 @@ const CURVES: [(&str, &str); 6] = [
     ("the friction torque", "N m"),
 ];
 
-/// Where a curve is another one further on.
+/// A difference of a curve at two positions that should be equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// What differs.
+    /// The curve.
     pub curve: &'static str,
     /// Its unit.
     pub unit: &'static str,
     /// The position (rad).
     pub phi: f64,
-    /// The values there and further on.
+    /// The values there and after the advance.
     pub values: [f64; 2],
 }
 
-/// The largest difference, as a share of the curve's size, between the machine at φ and at φ + `advance` (rad); `None`: it comes
-/// round.
+/// The largest difference, relative to the curve's size, between the machine at φ and at φ + `advance` (rad); `None` if it repeats.
 ///
 /// # Errors
 /// The machine cannot be placed.
@@ -87,7 +86,7 @@ pub fn difference(
     Ok(worst.map(|(_, difference)| difference))
 }
 
-/// The curves at a position, and the size of the terms that they are sums of: what cancels leaves roundings of these.
+/// The curves at a position, and the size of their terms, the scale of rounding where they cancel.
 fn curves(
     machine: &Machine<AnyMechanism>,
     phi: f64,
@@ -102,9 +101,9 @@ fn curves(
         reduction.coulomb,
     ];
     let mut sizes = values;
-    // J′ has the size of J per radian, …
+    // J′ has the scale of J per radian, …
     sizes[1] = sizes[1].abs().max(reduction.inertia);
-    // … and weights that balance each other have that of each.
+    // … and balanced weights have the scale of each.
     let [g_x, g_y] = machine.gravity();
     let mechanism = machine.mechanism();
     let frames = mechanism.frames(phi)?;

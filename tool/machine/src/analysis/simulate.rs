@@ -1,7 +1,7 @@
 //! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12) and (7.13).
 //!
-//! Beside the motion it integrates the work of the motor, of the signed process loads, and the losses, so that the energy
-//! balance closes only if motion and reduction agree.
+//! Besides the motion it integrates the work of the motor, of the signed process loads, and the losses. The energy balance closes only if motion and
+//! reduction agree.
 
 mod clock;
 mod commanded;
@@ -36,19 +36,19 @@ use crate::model::machine::MachineFile;
 use crate::model::motor::Motor;
 use crate::model::simulation::Simulation;
 
-/// Runs the simulation of the file under its own motor: t, φ, ω, α, J, energies, and the balance
-/// (E + U) − (E + U)₀ − W_motor − W_process + losses, which is zero up to the tolerance. Rows before an error are kept.
+/// Simulates the file under its own motor: t, φ, ω, α, J, energies, and the balance (E + U) − (E + U)₀ − W_motor − W_process + losses, which is zero
+/// up to the tolerance. Rows before an error are kept.
 ///
 /// # Errors
-/// No motor; those of the machine at the start.
+/// No motor; errors of the machine at the start.
 pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Simulated, SimulationError> {
     simulate_together(&Together::alone(file), simulation)
 }
 
-/// The same with machines beside it on the motor's shaft.
+/// The same with further machines on the motor's shaft.
 ///
 /// # Errors
-/// Those of [`simulate`].
+/// As [`simulate`].
 pub fn simulate_together(
     machines: &Together,
     simulation: &Simulation,
@@ -63,10 +63,10 @@ pub fn simulate_together(
     simulate_under(machines, simulation, &motor, &mut Nobody)
 }
 
-/// The same under another motor, which acts in front of the drive trains; `observer` looks at it. Without a variator.
+/// The same under another motor, which acts in front of the drive trains; `observer` follows it. Without a variator.
 ///
 /// # Errors
-/// Those of the machines at the start.
+/// Errors of the machines at the start.
 pub fn simulate_under(
     machines: &Together,
     simulation: &Simulation,
@@ -90,7 +90,7 @@ pub fn simulate_under(
     }
 }
 
-/// The same of a motor that has a state of its own.
+/// The same for a motor with its own state.
 fn commanded<M: Motor, C: Commander<M>>(
     plant: machine::Plant<M>,
     commander: C,
@@ -106,7 +106,7 @@ fn commanded<M: Motor, C: Commander<M>>(
     }
 }
 
-/// Refuses a machine of which something goes by the motion of its file, where that is not simulated.
+/// Refuses a machine with parts scheduled by the motion of its file, where that motion is not simulated.
 fn refuse_scheduled(file: &MachineFile) -> Result<(), SimulationError> {
     match file.scheduled().next() {
         Some(ByMotion { what, cure }) => Err(SimulationError::Scheduled { what, cure }),

@@ -1,8 +1,7 @@
-//! `jred steady`: the motion that repeats cycle by cycle, of a turn or several, under a motor's characteristic, and the flywheel that smooths it.
+//! `jred steady`: the periodic motion, over one or several turns, under a motor's characteristic, and the flywheel that smooths it.
 //!
-//! With one degree of freedom and J > 0 the kinetic energy at the end of a cycle is a function of that at its start, one number of
-//! one number, and the steady cycle is where the two are equal. No transient is waited for. Who drives does not matter: a motor, or a process
-//! against a motor that brakes.
+//! With one degree of freedom and J > 0 the kinetic energy at the end of a cycle is a scalar function of that at its start, and the steady cycle is
+//! where the two are equal. No transient needs to decay. Either side may drive: a motor, or a process against a braking motor.
 
 mod aim;
 mod cycle;
@@ -34,19 +33,19 @@ use crate::units::RPM;
 use aim::Search;
 use turn::Turning;
 
-/// Share by which the turns of a machine may miss a whole number: rounding.
+/// Tolerance within which the turns of a machine are a whole number: rounding.
 const WHOLE: f64 = 1e-12;
 
-/// What is asked for.
+/// A request.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Coefficient of speed fluctuation that a flywheel is to reach.
+    /// Coefficient of speed fluctuation to reach with a flywheel.
     pub delta: Option<f64>,
-    /// A mean speed, and what is scaled for it.
+    /// A mean speed, and the quantity that is scaled for it.
     pub mean_speed: Option<MeanSpeed>,
-    /// Turns of the drive link in a cycle; `None`: as many as the loads need.
+    /// Turns of the drive link per cycle; `None`: as many as the loads need.
     pub turns: Option<u32>,
-    /// Positions in the list, for each turn.
+    /// Positions per turn in the list.
     pub positions: usize,
 }
 
@@ -76,20 +75,20 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// The cycle that the machine has in the end: with the flywheel, if there is one.
+    /// The final cycle of the machine: with the flywheel, if there is one.
     pub fn last(&self) -> Option<&Cycle> {
         let with = self.flywheel.as_ref().map(|flywheel| &flywheel.cycle);
         with.or(self.cycle.as_ref())
     }
 }
 
-/// The steady cycle of the machine under the motor of the simulation, which gives the angle where a turn begins, too.
+/// The steady cycle of the machine under the motor of the simulation, which also gives the angle at which a turn begins.
 ///
-/// Accuracy: the energy at the end of the turn is that at its start to 1e-12 of itself (1e-10 with a load from a table, whose third
-/// derivative jumps at each row), and the energy balance closes to 1e-10 of the energy turned over (tests `steady`).
+/// Accuracy: the energy at the end of the turn equals that at its start within a relative 1e-12 (1e-10 with a load from a table, whose third
+/// derivative jumps at each row), and the energy balance closes to 1e-10 of the exchanged energy (tests `steady`).
 ///
 /// # Errors
-/// There is none: the machine stops, or runs away; no full turn, no motor torque; the machine cannot be placed.
+/// No steady cycle: the machine stops, or runs away; no full turn, no motor torque; the machine cannot be placed.
 pub fn steady(
     file: &MachineFile,
     simulation: &Simulation,
@@ -98,11 +97,11 @@ pub fn steady(
     steady_together(&Together::alone(file), simulation, request)
 }
 
-/// The same of machines on one shaft, of which the others make whole turns while the first makes one. The energy at the end of the turn is that
-/// at its start to 2e-12 of two presses (test `two_presses_in_step_are_one`).
+/// The same for machines on one shaft, of which the others make whole turns per turn of the first. For two presses the energy at the end of the turn
+/// equals that at its start to 2e-12 (test `two_presses_in_step_are_one`).
 ///
 /// # Errors
-/// Those of [`steady`]; a machine that is not where it was after a turn of the first.
+/// As [`steady`]; a machine that is not in the same position after a turn of the first.
 pub fn steady_together(
     machines: &Together,
     simulation: &Simulation,
@@ -168,7 +167,7 @@ pub fn steady_together(
     });
     let (cycle, flywheel) = match found {
         Ok(Some(found)) => found,
-        // Not even a cycle's end can be sought without a flywheel.
+        // Without a flywheel not even the end of a cycle can be found.
         Err(why) if why.is_standstill() => {
             let turning = Turning::new(machines, simulation, motor, search.direction, turns)?;
             let flywheel = Flywheel::of(&turning, &search, (None, None), delta, positions)?;
@@ -200,8 +199,8 @@ fn turns(machines: &Together, request: &Request) -> Result<u32, SteadyError> {
     }
 }
 
-/// The way the machine turns: +1 or −1. That of the motor at rest; else, or where `start_speed` says the other, the way of that, if a motor at
-/// speed or the process drives there.
+/// The direction in which the machine turns: +1 or −1. It is that of the motor at rest. Otherwise, or if `start_speed` has the other sign, it is that
+/// of `start_speed`, if a motor at speed or the process drives there.
 fn direction(
     machines: &Together,
     simulation: &Simulation,
@@ -217,7 +216,7 @@ fn direction(
     let at_rest = motor.torque(0.0) * turning(1.0)?.plant.ratio();
     let asked = simulation.start_speed;
     if at_rest == 0.0 {
-        // A motor that is started by hand.
+        // A motor that must be started by hand.
         let drives = |speed: &f64| motor.torque(*speed) * speed > 0.0;
         if asked != 0.0 && motor.marks().iter().any(drives) {
             return Ok(asked.signum());

@@ -1,4 +1,4 @@
-//! What may be a mistake in a machine file, though it can be computed.
+//! Possible mistakes in a machine file that can still be computed.
 
 use jred::Error;
 
@@ -27,7 +27,7 @@ pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     Ok(warnings)
 }
 
-/// Those of the prescribed motion alone: noise and wrong rows of a recording, implausible speeds and accelerations.
+/// Warnings about the prescribed motion only: noise and wrong rows of a recording, implausible speeds and accelerations.
 pub fn of_motion(file: &MachineFile) -> impl Iterator<Item = String> {
     (noise::of(file).into_iter())
         .chain(noise::outlier(file))

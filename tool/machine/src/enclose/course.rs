@@ -1,4 +1,4 @@
-//! Curves over a position in intervals: the cubics of a spline, and what they are between their knots.
+//! Curves over a position in intervals: the cubics of a spline, with enclosures between their knots.
 
 use std::f64::consts::TAU;
 
@@ -8,13 +8,13 @@ use jred_enclosure::{Curves, Form, Interval, Place, factor};
 use crate::model::tabulated::{Course, Direction, Over, Place as Point, Table};
 use crate::number::spline::{Piece, Spline};
 
-/// A curve and its derivative by what it runs over.
+/// A curve and its derivative by its variable.
 struct Found {
     value: Form,
     slope: Form,
 }
 
-/// Adds what a curve stands for to those of the machine.
+/// Adds the represented curve to those of the machine.
 pub(super) fn add(
     curves: &mut Curves,
     course: &Course,
@@ -47,7 +47,7 @@ pub(super) fn add(
         }
         Course::Viscous(curve) => {
             let value = at(curve, &phi).value;
-            // Below zero, by a rounding, it counts as zero.
+            // A value below zero by rounding counts as zero.
             let value = if value.values().lo() < 0.0 {
                 Form::somewhere(Interval::between(0.0, value.values().hi().max(0.0)))
             } else {
@@ -107,7 +107,7 @@ fn force_at(table: &Table, phi: &Form, places: &[Place<Form>]) -> Form {
     if !turns {
         return at(curve, &place).value;
     }
-    // The rows, zero at both ends and beyond, come again with every turn.
+    // The rows, zero at both ends and beyond, repeat with every turn.
     let [from, to] = curve.range();
     let middle = place.at.0[0].middle();
     let turn = ((middle - from) / TAU).floor();
@@ -152,7 +152,7 @@ fn at(curve: &Spline, place: &Form) -> Found {
     joined(&curve.pieces_between(values), place)
 }
 
-/// The cubic in the middle, and how far the others that the stretch reaches are from it there.
+/// The cubic in the middle, and the deviation of the other cubics on the stretch from it.
 fn joined(pieces: &[Piece], place: &Form) -> Found {
     let middle = place.at.0[0].middle();
     let values = place.values();
@@ -165,7 +165,7 @@ fn joined(pieces: &[Piece], place: &Form) -> Found {
             slope: all,
         };
     };
-    // Knots and periods are rounded: a piece may end a little beside what it says.
+    // Knots and periods are rounded: a piece may end slightly beside its nominal end.
     let beside = 1e-14 * (1.0 + values.size());
     let (mut apart, mut apart_slope) = (0.0_f64, 0.0_f64);
     for other in pieces {
@@ -174,7 +174,7 @@ fn joined(pieces: &[Piece], place: &Form) -> Found {
         if low <= high && other != main {
             let u = Form::variable([low, high]);
             let [own, its] = [main, other].map(|piece| polynomials(piece, &u));
-            // As series in the middle of where both are looked at.
+            // As series about the middle of their common range.
             let half = 0.5 * (high - low) + beside;
             let size = |a: Form, b: Form| {
                 let (mut sum, mut power) = (0.0, 1.0);

@@ -1,8 +1,8 @@
-//! The curves of a machine from a machine file in intervals: what a proof of a table's error rests on.
+//! The curves of a machine file's machine in intervals: the basis of a proof of a table's error.
 //!
-//! Two ways lead to where the links are: linkages by the closure of their joints; gear trains, racks, screws and ropes, whose
-//! coordinates go with φ, by one pose. A Geneva drive takes both in turn. Curves over a position, which the machine's own equations have as stand-ins, are added
-//! as what they stand for.
+//! The positions of the links are found in two ways: linkages by the closure of their joints; gear trains, racks, screws and ropes, whose coordinates
+//! are proportional to φ, from one pose. A Geneva drive uses both in turn. Curves over a position, which the machine's equations represent by virtual
+//! links, are added as curves.
 
 mod course;
 
@@ -16,23 +16,23 @@ use std::any::Any;
 use crate::model::mechanism::{AnyMechanism, Inner};
 use crate::model::tabulated::Course;
 
-/// A machine whose curves can be had on any stretch of its range.
+/// A machine whose curves can be enclosed on any stretch of its range.
 pub(crate) struct Enclosed<'m> {
     machine: &'m Machine<AnyMechanism>,
     motion: Motion<'m>,
     courses: Vec<&'m Course>,
-    /// What acts on the mechanism's own links.
+    /// Loads on the mechanism's own links.
     loads: Vec<Load>,
     elements: Vec<Element>,
 }
 
-/// How the mechanism's own links move.
+/// Motion of the mechanism's own links.
 enum Motion<'m> {
-    /// As their joints let them.
+    /// By the closure of their joints.
     Closed(Closure<'m>),
-    /// Every coordinate goes with the drive link's.
+    /// Every coordinate is proportional to the drive link's.
     Geared(&'m dyn Inner),
-    /// Closed on some stretches, and on the others at rest: a Geneva drive.
+    /// Closed on some stretches, at rest on the others: a Geneva drive.
     Indexed(&'m dyn Inner),
 }
 
@@ -82,7 +82,7 @@ impl<'m> Enclosed<'m> {
     /// The curves from one position of the drive link to another.
     ///
     /// # Errors
-    /// A stretch that is too long, or a place that is singular.
+    /// The stretch is too long, or a place on it is singular.
     pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, Unproven> {
         let places = match &self.motion {
             Motion::Closed(closure) => closure.places(stretch)?,
@@ -121,7 +121,7 @@ impl<'m> Enclosed<'m> {
     }
 }
 
-/// Whether all coordinates of a mechanism go with its drive link's.
+/// Whether all coordinates of a mechanism are proportional to the drive link's.
 fn is_geared(mechanism: &dyn Inner) -> bool {
     let any: &dyn Any = mechanism;
     any.is::<RackAndPinion>()
@@ -133,13 +133,13 @@ fn is_geared(mechanism: &dyn Inner) -> bool {
         || any.is::<FrictionDrive>()
 }
 
-/// The links of such a mechanism, from one pose: their rates are the same at all.
+/// The links of such a mechanism, from one pose: their rates are constant.
 fn geared(mechanism: &dyn Inner, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, Unproven> {
     let middle = stretch[0].midpoint(stretch[1]);
     let frames = mechanism
         .frames(middle)
         .map_err(|_| Unproven::Pose { phi: middle })?;
-    // A few roundings of double precision of the largest number that it may be the difference of.
+    // A few rounding errors of the largest number from whose difference it may be computed.
     let parts = |q: jred::number::Transfer| q.value.abs().max(q.d1.abs());
     let sizes = frames.iter().flat_map(|f| [f.x, f.y, f.psi].map(parts));
     let largest = sizes.fold(1.0, f64::max);
@@ -151,7 +151,7 @@ fn geared(mechanism: &dyn Inner, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, 
             let rate = Form::somewhere(number(q.d1));
             away * rate + Form::somewhere(number(q.value))
         };
-        // The centre of the planets turns with their carrier.
+        // The centre of the planets rotates with their carrier.
         let origin = if planets && k == Planetary::PLANETS {
             let carrier = frames.get(Planetary::CARRIER)?;
             let (sin, cos) = at(carrier.psi).sin_cos();

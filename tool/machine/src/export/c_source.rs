@@ -1,4 +1,4 @@
-//! The table as C source: words, and what `jred.h` needs to make functions of them.
+//! The table as C source: words, and the definitions from which `jred.h` makes functions.
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use jred::curves;
@@ -10,7 +10,7 @@ use super::choice::{LayoutName, Number};
 use super::form::rows;
 use super::name::Name;
 
-/// What `jred.h` makes the functions of a machine of.
+/// The definitions from which `jred.h` makes the functions of a machine.
 fn model(name: &str, table: &Candidate) -> String {
     let number = match table.number {
         Number::F32 => "f32",
@@ -18,7 +18,7 @@ fn model(name: &str, table: &Candidate) -> String {
         Number::I16 => "q15",
     };
     let (layout, set) = (table.layout.name().replace('-', "_"), table.curves());
-    // Harmonics with frictions that vary, and slider-cranks with uncommon terms, have too many sets for functions of their own.
+    // Harmonics with varying friction, and slider-cranks with uncommon terms, have too many sets for separate functions.
     let rare = match table.layout {
         LayoutName::Harmonic => curves::VISCOUS | curves::COULOMB,
         LayoutName::SliderCrank => {
@@ -33,7 +33,7 @@ fn model(name: &str, table: &Candidate) -> String {
     }
 }
 
-/// In C++ a constant is seen in its file only, unless it was declared `extern`.
+/// In C++ a constant is local to its file, unless it is declared `extern`.
 fn constant(declaration: &str, value: &str) -> String {
     format!("extern const {declaration};\nconst {declaration} = {value};\n")
 }
@@ -43,8 +43,9 @@ fn array(name: &str, words: &[u32]) -> String {
     constant(&declaration, &format!("{{\n{}}}", rows(words, "u")))
 }
 
-/// A source file of C or C++, compiled or included: once, and with the same names in both. Where `jred.h` was included before, it
-/// has the functions of the machine. Its guard is the digest of what it holds: another file with the same names does not compile beside it, as it would not be read at all.
+/// A source file of C or C++ that may be compiled or included, with the same names in both. If `jred.h` was included before, the file also has the
+/// functions of the machine. Its guard is a digest of its content: another file with the same names then causes a compile error instead of being
+/// skipped.
 fn source(Name(name): &Name, data: &str, functions: &str, cure: &str) -> String {
     let guard = format!("{}_TABLE", name.to_uppercase());
     let digest =
@@ -59,15 +60,15 @@ fn source(Name(name): &Name, data: &str, functions: &str, cure: &str) -> String 
     )
 }
 
-/// What tells two tables of one name apart.
+/// Cure for two tables of one name.
 const OTHER_NAME: &str = "export one of them with another --name";
 
-/// Where `jred.h` was included before.
+/// Only if `jred.h` was included before.
 fn with_jred(functions: &str) -> String {
     format!("#ifdef JRED_H\n{functions}\n#endif\n\n")
 }
 
-/// The identifier that `jred_info` has of an image, and `jred_plan` of a plan, of this machine.
+/// The identifier of this machine, as `jred_info` of an image and `jred_plan` of a plan contain it.
 fn machine_constant(Name(name): &Name, machine: u32) -> String {
     format!(
         "/* Identifier of the machine: that of another in jred_info is another machine's. */\n\
@@ -101,7 +102,7 @@ impl Export {
         source(named, &data, &functions, OTHER_NAME)
     }
 
-    /// A table for each piece, and where each starts.
+    /// A table for each piece, and the start of each.
     pub(super) fn c_pieces(&self, tables: &[Made], named: &Name) -> String {
         let Name(name) = named;
         let mut data = machine_constant(named, self.machine);

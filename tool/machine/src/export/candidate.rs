@@ -1,4 +1,4 @@
-//! What a search gives: the table of one range, and the tables of a machine, one for each of its pieces.
+//! Results of a search: the table of one range, and the tables of a machine, one for each of its pieces.
 
 use jred::table::Usage;
 use jred::tabulate::Tabulated;
@@ -11,7 +11,7 @@ use super::ticks::Ticks;
 /// The table of one range, with its image.
 #[derive(Clone, Debug)]
 pub struct Made {
-    /// Where its range begins and ends (rad, or m).
+    /// Start and end of its range (rad, or m).
     pub range: [f64; 2],
     /// Set of [`curves`](jred::curves).
     pub curves: Set,
@@ -19,17 +19,17 @@ pub struct Made {
     pub found: Tabulated,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
     pub error: f64,
-    /// Its torque error at the places of the search alone (N·m, or N).
+    /// Its torque error at the places of the search only (N·m, or N).
     pub looked: f64,
     /// Accuracy of its ticks.
     pub ticks: Ticks,
-    /// How much of the number range each quantity uses.
+    /// Share of the number range that each quantity uses.
     pub usage: Usage,
     /// Its machine units.
     pub scale: Scale,
     /// Bytes of its rows.
     pub row_bytes: usize,
-    /// What is proven of its error, if that was asked for.
+    /// The proof of its error, if requested.
     pub proof: Option<Proven>,
     /// The image.
     pub words: Vec<u32>,
@@ -74,7 +74,7 @@ impl Candidate {
         self.largest(|table| table.error)
     }
 
-    /// The largest error of the curves (N·m, or N), and where it is (rad, or m).
+    /// The largest error of the curves (N·m, or N), and its position (rad, or m).
     pub fn curve_error(&self) -> (f64, f64) {
         let tables = self
             .tables
@@ -91,18 +91,18 @@ impl Candidate {
         all.fold(Ticks::default(), Ticks::or_worse)
     }
 
-    /// How much of the number range each quantity uses at most.
+    /// Largest share of the number range that each quantity uses.
     pub fn usage(&self, quantity: fn(&Usage) -> f32) -> f32 {
         let all = self.tables.iter().map(|table| quantity(&table.usage));
         all.fold(0.0, f32::max)
     }
 
-    /// Set of [`curves`](jred::curves), which all tables share.
+    /// Set of [`curves`](jred::curves), common to all tables.
     pub fn curves(&self) -> Set {
         self.tables.first().map_or(0, |table| table.curves)
     }
 
-    /// The machine units, which all tables share.
+    /// The machine units, common to all tables.
     pub fn scale(&self) -> Scale {
         self.tables.first().map_or(Scale::SI, |table| table.scale)
     }
@@ -117,18 +117,18 @@ impl Candidate {
 pub enum Answer<T = Candidate> {
     /// Meets the request.
     Meets(Box<T>),
-    /// Even the best one does not meet the request.
+    /// Even the best table does not meet the request.
     Misses(Box<T>),
-    /// No size gives a usable table; the reason for the last one.
+    /// No size gives a usable table; the reason at the last one.
     Refused(Error),
-    /// No size that may be tried gives a usable table: the reason for the last one, and a larger number of cells that does.
+    /// No allowed size gives a usable table: the reason at the last one, and a larger number of cells that does.
     TooCoarse(Error, u32),
-    /// The smallest image does not fit; its bytes.
+    /// The smallest image does not fit; its size in bytes.
     TooLarge(usize),
 }
 
 impl<T> Answer<T> {
-    /// Why it is not taken, in a few words; nothing where it meets what is asked for.
+    /// Why it is not chosen, in a few words; empty if it meets the request.
     pub const fn remark(&self) -> &'static str {
         match self {
             Self::Meets(_) => "",
@@ -141,7 +141,7 @@ impl<T> Answer<T> {
 }
 
 impl Answer<Made> {
-    /// The answer of all pieces together: what one of them lacks, they all lack.
+    /// The result of all pieces together: a failure of one piece is a failure of all.
     pub(super) fn together(pieces: Vec<Self>, number: Number, layout: LayoutName) -> Answer {
         let mut tables = Vec::with_capacity(pieces.len());
         let mut meets = true;

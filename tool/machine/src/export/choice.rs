@@ -46,7 +46,7 @@ pub enum LayoutName {
 }
 
 crate::words! {
-    /// Which layout is asked for.
+    /// The requested layout.
     pub enum LayoutChoice default Auto {
         /// One of the fastest on the core; with --max-bytes that with the fewest bytes.
         Auto = "auto",
@@ -101,7 +101,7 @@ impl Number {
         }
     }
 
-    /// Whether numbers are per-unit, and forward dynamics can do without a division.
+    /// Whether numbers are per-unit, so that forward dynamics can avoid a division.
     pub const fn is_fixed(self) -> bool {
         !matches!(self, Self::F32)
     }
@@ -170,7 +170,7 @@ impl LayoutName {
         }
     }
 
-    /// What its size is counted in.
+    /// Unit of its size.
     pub const fn counted(self) -> &'static str {
         match self {
             Self::Harmonic => "harmonics",
@@ -179,7 +179,7 @@ impl LayoutName {
         }
     }
 
-    /// The format in Rust, of this number type.
+    /// The Rust type of the format for this number type.
     pub fn type_name(self, number: Number) -> String {
         let number = number.scalar();
         match self {
@@ -213,7 +213,7 @@ impl LayoutChoice {
         }
     }
 
-    /// Whether this layout may be taken.
+    /// Whether this layout may be chosen.
     pub fn allows(self, layout: LayoutName) -> bool {
         match self {
             Self::Auto => layout != LayoutName::Harmonic,

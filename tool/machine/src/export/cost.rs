@@ -1,11 +1,11 @@
-//! What a torque costs on a core: instructions from an encoder's count, as measured.
+//! The measured cost of a torque on a core: instructions from an encoder's count.
 
 use super::choice::{LayoutName, Number};
 
-/// The ceilings of `cargo xtask perf --user`, which no call exceeds, whatever its arguments.
+/// The ceilings of `cargo xtask perf --user`, which no call exceeds for any arguments.
 const CEILINGS: &str = include_str!("../../../../benches/ceilings.txt");
 
-/// What a slower table may take more than the fastest one, if it has fewer bytes: a tenth.
+/// Divisor of the fastest table's instructions: a table with fewer bytes may take a tenth more.
 const AS_FAST: u32 = 10;
 
 crate::words! {
@@ -33,7 +33,7 @@ impl Core {
         }
     }
 
-    /// Its name among the ceilings, and that of the program compiled for it.
+    /// Its name among the ceilings, and the name of the program compiled for it.
     const fn measured(self) -> [&'static str; 2] {
         match self {
             Self::M0 => ["cortex-m0", "user-release"],
@@ -43,8 +43,8 @@ impl Core {
         }
     }
 
-    /// Instructions at most from a count of an encoder to a torque, with a load, a curve of Coulomb friction and a constant viscous one; `None`
-    /// of harmonics, whose ticks take what their number makes of it.
+    /// Largest number of instructions from an encoder's count to a torque, with a load, a curve of Coulomb friction and a constant viscous one;
+    /// `None` for harmonics, whose ticks depend on their number.
     pub fn instructions(self, number: Number, layout: LayoutName) -> Option<u32> {
         let model = match (number, layout) {
             (_, LayoutName::Harmonic) => return None,
@@ -68,7 +68,7 @@ impl Core {
     }
 }
 
-/// The largest cost that is as good as the fastest.
+/// The largest cost that counts as equal to the fastest.
 pub(super) fn as_fast(fastest: u32) -> u32 {
     fastest.saturating_add(fastest / AS_FAST)
 }
@@ -77,8 +77,7 @@ pub(super) fn as_fast(fastest: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// Every core has a figure for every table that is chosen by it, and no fixed-point table is slower than the spline in software's single
-    /// precision.
+    /// Every core has a figure for every table chosen by it, and no fixed-point table is slower than the spline in software's single precision.
     #[test]
     fn every_table_has_a_cost() {
         for core in [Core::M0, Core::M3, Core::M4f, Core::M7] {

@@ -1,4 +1,4 @@
-//! Why no table meets the request: what each layout reaches, the obstacle, and the cure.
+//! Why no table meets the request: the result of each layout, the obstacle, and the cure.
 
 use std::fmt::Write as _;
 
@@ -29,7 +29,7 @@ pub(super) struct NotReached<'f> {
 enum Limit {
     /// The number type.
     Rounding,
-    /// The number of cells: the power of it by which the error falls, if it falls.
+    /// The number of cells: the error falls with this power of it, if it falls.
     Cells(Option<f64>),
 }
 
@@ -43,7 +43,7 @@ impl NotReached<'_> {
             })
             .map(|(_, _, answer)| answer)
             .collect();
-        // What harmonics cannot do, they say themselves.
+        // Harmonics have their own messages.
         if let [
             Answer::Refused(error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod))),
         ] = own[..]
@@ -76,7 +76,7 @@ impl NotReached<'_> {
             if let Some(text) = self.too_coarse() {
                 return Ok(Failure::NotReached(text));
             }
-            // Refused, every one of them.
+            // All are refused.
             let refused = own.iter().find_map(|answer| match answer {
                 Answer::Refused(error) => Some(*error),
                 _ => None,
@@ -99,7 +99,7 @@ impl NotReached<'_> {
         }
     }
 
-    /// Where more cells than may be tried make a table of every layout that is asked for: which of them, and how many cells.
+    /// If a larger number of cells than allowed would give a table of each requested layout: which layouts, and how many cells.
     fn too_coarse(&self) -> Option<String> {
         let coarse = self.answers.iter().filter_map(|(number, layout, answer)| {
             let asked = *number == self.task.number && self.task.layout.allows(*layout);
@@ -168,7 +168,7 @@ impl NotReached<'_> {
                         "; the error falls with the number of cells to the power of {order:.1}"
                     );
                     let needed = f64::from(cells) * (error / allowed).powf(1.0 / order);
-                    // Where less than what was tried would do by this, there is more to the error than its order.
+                    // If fewer cells than were tried would suffice by this, the error does not follow its order.
                     if round_up(needed.min(1e9)) <= self.task.max_cells {
                         text += " so far, but does not reach the error asked for";
                     } else if needed <= f64::from(MAX_CELLS) {
@@ -208,7 +208,7 @@ impl NotReached<'_> {
             if let Some(found) = &found {
                 let _ = write!(text, ": {}", found.words);
             } else {
-                // With more cells the error decreases where the curve is smooth, so that a kink stands out.
+                // With more cells the error decreases where the curve is smooth, so that a kink becomes visible.
                 let finer = (4 * cells).min(MAX_CELLS);
                 let (_, worst) = piece.without_rounding(finer)?;
                 found = self.feature(&piece, worst, finer)?;
@@ -235,7 +235,7 @@ impl NotReached<'_> {
         Ok(text)
     }
 
-    /// The range in which these tables miss most.
+    /// The range with the largest excess.
     fn worst<'a>(&'a self, candidate: &'a Candidate) -> Option<Worst<'a>> {
         let ranges = self.search.ranges.iter().zip(&candidate.tables);
         let (search, table) = ranges.max_by(|a, b| a.1.error.total_cmp(&b.1.error))?;
@@ -246,7 +246,7 @@ impl NotReached<'_> {
         })
     }
 
-    /// Which piece of several a table is.
+    /// Names the piece of a table among several.
     fn piece(&self, table: &Made) -> String {
         let [from, to] = table.range.map(|end| self.coordinate.place(end));
         match self.search.ranges.len() {
@@ -259,7 +259,7 @@ impl NotReached<'_> {
     fn feature(&self, piece: &Worst<'_>, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
         let near = 1.5 * piece.search.domain.span() / f64::from(cells);
         let found = feature(self.file, self.search.machine, self.coordinate, at, near)?;
-        // In pieces it is what they are cut at.
+        // For pieces, the cure is a cut there.
         let cure = |feature: Feature| match self.search.ranges.len() {
             1 => feature,
             _ => Feature {
@@ -334,7 +334,7 @@ impl NotReached<'_> {
     }
 }
 
-/// The range in which the tables of a layout miss most.
+/// The range in which the tables of a layout exceed the error most.
 struct Worst<'f> {
     search: &'f Search<'f>,
     table: &'f Made,
@@ -342,10 +342,10 @@ struct Worst<'f> {
 }
 
 impl Worst<'_> {
-    /// The torque error in double precision, and where it is largest.
+    /// The torque error in double precision, and its position.
     fn without_rounding(&self, cells: u32) -> Result<(f64, f64), Error> {
         match self.layout {
-            // Harmonics and closed forms are not asked: see `limit`.
+            // Harmonics and closed forms are excluded: see `limit`.
             LayoutName::Spline
             | LayoutName::Spline16
             | LayoutName::Harmonic
@@ -358,12 +358,12 @@ impl Worst<'_> {
     }
 
     fn limit(&self, task: &Task) -> Result<Limit, Error> {
-        // Of what is there, or of what is allowed, rounding may make up so much.
+        // Share of the actual or of the allowed error from which rounding is the obstacle.
         const SHARE: f64 = 0.5;
         if self.layout == LayoutName::SliderCrank {
             return Ok(Limit::Rounding);
         }
-        // As many coefficients as it takes: their ticks miss, or an edge.
+        // With any number of coefficients: their ticks are too inaccurate, or there is an edge.
         if self.layout == LayoutName::Harmonic {
             let ticks = self.table.looked <= task.torque_error.unwrap_or_default();
             return Ok(if ticks {
@@ -375,13 +375,13 @@ impl Worst<'_> {
         let without = |cells| self.without_rounding(cells).map(|(error, _)| error);
         let cells = self.table.found.cells;
         let (bound, error) = (self.table.looked, without(cells)?);
-        // More cells were tried and were worse, though the curves themselves come closer.
+        // More cells were tried and were worse, although the curves themselves are closer.
         let larger = cells + cells.div_ceil(4) <= task.max_cells;
         let closer = larger && without(task.max_cells)? < SHARE * bound;
         if closer || error < SHARE * bound {
             return Ok(Limit::Rounding);
         }
-        // The largest error of a curve with a kink swings with the place of the kink in its cell: the mean of a few sizes.
+        // The largest error of a curve with a kink fluctuates with the place of the kink in its cell: the mean of a few sizes.
         let mean = |cells: u32| -> Result<f64, Error> {
             let sizes = [
                 cells,

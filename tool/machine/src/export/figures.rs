@@ -79,7 +79,7 @@ pub(super) fn rust_arguments(table: &Candidate) -> String {
     format!("{format}, {{ {set} }}")
 }
 
-/// The same with the crate's name before every name, for a file that imports nothing.
+/// The same with the crate's name before every name, for a file without imports.
 pub(super) fn full_rust_arguments(table: &Candidate) -> String {
     let mut text = format!("jred::{}", rust_arguments(table));
     for (name, full) in [
@@ -259,7 +259,7 @@ impl Export {
         ))
     }
 
-    /// What a closed form costs, and how to have a table.
+    /// The cost of a closed form, and how to get a table.
     fn closed(&self) -> String {
         let core = self.task.core;
         let of = |layout| core.instructions(Number::F32, layout).unwrap_or_default();
@@ -277,7 +277,7 @@ impl Export {
         )
     }
 
-    /// Where the pieces are, and what each takes.
+    /// The ranges of the pieces, and the size of each.
     fn pieces(&self, chosen: &Candidate) -> String {
         let mut text = format!(
             "in Rust: {} pieces, {}\n",

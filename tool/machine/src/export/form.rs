@@ -26,8 +26,8 @@ crate::words! {
 const INDENT: &str = "    ";
 
 impl Export {
-    /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with that of the file `out`; in Rust it is a module `name`, or
-    /// has none, because its file is one.
+    /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with the name of the file `out`.
+    /// In Rust it is in a module `name`, or at the top level of its file.
     pub fn write(&self, form: Form, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
         let tables = &self.chosen().tables;
         let named = name.cloned().unwrap_or_else(|| Name::of_file(out));
@@ -76,7 +76,7 @@ impl Export {
         )
     }
 
-    /// A table for each piece, and a function that puts them together.
+    /// A table for each piece, and a function that combines them.
     fn rust_pieces(&self, tables: &[Made]) -> String {
         let arguments = full_rust_arguments(self.chosen());
         let mut text = format!(
@@ -115,9 +115,9 @@ impl Export {
     }
 }
 
-// `include_image!` and these arrays are aligned as the words are; rows of a power of two then do not cross cache lines.
+// Arrays are as aligned as with `include_image!`, so that rows of a power of two do not cross cache lines.
 
-/// Code of Rust as a module of this name.
+/// Rust code as a module of this name.
 fn module(name: Option<&Name>, code: &str) -> String {
     let Some(name) = name else {
         return code.to_owned();

@@ -1,4 +1,4 @@
-//! The fewest harmonics that meet a torque error, or the most exact ones for their bytes.
+//! The fewest harmonics that meet a torque error, or the most accurate ones for their bytes.
 
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
 use jred::image::{encode, image_len};
@@ -14,14 +14,14 @@ use super::ticks;
 
 type F = Harmonic<f32>;
 
-/// How often a smaller error is asked for, because ticks in single precision miss the one that is allowed.
+/// How often the required error is reduced because ticks in single precision exceed the allowed one.
 const ATTEMPTS: u32 = 8;
 
 impl Search<'_> {
     /// The harmonics of this range.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn harmonics(&self) -> Result<Answer<Made>, Error> {
         let most = self.goal.max_cells.min(MAX_HARMONICS);
         let mut scratch = vec![0.0; scratch_len(most)];
@@ -40,8 +40,8 @@ impl Search<'_> {
         let Some(most) = (0..=most).rev().find(fits) else {
             return Ok(Answer::TooLarge(bytes(0)));
         };
-        // Without a limit each number of harmonics has an error that it just reaches: halves of the largest torque, until none
-        // do. With one it is asked for a little less, again and again.
+        // Without a limit on the torque error, the tolerance starts at the largest torque and is halved until even the most harmonics miss it.
+        // With a limit it is reduced slightly, repeatedly.
         let [omega, alpha] = self.goal.range;
         let peak = |place: &super::reference::Place| place.exact.torque(omega, alpha).total().abs();
         let peaks = self.reference.places.iter().map(peak);
@@ -77,7 +77,7 @@ impl Search<'_> {
         })
     }
 
-    /// The fewest harmonics whose coefficients meet this error, and how exact their ticks are.
+    /// The fewest harmonics whose coefficients meet this error, and the accuracy of their ticks.
     fn fitted(&self, set: Set, most: u32, torque_error: f64) -> Result<Made, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)

@@ -1,5 +1,5 @@
-//! `jred export`: the smallest table that meets a torque error, or the best one for its bytes, as an image or as source
-//! code, beside what other number types and layouts would take.
+//! `jred export`: the smallest table that meets a torque error, or the best one for its bytes, as an image or as source code, with a comparison of
+//! other number types and layouts.
 
 mod c_source;
 mod candidate;
@@ -54,13 +54,13 @@ pub struct Task {
     pub number: Number,
     /// Layout.
     pub layout: LayoutChoice,
-    /// The core that the firmware runs on: of the layouts that meet the error, one with the fewest instructions there is taken.
+    /// The core that the firmware runs on: of the layouts that meet the error, one with the fewest instructions there is chosen.
     pub core: Core,
-    /// Whether the firmware asks for accelerations, too.
+    /// Whether the firmware also needs accelerations.
     pub forward: bool,
     /// Whether fixed-point tables get the curve of 1/J.
     pub reciprocal: bool,
-    /// Largest error of the drive torque (N·m, or N); without one, the least that is possible.
+    /// Largest error of the drive torque (N·m, or N); without it, the least possible one.
     pub torque_error: Option<f64>,
     /// Most bytes of the image.
     pub max_bytes: Option<u32>,
@@ -72,9 +72,9 @@ pub struct Task {
     pub alpha: f64,
     /// Inertia of rotor and gearbox at the input of the drive train (kg·m²).
     pub rotor: f64,
-    /// Where pieces with a table each meet (rad, or m); none for one table of the whole range.
+    /// Borders of pieces with a table each (rad, or m); empty for one table of the whole range.
     pub edges: Vec<f64>,
-    /// Identifier of the machine in the image; if not given, that of the title.
+    /// Identifier of the machine in the image; if not given, derived from the title.
     pub machine: Option<u32>,
 }
 
@@ -87,13 +87,13 @@ impl Task {
     }
 }
 
-/// Part of the range that a piece must at least have: [`Pieces`](jred::Pieces) takes no shorter one.
+/// Smallest piece as a share of the range: [`Pieces`](jred::Pieces) accepts no shorter one.
 const SHORTEST: f64 = 1.0 / 65_536.0;
 
 /// Most cells of all pieces together: their tables of every type and layout take 130 MB.
 const MOST_CELLS: usize = 1 << 19;
 
-/// A table ready to be written, and those of the other types and layouts.
+/// A table ready to be written, and the results of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
     title: String,
@@ -105,13 +105,13 @@ pub struct Export {
     task: Task,
     /// Identifier of the machine.
     machine: u32,
-    /// Branches of the drive train, whose losses and friction no table contains.
+    /// Branches of the drive train, whose losses and friction are in no table.
     branches: Vec<String>,
-    /// Whether loads go by the direction of travel.
+    /// Whether loads depend on the direction of travel.
     by_direction: bool,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
-    /// Which of them was chosen.
+    /// Index of the chosen one.
     pub chosen: usize,
 }
 
@@ -122,7 +122,7 @@ pub enum Failure {
     Machine(Error),
     /// No table meets the torque error: the obstacle and the cure.
     NotReached(String),
-    /// What is asked for cannot be: the bytes are too few, or a piece is too short.
+    /// The request is impossible: too few bytes, or a piece that is too short.
     Impossible {
         /// Message.
         message: String,
@@ -137,7 +137,7 @@ impl<E: Into<Error>> From<E> for Failure {
     }
 }
 
-/// Refuses what goes by the motion.
+/// Refuses loads that depend on the motion.
 fn check_timeless(file: &MachineFile) -> Result<(), Failure> {
     if let Some(ByMotion { what, cure }) = file.not_by_direction().next() {
         return Err(Failure::Impossible {
@@ -157,12 +157,12 @@ impl Export {
     /// Searches for the requested table and its alternatives.
     ///
     /// # Errors
-    /// A machine that cannot be tabulated; no table that meets what is asked for.
+    /// The machine cannot be tabulated, or no table meets the request.
     pub fn new(file: &MachineFile, task: Task) -> Result<Self, Failure> {
         Self::found(file, task, false)
     }
 
-    /// The same; `provable` leaves out what only `auto` would take and no proof is of.
+    /// The same; `provable` excludes layouts that only `auto` would choose and that cannot be proven.
     fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
         check_timeless(file)?;
         let machine = BothWays::new(file, &task)?;
@@ -202,7 +202,7 @@ impl Export {
                 help: format!("use --max-cells {} or fewer", MOST_CELLS / pieces.len()),
             });
         }
-        // A closed form is of the whole turn.
+        // A closed form covers the whole turn.
         let crank = slider_crank::plain(machine.same());
         if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
             return Err(why.failure(file));
@@ -213,7 +213,7 @@ impl Export {
         let mut answers = Vec::new();
         for number in Number::ALL {
             for &layout in number.layouts() {
-                // Harmonics are only looked for where they are asked for.
+                // Harmonics are only searched on request.
                 if layout == LayoutName::Harmonic && task.layout != LayoutChoice::Harmonic {
                     continue;
                 }
@@ -264,10 +264,10 @@ impl Export {
         self.task.core
     }
 
-    /// The table that was chosen.
+    /// The chosen table.
     ///
     /// # Panics
-    /// Never: what was chosen is a table.
+    /// Never: the chosen answer is a table.
     pub fn chosen(&self) -> &Candidate {
         let answer = self.answers.get(self.chosen).map(|(_, _, answer)| answer);
         match answer {
@@ -276,7 +276,7 @@ impl Export {
         }
     }
 
-    /// The table, if there is one of the whole range.
+    /// The table, if it covers the whole range.
     fn whole(&self) -> Option<&Made> {
         let table = self.chosen().tables.first();
         table.filter(|_| !self.in_pieces)
@@ -287,19 +287,19 @@ impl Export {
         self.domain.phase(table.range[0])
     }
 
-    /// The largest speed of the drive link that it was made for.
+    /// The largest drive link speed of the request.
     pub const fn omega(&self) -> f64 {
         self.task.omega
     }
 }
 
-/// The identifier of a machine with this title: its CRC-32, that of the image. Machines without a title have none.
+/// The identifier of a machine with this title: its CRC-32, as in the image. Machines without a title have no identifier.
 pub fn identifier(title: &str) -> u32 {
     Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(title.as_bytes())
 }
 
-/// The fastest that meets the error: of those that take up to a tenth more instructions than the fastest on the core, the fewest bytes. With a
-/// limit of bytes the fewest bytes; without a required error, the least error. Of equal ones, the more accurate.
+/// The fastest table that meets the error: of those with up to a tenth more instructions than the fastest on the core, the one with the fewest bytes.
+/// With a limit of bytes, the fewest bytes; without a required error, the least error. Of equal ones, the more accurate.
 fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
     let own = answers.iter().enumerate().filter_map(|(k, answer)| {
         let (number, layout, Answer::Meets(candidate)) = answer else {

@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The name of a table in a program: a word of C and of Rust, with which the names of a source file begin.
+/// The name of a table in a program: a word of C and of Rust, as prefix of the names in a source file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(pub(super) String);
 
-/// How names of the library begin, in C with an underscore behind.
+/// Prefix of the library's names, in C followed by an underscore.
 const LIBRARY: &str = "jred";
 
-/// Words that Rust has for itself, of those that a name can be.
+/// Reserved words of Rust, of those that a name could be.
 const RUST: [&str; 50] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
     "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
@@ -20,17 +20,17 @@ const RUST: [&str; 50] = [
 ];
 
 impl Name {
-    /// That of a file, without its ending: what is no letter or digit becomes an underscore; letters that C does not have become their numbers in
-    /// Unicode, so that two names differ.
+    /// The name of a file without its extension. Characters other than letters and digits become underscores; letters outside ASCII become their
+    /// Unicode numbers, so that two names differ.
     pub fn of_file(file: &str) -> Self {
         let stem = Path::new(file).file_stem().unwrap_or_default();
         Self(word(&stem.to_string_lossy()))
     }
 
-    /// A name that was given.
+    /// A given name.
     ///
     /// # Errors
-    /// One that is no word of C or of Rust: why, and one that is.
+    /// The text is not a word of C and of Rust: the reason, and a valid name.
     pub fn new(text: &str) -> Result<Self, (String, Self)> {
         let is_word = text.starts_with(|c: char| c.is_ascii_alphabetic())
             && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -53,13 +53,13 @@ impl Name {
         Ok(Self(text.to_owned()))
     }
 
-    /// As it is written.
+    /// The name as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 }
 
-/// The nearest word that is a name.
+/// The nearest valid name.
 fn word(text: &str) -> String {
     let mut name = String::new();
     for c in text.chars() {
@@ -90,7 +90,7 @@ mod tests {
             ("3 axis.toml", "machine_3_axis"),
             ("<stdin>", "machine__stdin_"),
             ("", "machine_"),
-            // Of equal length, and not of one name: 冲 is U+51B2, 床 U+5E8A, 压 U+538B, 机 U+673A.
+            // Of equal length, but different: 冲 is U+51B2, 床 U+5E8A, 压 U+538B, 机 U+673A.
             ("\u{51b2}\u{5e8a}.h", "u51b2u5e8a"),
             ("\u{538b}\u{673a}.h", "u538bu673a"),
         ] {

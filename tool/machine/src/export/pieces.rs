@@ -1,4 +1,4 @@
-//! The ranges of a machine's tables: all of it, or the pieces between its edges.
+//! The ranges of a machine's tables: the whole range, or the pieces between its edges.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -14,14 +14,14 @@ use super::reference::Range;
 use super::search::{Goal, Search};
 use super::ways::BothWays;
 
-/// Edges that are closer than this part of the range are one.
+/// Edges closer than this share of the range are one.
 const SAME: f64 = 1e-9;
 
-/// Most knots that the searches of all pieces remember: 160 MB.
+/// Most knots that are cached over the searches of all pieces: 160 MB.
 const MOST_KNOTS: usize = 1 << 20;
 
-/// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end.
-/// None where there is no edge inside. Edges are rounded to phases, as firmware finds the piece by them.
+/// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end; empty without an edge inside.
+/// Edges are rounded to phases, because firmware selects the piece by them.
 pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
     let same = SAME * domain.span();
     let phase = |edge: &f64| f64::from(domain.phase(*edge).to_bits()) / 4_294_967_296.0;
@@ -31,7 +31,7 @@ pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
         .collect();
     match domain {
         Domain::Turn => {
-            // What is just before a turn is its beginning.
+            // An edge just before a whole turn is at its start.
             for edge in edges.iter_mut().filter(|edge| TAU - **edge < same) {
                 *edge = 0.0;
             }
@@ -54,7 +54,7 @@ pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
 /// The searches of all ranges of a machine: of the whole, or of each piece.
 pub(super) struct Searches<'m> {
     pub(super) machine: &'m BothWays,
-    /// The same, if it has a closed form.
+    /// The same machine in closed form, if it has one.
     pub(super) crank: Option<Machine<SliderCrank>>,
     pub(super) goal: Goal,
     set: Set,
@@ -62,10 +62,10 @@ pub(super) struct Searches<'m> {
 }
 
 impl<'m> Searches<'m> {
-    /// Of these pieces, or of the whole range if there is none.
+    /// Searches of these pieces, or of the whole range if there are no pieces.
     ///
     /// # Errors
-    /// A machine that cannot be tabulated.
+    /// The machine cannot be tabulated.
     pub(super) fn new(
         machine: &'m BothWays,
         crank: Option<Machine<SliderCrank>>,
@@ -97,7 +97,7 @@ impl<'m> Searches<'m> {
     /// The tables of this type and layout.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn run<F: Format>(
         &self,
         number: Number,
@@ -111,7 +111,7 @@ impl<'m> Searches<'m> {
         let set = self.set | reciprocal;
         let mut scale = number.scale(self.machine, self.goal.range)?;
         let mut steps = vec![None; self.ranges.len()];
-        // Pieces share their machine units, which here go with the width of a cell.
+        // Pieces share their machine units, which here depend on the width of a cell.
         if F::WHOLE_FACTOR && self.ranges.len() > 1 {
             let span = self.machine.domain().span();
             let shares = self.ranges.iter().map(|range| range.domain.span() / span);
@@ -130,17 +130,17 @@ impl<'m> Searches<'m> {
     /// The harmonics of each range.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn harmonics(&self) -> Result<Answer, Error> {
         let answers = self.ranges.iter().map(Search::harmonics);
         let answers = answers.collect::<Result<_, Error>>()?;
         Ok(Answer::together(answers, Number::F32, LayoutName::Harmonic))
     }
 
-    /// The closed form of a machine that has one.
+    /// The closed form, if the machine has one.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn slider_crank(&self) -> Result<Answer, Error> {
         let ranges = self.ranges.iter().zip(&self.crank);
         let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
@@ -153,14 +153,14 @@ impl<'m> Searches<'m> {
     }
 }
 
-/// A number of cells for the whole range, whose width is the common one, and for each piece (by its share of the range) the
-/// fewest cells of this width or a whole part of it that fill the piece: the number of least cells in all.
+/// A number of cells for the whole range, which defines a common width, and for each piece (given as a share of the range) the fewest cells of this
+/// width, or of a whole part of it, that fill the piece. The number with the fewest cells in total is chosen.
 fn common_cells(shares: &[f64]) -> Option<(u32, Vec<u32>)> {
-    /// Machine units grow less for narrower cells, but the whole parts have less choice.
+    /// Machine units grow less for narrower cells, but then there are fewer whole parts to choose from.
     const TOTAL: RangeInclusive<u32> = 16..=64;
-    /// Of a length: edges are rounded to phases, and a model takes a velocity factor that is whole to 1e-6.
+    /// Relative tolerance: edges are rounded to phases, and a model accepts a velocity factor that is whole to 1e-6.
     const WHOLE: f64 = 6e-7;
-    // All shares as whole parts of one number, the shortest being at least one of them.
+    // All shares as whole parts of one number, the shortest at least one part.
     let whole = |parts: u32| {
         let shares = shares.iter().map(|share| {
             let exact = share * f64::from(parts);
@@ -197,7 +197,7 @@ mod tests {
         let last = [TAU - 0.5, TAU + 1.0];
         assert_eq!(turn.len(), 3);
         for (piece, expected) in turn.iter().zip([[1.0, 2.0], [2.0, TAU - 0.5], last]) {
-            // A unit of a phase.
+            // One unit of a phase.
             let near = |k: usize| (piece[k] - expected[k]).abs() < 1.5e-9;
             assert!(near(0) && near(1), "{piece:?}");
         }
@@ -205,7 +205,7 @@ mod tests {
         let stroke = between(domain, &edges);
         assert_eq!(stroke.len(), 2);
         assert!((stroke[0][1] - 1.0).abs() < 1e-9 && (stroke[1][0] - 1.0).abs() < 1e-9);
-        // With its ends alone it is not cut.
+        // Its ends alone do not cut it.
         assert!(between(domain, &[0.0, 1.5]).is_empty());
     }
 
@@ -215,7 +215,7 @@ mod tests {
         let shares = [630.0, 1.0, 88.0, 1.0].map(|halves| halves / 720.0);
         let (total, steps) = common_cells(&shares).unwrap();
         for (share, step) in shares.iter().zip(&steps) {
-            // A cell of the piece is a whole part of the common one, and with fewer cells it would not be.
+            // A cell of the piece is a whole part of the common one; with fewer cells it would not be.
             let parts = |cells: u32| f64::from(cells) / (share * f64::from(total));
             let is_whole = |x: f64| (x - x.round()).abs() < 1e-9;
             assert!(is_whole(parts(*step)), "{total} {steps:?}");
@@ -225,7 +225,7 @@ mod tests {
             );
         }
         assert!(steps.iter().sum::<u32>() < 80, "{total} {steps:?}");
-        // Shorter than any part is long, but by more than a rounding.
+        // Not a whole part, by more than rounding.
         let odd = 1.618_033_988_749_895e-4;
         assert_eq!(common_cells(&[odd, 1.0 - odd]), None);
     }

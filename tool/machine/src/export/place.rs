@@ -16,7 +16,7 @@ pub(super) struct Feature {
     pub(super) cure: Option<String>,
 }
 
-/// How far apart two positions are, the turn taken into account.
+/// Distance of two positions, across a whole turn if that is shorter.
 fn distance(domain: Domain, a: f64, b: f64) -> f64 {
     let apart = (a - b).abs();
     match domain {
@@ -91,7 +91,7 @@ fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> 
     })
 }
 
-/// What messages call a curve.
+/// Name of a curve in messages.
 type Name = fn(Coordinate) -> String;
 
 /// A curve of the reduced machine.
@@ -140,8 +140,8 @@ fn jump_or_kink(
     Ok(None)
 }
 
-/// Where a function steps within an interval: the part whose difference is least like those beside it, again and again; a step
-/// is what keeps its size. Not looked at closer than `finest`.
+/// Finds a step of a function within an interval: repeatedly selects the part whose difference deviates most from its neighbours. A step keeps its
+/// size. The search ends at `finest`.
 fn narrow(
     f: &impl Fn(f64) -> Result<f64, Error>,
     [mut from, mut to]: [f64; 2],
@@ -149,7 +149,7 @@ fn narrow(
 ) -> Result<Option<f64>, Error> {
     const PARTS: u32 = 16;
     const DEPTH: u32 = 8;
-    // An interval of three parts of the one before shows a smooth curve 150 times, a kink 5 times smaller.
+    // In an interval of three parts of the last one, the value is 150 times smaller for a smooth curve, 5 times for a kink.
     const KEPT: f64 = 0.5;
     let mut first = None;
     for depth in 0..DEPTH {
@@ -168,7 +168,7 @@ fn narrow(
         let Some((k, step)) = best.max_by(|a: &(u32, f64), b| a.1.total_cmp(&b.1)) else {
             return Ok(None);
         };
-        // Only rounding errors, or smooth.
+        // Only rounding, or smooth.
         if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
             return Ok(None);
         }

@@ -2,7 +2,7 @@
 
 use super::form::rust_table;
 
-/// The words of a plan as a `static` array, with the identifier of its machine; `title` says what it is.
+/// The words of a plan as a `static` array, with the identifier of its machine; `title` describes it.
 pub fn plan_source(title: &str, machine: u32, words: &[u32]) -> String {
     format!(
         "// {}\n\n\

@@ -15,22 +15,22 @@ use crate::enclose::Enclosed;
 use crate::model::machine::MachineFile;
 use crate::number::rounding::{bound, rounded};
 
-/// What of the torque error allowed is too small to look closer at.
+/// Share of the allowed torque error below which refinement is unnecessary.
 const NEGLIGIBLE: f64 = 1e-3;
-/// The same without one, as a share of the largest torque.
+/// The same without an allowed error, as a share of the largest torque.
 const SHARE: f64 = 1e-9;
 
-/// What came of a proof.
+/// Result of a proof.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Proven {
     /// The error is bounded.
     Bounded(Proof),
-    /// It could not be.
+    /// It could not be bounded.
     Open(Unproven),
 }
 
 impl Proven {
-    /// The bound: of the ticks, or of the table where nothing is proven of the tick's arithmetic.
+    /// The bound: of the ticks, or of the table if the tick's arithmetic is not proven.
     pub fn bound(&self) -> Option<f64> {
         match self {
             Self::Bounded(proof) => Some(proof.ticked.unwrap_or(proof.bound)),
@@ -39,12 +39,12 @@ impl Proven {
     }
 }
 
-/// How often a smaller table error is asked for, because the proven one is above what is allowed.
+/// How often the required table error is reduced because the proven one exceeds the allowed one.
 const ATTEMPTS: u32 = 4;
 
 impl Export {
-    /// As [`new`](Self::new), with a proof of the table's error; of a slider-crank in closed form only if it is asked for, because it is not proven. A table whose proven error is above the one allowed is searched for again, with a
-    /// smaller one asked for; the last is what there is.
+    /// As [`new`](Self::new), with a proof of the table's error. A slider-crank in closed form is used only on request, because it cannot be proven.
+    /// If the proven error of a table exceeds the allowed one, the search is repeated with a smaller required error; the last table is returned.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -62,7 +62,7 @@ impl Export {
             };
             let mut export = match (Self::found(file, smaller, true), last) {
                 (Ok(export), _) => export,
-                // Nothing meets the smaller one.
+                // No table meets the smaller error.
                 (Err(_), Some(last)) => return Ok(last),
                 (Err(why), None) => return Err(why),
             };
@@ -78,17 +78,17 @@ impl Export {
         last.ok_or_else(|| Failure::NotReached(String::new()))
     }
 
-    /// How many times the error allowed the proven one is, if it is larger.
+    /// Ratio of the proven and the allowed error, if larger than 1.
     pub fn excess(&self) -> Option<f64> {
         let above = self.proof()?.bound()? / self.task.torque_error?;
         (above > 1.0).then_some(above)
     }
 
-    /// Proves the error of the table that was chosen, or of each of its pieces, and writes what is proven into its images. `watch` is told the share that is
-    /// done, and says whether to go on.
+    /// Proves the error of the chosen table, or of each of its pieces, and writes the proven error into its images. `watch` receives the completed
+    /// share, and returns whether to continue.
     ///
     /// # Errors
-    /// Those of the machine; none of a machine that was exported.
+    /// Errors of the machine; never for an exported one.
     pub fn prove(
         &mut self,
         file: &MachineFile,
@@ -142,7 +142,7 @@ impl Export {
         Ok(())
     }
 
-    /// What is proven of all tables together: the largest bounds, or why there is none.
+    /// The proof of all tables together: the largest bounds, or the reason for their absence.
     pub fn proof(&self) -> Option<Proven> {
         let all = self.chosen().tables.iter().map(|table| table.proof.clone());
         all.reduce(|a, b| {
@@ -162,9 +162,9 @@ impl Export {
     }
 }
 
-/// Its words.
+/// Messages.
 impl Export {
-    /// What is proven of the error, if that was asked for.
+    /// The proof of the error, if requested.
     pub(super) fn proof_text(&self) -> String {
         let (coordinate, word) = (self.coordinate, self.effort());
         let effort = coordinate.effort_unit();
@@ -186,7 +186,7 @@ impl Export {
         }
     }
 
-    /// That the proven error is above the one allowed, and where.
+    /// A message that the proven error exceeds the allowed one, with the position.
     pub fn exceeded(&self) -> String {
         let coordinate = self.coordinate;
         let effort = coordinate.effort_unit();
@@ -228,7 +228,7 @@ fn of_type(
     }
 }
 
-/// The error of a table of this format, as its image holds it.
+/// The error of a table of this format, as contained in its image.
 fn of<F: Format>(
     made: &Made,
     goal: &Goal<'_>,
@@ -238,7 +238,7 @@ fn of<F: Format>(
     let image = Image::new(&made.words).map_err(ticks::refusal)?;
     let table = image.table::<F>().map_err(ticks::refusal)?;
     let curves = |stretch| enclosed.curves(stretch);
-    // Without the rounding of the tick's sums, which is not the table's.
+    // Without rounding of the tick's sums, which is not an error of the table.
     let rounding = F::TICK_ROUNDING * f64::from(table.scale().torque());
     let goal = Goal {
         known: (goal.known - rounding).max(0.0),
@@ -247,7 +247,7 @@ fn of<F: Format>(
     Ok(prove(&table, &goal, &curves, watch))
 }
 
-/// Writes the error that is proven into the image.
+/// Writes the proven error into the image.
 fn state(number: Number, layout: LayoutName, made: &mut Made, error: f64) -> Result<(), Error> {
     match (number, layout) {
         (Number::F32, LayoutName::Cubic) => stated::<Cubic<f32>>(made, error),

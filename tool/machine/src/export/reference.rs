@@ -11,11 +11,10 @@ use jred::{Domain, Error, Phase, Reducible, Reduction};
 
 use super::ways::BothWays;
 
-/// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
-/// cell.
+/// Places of the range, a prime number: it has no common divisor with a number of cells, so the places fall on every part of a cell.
 const PLACES: u32 = 16_381;
 
-/// What one table covers.
+/// Range of one table.
 #[derive(Clone, Copy)]
 pub(super) enum Range<'m> {
     /// The machine's whole range.
@@ -25,7 +24,7 @@ pub(super) enum Range<'m> {
 }
 
 impl Range<'_> {
-    /// The machine's position of one of the range (rad, or m): a part counts from its start, perhaps on into the next turn.
+    /// The machine's position for a position of the range (rad, or m): a part counts from its start, perhaps into the next turn.
     pub(super) fn position(&self, phi: f64) -> f64 {
         match self {
             Self::Whole(_) => phi,
@@ -34,7 +33,7 @@ impl Range<'_> {
         }
     }
 
-    /// Where it begins and ends (rad, or m).
+    /// Start and end (rad, or m).
     pub(super) fn ends(&self) -> [f64; 2] {
         let domain = self.domain();
         let from = self.position(domain.position(0.0));
@@ -72,7 +71,7 @@ impl Reducible for Range<'_> {
     }
 }
 
-/// A machine that remembers its knots: tables of different types and layouts ask for the same ones.
+/// A machine with a cache of its knots, which tables of different types and layouts share.
 pub(super) struct Remembered<M> {
     machine: M,
     knots: RefCell<HashMap<u64, Reduction>>,
@@ -81,7 +80,7 @@ pub(super) struct Remembered<M> {
 }
 
 impl<M: Reducible> Remembered<M> {
-    /// Remembers so many at most; then it forgets all, and computes those of the next tables anew.
+    /// Caches at most this many knots; then it clears the cache.
     pub(super) fn new(machine: M, most: usize) -> Self {
         Self {
             machine,
@@ -128,7 +127,7 @@ pub(super) struct Place {
     pub(super) exact: Reduction,
 }
 
-/// The exact curves at places all over the range, and at its edges and between them.
+/// The exact curves at places over the whole range, at its edges and between them.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
     pub(super) places: Vec<Place>,
@@ -140,7 +139,7 @@ impl Reference {
         let even = (0..PLACES)
             .map(|k| Phase::from_bits(((u64::from(k) << 32) / u64::from(PLACES)) as u32));
         let edges = edge_places(machine).map(|phi| domain.phase(phi));
-        // No place of a stroke is beside its end.
+        // A stroke has no place beyond its end.
         let end = (domain != Domain::Turn).then_some(Phase::from_bits(u32::MAX));
         let place = |phase: Phase| {
             let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
@@ -155,8 +154,8 @@ impl Reference {
         Ok(Self { places })
     }
 
-    /// The largest bound of a table's torque error (see [`jred::tabulate`]) for |ω|, |α| up to `range`, and the index of its
-    /// place. Looks from index `start` on, and no further than the first place above `limit`.
+    /// The largest bound of a table's torque error (see [`jred::tabulate`]) for |ω|, |α| up to `range`, and the index of its place. The search begins
+    /// at index `start` and ends at the first place above `limit`.
     pub(super) fn error(
         &self,
         read: impl Fn(Phase) -> CurveValues,

@@ -1,7 +1,7 @@
 //! The smallest table of one range, number type and layout that meets a torque error, or the best one for its bytes.
 //!
-//! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
-//! [`tabulate::measure`], and by ticking its image. What passes both is a table.
+//! A size is evaluated in two steps: against exact curves computed once, which rejects nearly all insufficient sizes; then by [`tabulate::measure`]
+//! and by ticking its image. A size that passes both gives a table.
 
 use std::collections::HashMap;
 
@@ -15,13 +15,13 @@ use super::candidate::{Answer, Made};
 use super::reference::{Range, Reference, Remembered};
 use super::size::{Buffers, Size, bytes};
 
-/// Sizes up to this one are all tried.
+/// All sizes up to this one are tried.
 pub const EXHAUSTIVE: u32 = 512;
 
 /// The request.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
-    /// Largest error of the drive torque (N·m); without one, the least possible.
+    /// Largest error of the drive torque (N·m); without it, the least possible one.
     pub(super) torque_error: Option<f64>,
     /// Largest speed and acceleration.
     pub(super) range: [f64; 2],
@@ -44,7 +44,7 @@ pub(super) struct Search<'m> {
 }
 
 impl<'m> Search<'m> {
-    /// Of a range of a machine whose curves in use are known; so many knots are remembered at most.
+    /// A search over a range of a machine with known curves in use, with a cache of at most this many knots.
     pub(super) fn new(
         machine: Range<'m>,
         set: Set,
@@ -61,11 +61,11 @@ impl<'m> Search<'m> {
         })
     }
 
-    /// The table of one format, with these curves, in machine units of this scale. Where other pieces share them, it has a multiple
-    /// of `shared` cells, whose width they suit.
+    /// The table of one format with these curves, in machine units of this scale. If other pieces share the units, its number of cells is a multiple
+    /// of `shared`, for whose width the units are made.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn run<F: Format>(
         &self,
         set: Set,
@@ -85,7 +85,7 @@ impl<'m> Search<'m> {
         attempt.run()
     }
 
-    /// The torque error of a table of this format, whose numbers are double precision, and where it is largest.
+    /// The torque error of a table of this format in double precision, and its position.
     pub(super) fn without_rounding<F: Format>(&self, cells: u32) -> Result<(f64, f64), Error> {
         let size = Size {
             search: self,
@@ -101,14 +101,14 @@ struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
     set: Set,
     scale: Scale,
-    /// What every number of cells is a multiple of, if the machine units are shared.
+    /// Common divisor of all numbers of cells, if the machine units are shared.
     shared: Option<u32>,
     buffers: Buffers<F>,
-    /// Index of the place where the table before was worst: the next one is looked at there first.
+    /// Index of the place with the largest error of the last table, where the next evaluation begins.
     worst: usize,
-    /// What the error of a size that was looked at is at least.
+    /// Lower bounds of the errors of evaluated sizes.
     least: HashMap<u32, f64>,
-    /// Why the last size that was refused was.
+    /// Why the last rejected size was rejected.
     refused: Option<Error>,
 }
 
@@ -141,7 +141,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         })
     }
 
-    /// Why the last size that was refused was.
+    /// Why the last rejected size was rejected.
     fn why_refused(&self) -> Error {
         let sound = RangeError::NotFinite("torque error of the table");
         self.refused.unwrap_or(sound.into())
@@ -151,7 +151,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         bytes::<F>(cells, self.set)
     }
 
-    /// The most cells that may be tried; `None` if not even the fewest fit.
+    /// The most cells that may be tried; `None` if even the fewest do not fit.
     fn most_cells(&self) -> Option<u32> {
         let goal = &self.search.goal;
         let most = goal.max_cells.min(MAX_CELLS);
@@ -181,8 +181,8 @@ impl<'s, F: Format> Attempt<'s, F> {
         Ok(None)
     }
 
-    /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond. Where an error is missed, it
-    /// only says how far the layout comes: of the small sizes growing ones do, up to three quarters of the largest.
+    /// The most accurate table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond. If an error is required and
+    /// missed, it only shows how far the layout comes: then growing sizes are enough up to three quarters of the largest small size.
     fn best(&mut self, most: u32) -> Result<Option<Made>, Error> {
         let largest = most.min(EXHAUSTIVE);
         let from = match self.search.goal.torque_error {
@@ -199,7 +199,7 @@ impl<'s, F: Format> Attempt<'s, F> {
                 sizes.push((error, cells));
             }
         }
-        // The last is the best; should its image be refused, those before it.
+        // The last is the best; if its image is refused, the ones before it are tried.
         while let Some((_, cells)) = sizes.pop() {
             if let Some(found) = self.make(cells, f64::INFINITY)? {
                 return Ok(Some(found));
@@ -221,8 +221,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         }
     }
 
-    /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
-    /// size gives no sound table.
+    /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
         let cells = cells.next_multiple_of(self.shared.unwrap_or(1));
         if self.least.get(&cells).is_some_and(|error| *error > limit) {
@@ -239,7 +238,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         }
     }
 
-    /// The size of at least so many cells, if it meets the limit everywhere.
+    /// The table of at least this many cells, if it meets the limit everywhere.
     fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Made>, Error> {
         let cells = cells.next_multiple_of(self.shared.unwrap_or(1));
         let Some(looked) = self.look(cells, limit)? else {
@@ -262,7 +261,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         }
     }
 
-    /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.
+    /// A coarse curve may fall below zero or leave the range; more cells cure that. Any other error is an error of the machine.
     fn refuse<T>(&mut self, cells: u32, error: Error) -> Result<Option<T>, Error> {
         match error {
             Error::Pose(PoseError::NoInertia { .. }) | Error::Table(_) => {

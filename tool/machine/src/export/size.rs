@@ -1,4 +1,4 @@
-//! One size of a table of one format: looked at, made, and ticked.
+//! One size of a table of one format: evaluated, made, and ticked.
 
 use jred::image::{encode, image_len};
 use jred::table::{Format, Usage, words_len};
@@ -9,7 +9,7 @@ use super::candidate::Made;
 use super::search::Search;
 use super::ticks;
 
-/// A size to look at.
+/// A size to evaluate.
 pub(super) struct Size<'s> {
     pub(super) search: &'s Search<'s>,
     pub(super) set: Set,
@@ -17,7 +17,7 @@ pub(super) struct Size<'s> {
     pub(super) scale: Scale,
 }
 
-/// Numbers that a table is made of.
+/// Buffers for the numbers of a table.
 pub(super) struct Buffers<F: Format> {
     scratch: Vec<f64>,
     words: Vec<F::Word>,
@@ -52,8 +52,8 @@ impl Size<'_> {
         tabulate::fill::<F>(&search.knots, *set, *cells, scale, scratch, words)
     }
 
-    /// The largest torque error at the places of the reference, and where: see [`Reference::error`](super::reference::Reference).
-    /// A table within the limit is sound: no tick of it leaves the number range.
+    /// The largest torque error at the places of the reference, and its index: see [`Reference::error`](super::reference::Reference). A table within
+    /// the limit is sound: no tick of it leaves the number range.
     pub(super) fn look<F: Format>(
         &self,
         buffers: &mut Buffers<F>,
@@ -71,8 +71,7 @@ impl Size<'_> {
         Ok(found)
     }
 
-    /// The table and its image, if the table meets the request everywhere, its ticks included; `looked` is what
-    /// [`look`](Self::look) has found.
+    /// The table and its image, if it meets the request everywhere, including its ticks; `looked` is the result of [`look`](Self::look).
     pub(super) fn make<F: Format>(
         &self,
         buffers: &mut Buffers<F>,
@@ -116,7 +115,7 @@ impl Size<'_> {
         }))
     }
 
-    /// The torque error of a table in double precision, which is what is left without roundings, and where it is largest.
+    /// The torque error of a table in double precision, that is, without rounding, and its position.
     pub(super) fn without_rounding<F: Format>(&self) -> Result<(f64, f64), Error> {
         let (error, index) = self.look::<F>(&mut Buffers::default(), (0, f64::INFINITY))?;
         let worst = self.search.reference.places.get(index);
@@ -127,7 +126,7 @@ impl Size<'_> {
     }
 }
 
-/// The error as written in the image: in single precision, not rounded down.
+/// The error for the image: in single precision, not rounded down.
 fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
     Validity {
         torque_error: rounded_up(error),
@@ -135,7 +134,7 @@ fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
     }
 }
 
-/// In single precision, not below.
+/// Converts to single precision, rounding up.
 pub(super) fn rounded_up(error: f64) -> f32 {
     let nearest = error as f32;
     if f64::from(nearest) < error {

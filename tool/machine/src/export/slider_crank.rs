@@ -21,24 +21,24 @@ use crate::model::mechanism::AnyMechanism;
 
 type F = SliderCrankForm;
 
-/// Places of a turn, beside those of the reference; an odd number.
+/// Places per turn, besides those of the reference; an odd number.
 const PLACES: u32 = 4097;
 
 /// Why a machine has no closed form.
 pub(super) enum Not {
     /// Another mechanism, by its name in machine files.
     Mechanism(&'static str),
-    /// A part of the turn only.
+    /// A part of the turn.
     Stroke,
-    /// Loads that go by the direction of travel.
+    /// Loads that depend on the direction of travel.
     ByDirection,
     /// A curve over the position.
     Curve(String),
-    /// A load or a spring.
+    /// A load or a spring that it does not support.
     Part(SliderCrankError),
 }
 
-/// The slider-crank that a machine is, with nothing that the closed form cannot hold.
+/// The machine as a slider-crank, if the closed form can represent all of it.
 pub(super) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<SliderCrank>, Not> {
     let machine = machine.ok_or(Not::ByDirection)?;
     let any = machine.mechanism();
@@ -63,13 +63,13 @@ pub(super) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<S
         }
         Ok(copy)
     };
-    // What was accepted once is accepted again.
+    // Accepted before, so accepted again.
     let copy = copy().map_err(|_| Not::Mechanism(any.kind()))?;
     set_in_use(&copy).map(|_| copy).map_err(Not::Part)
 }
 
 impl Not {
-    /// What is in the way, and the cure.
+    /// The obstacle and the cure.
     pub(super) fn failure(&self, file: &MachineFile) -> Failure {
         let table = "remove --layout: a table holds any load";
         let load = |k: &usize| {
@@ -114,10 +114,10 @@ impl Not {
 }
 
 impl Search<'_> {
-    /// The closed form of this machine, and how exact its ticks are.
+    /// The closed form of this machine, and the accuracy of its ticks.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub(super) fn slider_crank(
         &self,
         machine: &Machine<SliderCrank>,

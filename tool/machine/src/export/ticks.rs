@@ -1,4 +1,4 @@
-//! An image ticked as firmware does it, against the exact machine.
+//! An image ticked like firmware does, against the exact machine.
 
 use jred::number::{Number as _, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
@@ -6,8 +6,8 @@ use jred::{Error, Image, ImageError};
 
 use super::reference::{Place, Reference};
 
-/// The largest errors of the tick itself, at the corners of the range of speed and acceleration: quantised curves, the
-/// roundings of the sum and of the quotient, all of it.
+/// The largest total errors of the tick, at the corners of the range of speed and acceleration: quantised curves, rounding of the sum and of the
+/// quotient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ticks {
     /// Error of the torque (N·m, or N).
@@ -46,7 +46,7 @@ pub(super) fn measure<F: Format>(
     let scale = image.scale();
     let [torque_base, speed_base, acceleration_base] =
         [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
-    // The arguments as the number type holds them: their own rounding is not an error of the table.
+    // The arguments as numbers of the type: their own rounding is not an error of the table.
     let corners = [
         (omega, alpha),
         (omega, -alpha),
@@ -85,7 +85,7 @@ pub(super) fn measure<F: Format>(
     Ok(worst)
 }
 
-/// The nearest number in machine units; 0 for what is beyond them.
+/// The nearest number in machine units; 0 if it is out of range.
 fn number<Q: Quantity>(value: f64) -> Q {
     Q::Number::from_f64(value).map(Q::of).unwrap_or_default()
 }
@@ -97,7 +97,7 @@ fn value<Q: Quantity>(quantity: Q) -> f64 {
 pub(super) fn refusal(error: ImageError) -> Error {
     match error {
         ImageError::Table(error) => Error::Table(error),
-        // Cannot happen: the image was just made, of this type and layout.
+        // Cannot happen: the image was just made with this type and layout.
         _ => Error::Image(ImageError::NotStored("this type and layout")),
     }
 }

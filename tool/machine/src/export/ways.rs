@@ -1,14 +1,14 @@
-//! A machine whose loads go by the direction of travel, as one link.
+//! A machine with loads by the direction of travel, as one link.
 //!
-//! With the resistances r₊ (φ grows) and r₋ (φ falls) of a position, each a torque that the drive needs beside that of the inertia, both
-//! are there in one load and one friction:
+//! At a position the drive needs the resistances r₊ (φ grows) and r₋ (φ falls) besides the inertia's torque. Both follow from one load and one
+//! friction:
 //!
 //! ```text
 //! r₊ = c − load,  r₋ = −c − load        load = −(r₊ + r₋)/2,  c = (r₊ − r₋)/2
 //! ```
 //!
-//! So a friction of 2 N·m forwards and 3 N·m backwards is one of 2.5 N·m and a load of 0.5 N·m forwards: what a tick computes is exact
-//! in both directions. At rest, where friction may be anything between r₋ and r₊, it is their mean.
+//! So a friction of 2 N·m forwards and 3 N·m backwards is a friction of 2.5 N·m and a load of 0.5 N·m forwards: the result of a tick is exact in both
+//! directions. At rest, where friction may be anything between r₋ and r₊, it is their mean.
 
 use jred::machine::PoseError;
 use jred::{Domain, Error, Machine, Reducible, Reduction};
@@ -21,10 +21,10 @@ use crate::number::rounding::short;
 
 /// Places at which both directions are compared.
 const PLACES: u32 = 1440;
-/// What counts as none, of the largest: roundings.
+/// Share of the largest value that counts as zero: rounding.
 const NOTHING: f64 = 1e-12;
 
-/// The machine of each direction; one, if no load goes by it.
+/// The machine of each direction; one, if no load depends on it.
 #[derive(Clone, Debug)]
 pub(super) struct BothWays {
     forward: Machine<AnyMechanism>,
@@ -32,7 +32,7 @@ pub(super) struct BothWays {
 }
 
 impl BothWays {
-    /// Of a file of which nothing else goes by the motion.
+    /// The machines of a file in which only loads depend on the motion, by its direction.
     pub(super) fn new(file: &MachineFile, task: &Task) -> Result<Self, Failure> {
         if file.schedule.is_empty() {
             return Ok(Self {
@@ -57,12 +57,12 @@ impl BothWays {
         Ok(both)
     }
 
-    /// The machine, if it is one in both directions.
+    /// The machine, if it is the same in both directions.
     pub(super) fn same(&self) -> Option<&Machine<AnyMechanism>> {
         self.backward.is_none().then_some(&self.forward)
     }
 
-    /// Refuses what no load and friction are: viscous friction that goes by the direction, and loads that drive it.
+    /// Refuses resistances that no load and friction represent: viscous friction by direction, and loads that drive.
     fn check(&self, file: &MachineFile) -> Result<(), Failure> {
         let Some(backward) = &self.backward else {
             return Ok(());
@@ -152,7 +152,7 @@ mod tests {
     use super::combined;
     use jred::Reduction;
 
-    /// c − load is the resistance forwards, −c − load that backwards, with springs and process torques too.
+    /// c − load is the resistance forwards, −c − load the resistance backwards, also with springs and process torques.
     #[test]
     fn one_load_and_one_friction_are_both_directions() {
         let bare = Reduction::new([0.2, 0.1, 0.0]).with_potential_energy([3.0, 0.7]);

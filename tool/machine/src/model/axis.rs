@@ -1,5 +1,5 @@
-//! The coordinate in which people speak of an axis: that of its `[motion]`, or without one that of its stroke, where it is the drive link's but
-//! for a factor: millimetres of the carriage instead of degrees of the pulley.
+//! The coordinate of an axis for users: that of its `[motion]`, or without a motion that of its stroke, if it is proportional to the drive link's:
+//! millimetres of the carriage instead of degrees of the pulley.
 
 use jred::Domain;
 use jred::machine::motion::State;
@@ -9,7 +9,7 @@ use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Motion, ToolCoordinate};
 use crate::number::columns::{Column, Quantity};
 
-/// A coordinate that goes with the drive link evenly: position = zero + scale·φ.
+/// A coordinate that is linear in the drive link's: position = zero + scale·φ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     /// Angle or length.
@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// That of a motion, if it goes with the drive link evenly; without a motion that of the stroke; else the drive link itself.
+    /// The coordinate of a motion, if it is linear in the drive link's; without a motion that of the stroke; otherwise the drive link itself.
     pub fn of(motion: Option<&Motion>, mechanism: &AnyMechanism) -> Self {
         let axis = match motion {
             Some(motion) => motion.tool().and_then(ToolCoordinate::axis),
@@ -39,7 +39,7 @@ impl Axis {
         axis.unwrap_or_else(|| Self::of_drive(mechanism.coordinate()))
     }
 
-    /// A coordinate with this symbol, its value at φ = 0 and what it goes on by per rad or m of the drive link, not zero.
+    /// A coordinate with this symbol, its value at φ = 0, and its nonzero change per rad or m of the drive link.
     pub const fn new(
         coordinate: Coordinate,
         symbol: &'static str,
@@ -67,22 +67,22 @@ impl Axis {
         Column::new(Quantity::Position, symbol, self.coordinate.unit())
     }
 
-    /// The position (rad or m) where the drive link is at φ.
+    /// The position (rad or m) at φ of the drive link.
     pub fn position(&self, phi: f64) -> f64 {
         self.zero + self.scale * phi
     }
 
-    /// The drive link's position where this one is `position` (rad or m).
+    /// The drive link's position for this `position` (rad or m).
     pub fn drive_position(&self, position: f64) -> f64 {
         (position - self.zero) / self.scale
     }
 
-    /// The drive link's speed where this one is `speed`, with its sign.
+    /// The drive link's speed for this `speed`, with its sign.
     pub fn drive_speed(&self, speed: f64) -> f64 {
         speed / self.scale
     }
 
-    /// The ends of a stroke of the drive link, the lower first; of a turn that of the drive link.
+    /// The ends of the drive link's stroke in this coordinate, the lower first; `None` for a turn.
     pub fn range(&self, domain: Domain) -> Option<[f64; 2]> {
         let Domain::Stroke { from, to } = domain else {
             return None;
@@ -91,7 +91,7 @@ impl Axis {
         Some([a.min(b), a.max(b)])
     }
 
-    /// The size of a speed or an acceleration, from that of the drive link.
+    /// The magnitude of a speed or an acceleration, from that of the drive link.
     pub fn rate(&self, drive: f64) -> f64 {
         drive * self.scale.abs()
     }
@@ -110,12 +110,12 @@ impl Axis {
         }
     }
 
-    /// The position in degrees or millimetres, where the drive link is at φ.
+    /// The position in degrees or millimetres, at φ of the drive link.
     pub fn shown(&self, phi: f64) -> f64 {
         self.coordinate.shown(self.position(phi))
     }
 
-    /// The length of a way in degrees or millimetres, with its sign, from that of the drive link.
+    /// A signed travel in degrees or millimetres, from that of the drive link.
     pub fn shown_way(&self, way: f64) -> f64 {
         self.coordinate.shown(self.distance(way))
     }

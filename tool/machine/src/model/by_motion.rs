@@ -1,4 +1,4 @@
-//! What of a machine goes by the motion of its file, in words, and the refusals of commands that cannot follow it.
+//! Descriptions of the parts of a machine that depend on the motion of its file, and the refusals of commands that cannot follow it.
 
 use std::fmt;
 
@@ -7,12 +7,12 @@ use crate::model::motion::Motion;
 use crate::model::schedule::When;
 use crate::number::rounding::figure;
 
-/// A load, payload or carriage that goes by the motion.
+/// A load, payload or carriage that depends on the motion.
 #[derive(Clone, Debug)]
 pub struct ByMotion {
-    /// Such as `load "punch" acts in segment 2`.
+    /// For example `load "punch" acts in segment 2`.
     pub what: String,
-    /// How to do without: `remove its segments or during`.
+    /// How to remove the dependence: `remove its segments or during`.
     pub cure: String,
 }
 
@@ -22,21 +22,21 @@ impl fmt::Display for ByMotion {
     }
 }
 
-/// What a payload or a carriage can be instead.
+/// Alternative to a payload or a carriage.
 const FIXED: &str = "or fix it to the link with a [[mass]]";
 
-/// What of a schedule matters to a command.
+/// Which parts of a schedule matter to a command.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Which {
     All,
-    /// What goes by the time or by rest, not by the direction alone.
+    /// Parts that depend on the time or on rest, not on the direction only.
     Timed,
     /// The same, and payloads by the direction.
     ButLoadsByDirection,
 }
 
 impl MachineFile {
-    /// Refuses a machine of which something goes by the motion of the file, for a command that seeks another motion.
+    /// Refuses a machine with parts that depend on the motion of the file, for a command that computes another motion.
     ///
     /// # Errors
     /// It has such a load, payload or carriage.
@@ -50,10 +50,10 @@ impl MachineFile {
         }
     }
 
-    /// The same for a command that seeks another motion one way at a time: what goes by the direction alone stays.
+    /// The same for a command that computes another motion, one direction at a time: parts that depend only on the direction are allowed.
     ///
     /// # Errors
-    /// A load, payload or carriage goes by the time of the motion, or a load has a value of its own at rest.
+    /// A load, payload or carriage depends on the time of the motion, or a load has a separate value at rest.
     pub fn refuse_timed(&self, command: &str) -> miette::Result<()> {
         match self.by_motion(Which::Timed).next() {
             None => Ok(()),
@@ -64,17 +64,17 @@ impl MachineFile {
         }
     }
 
-    /// What the schedule says, item by item.
+    /// All items of the schedule.
     pub fn scheduled(&self) -> impl Iterator<Item = ByMotion> {
         self.by_motion(Which::All)
     }
 
-    /// The same without the loads that go by the direction of travel alone.
+    /// The same without the loads that depend only on the direction of travel.
     pub fn not_by_direction(&self) -> impl Iterator<Item = ByMotion> {
         self.by_motion(Which::ButLoadsByDirection)
     }
 
-    /// The carriages, such as `carriage "trolley" moves along beam by its own motion`.
+    /// The carriages, for example `carriage "trolley" moves along beam by its own motion`.
     pub fn carriages(&self) -> impl Iterator<Item = ByMotion> {
         let carriages = self.schedule.carriages().iter();
         carriages.map(|c| ByMotion {
@@ -83,13 +83,13 @@ impl MachineFile {
         })
     }
 
-    /// What acts, or is carried, at such times, in words.
+    /// Descriptions of loads and payloads whose times satisfy a condition.
     pub fn scheduled_where(&self, such: impl Fn(&When) -> bool) -> impl Iterator<Item = String> {
         let all = self.timed().filter(move |(.., when)| such(when));
         all.map(|(words, _)| words)
     }
 
-    /// Loads and payloads in words, and when they act or are carried.
+    /// Descriptions of loads and payloads, with their times.
     fn timed(&self) -> impl Iterator<Item = (String, &When)> {
         let loads = self.schedule.loads().iter();
         let loads = loads.map(|load| ("load", &load.name, &load.words, &load.when));
@@ -99,8 +99,8 @@ impl MachineFile {
         all.map(|(what, name, words, when)| (format!("{what} \"{name}\" {words}"), when))
     }
 
-    /// What goes by the motion in a simulation that lasts so long (s), in words with its times, such as
-    /// `load "punch" acts in segment 2: from 0.3 s to 0.5 s, again every 1.2 s`.
+    /// Descriptions of the parts that depend on the motion in a simulation of this duration (s), with their times, for example `load "punch" acts in
+    /// segment 2: from 0.3 s to 0.5 s, again every 1.2 s`.
     pub fn by_the_clock(&self, duration: f64) -> impl Iterator<Item = String> {
         let cycle = self.motion.as_ref().filter(|motion| motion.cyclic);
         let cycle = cycle

@@ -1,14 +1,14 @@
-//! A mass that a second axis moves along a guide on a link, by a motion of its own.
+//! A mass that a second axis moves along a guide on a link, with its own motion.
 //!
-//! Its place is r(φ, t), prescribed in time: with s(t) along the direction e of the guide, and ψ the angle of the link,
+//! Its position is r(φ, t), prescribed in time: with s(t) along the direction e of the guide, and ψ the angle of the link,
 //!
 //! ```text
 //! r̈ = r_φ·α + r_φφ·ω² + 2·r_φt·ω + r_tt        r_φt = ψ′·ṡ·e⊥        r_tt = s̈·e
 //! T = m·(r̈ − g)·r_φ + J_c·ψ̈·ψ′
 //! ```
 //!
-//! The first two terms of r̈ and the weight are those of a mass that is fixed to the link where it is at this instant. The other two are
-//! a force on it, F = −m·(2·ψ′·ω·ṡ·e⊥ + s̈·e): what the mass, moving along its guide, does to the link that carries guide and axis.
+//! The first two terms of r̈ and the weight are those of a mass fixed to the link at its current position. The other two are a force on it, F =
+//! −m·(2·ψ′·ω·ṡ·e⊥ + s̈·e): the reaction of the mass, moving along its guide, on the link that carries guide and axis.
 
 use jred::machine::Frame;
 use jred::machine::motion::State;
@@ -21,15 +21,15 @@ use crate::model::motion::Motion;
 pub struct Carriage {
     /// Its name.
     pub name: String,
-    /// What is moved, where it is at s = 0.
+    /// The moved mass, at s = 0.
     pub mass: Attached,
     /// Direction of the guide in the link's frame.
     pub direction: [f64; 2],
-    /// s over the time of the machine's motion (m). After its end the carriage stands.
+    /// s over the time of the machine's motion (m). After its end the carriage is at rest.
     pub motion: Motion,
-    /// Index of its load among the machine's: without force, where no time is known.
+    /// Index of its load in the machine; without force when no time is known.
     pub load: usize,
-    /// The same in words, for reports.
+    /// Its description for reports.
     pub words: String,
 }
 
@@ -47,7 +47,7 @@ impl Carriage {
         }
     }
 
-    /// What is moved, where it is at this time.
+    /// The moved mass, at this time.
     pub fn placed(&self, t: f64) -> Attached {
         let s = self.at(t).phi;
         Attached {
@@ -80,8 +80,8 @@ impl Carriage {
         self.mass.mass * speed * (carried[0] * along[0] + carried[1] * along[1] + 0.5 * speed)
     }
 
-    /// Force of the second axis on it along its guide (N), m·(r̈ − g)·e, positive towards larger s, where the drive link moves with ω
-    /// and α. Friction of the guide is not in it.
+    /// Force of the second axis on it along its guide (N), m·(r̈ − g)·e, positive towards larger s, while the drive link moves with ω and α; without
+    /// friction of the guide.
     pub fn effort(
         &self,
         frame: &Frame,

@@ -1,23 +1,22 @@
-//! What a motor gives at a speed: a torque-speed curve, the line of a DC motor, or an induction motor by Kloss.
+//! Torque of a motor over its speed: a torque-speed curve, the line of a DC motor, or an induction motor by Kloss.
 
 /// Torque (or force) of a motor over its speed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Characteristic {
-    /// (speed (rad/s), torque (N·m)), speeds rising; one point means a constant torque. Between points straight lines,
-    /// beyond the ends the end's torque.
+    /// (speed (rad/s), torque (N·m)), speeds rising; one point means a constant torque. Linear between points, constant beyond the ends.
     Points(Vec<(f64, f64)>),
-    /// A DC motor at constant voltage: T = T_stall·(1 − ω/ω₀), as a brake and a generator too.
+    /// A DC motor at constant voltage: T = T_stall·(1 − ω/ω₀), also as a brake and a generator.
     Dc {
-        /// ω₀, at which it gives no torque (rad/s).
+        /// ω₀, the speed without torque (rad/s).
         no_load_speed: f64,
         /// T_stall, at rest (N·m).
         stall_torque: f64,
     },
     /// An induction motor at constant voltage and frequency, by Kloss: T = 2·T_b/(s/s_b + s_b/s), s = 1 − ω/ω_s.
     Induction {
-        /// T_b, the largest torque as a motor (N·m).
+        /// T_b, the largest driving torque (N·m).
         breakdown_torque: f64,
-        /// s_b, the slip at which it gives it.
+        /// s_b, the slip at that torque.
         breakdown_slip: f64,
         /// ω_s (rad/s).
         synchronous_speed: f64,
@@ -30,7 +29,7 @@ impl Characteristic {
         Self::Points(vec![(0.0, torque)])
     }
 
-    /// So many times the torque at every speed.
+    /// The torque multiplied by a factor at every speed.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
@@ -87,7 +86,7 @@ impl Characteristic {
         }
     }
 
-    /// Speeds (rad/s) at which the curve bends or has an extreme, and the one at which it crosses zero.
+    /// Speeds (rad/s) at which the curve bends or has an extreme, and where it crosses zero.
     pub fn marks(&self) -> Vec<f64> {
         match self {
             Self::Points(points) => points.iter().map(|(speed, _)| *speed).collect(),

@@ -1,4 +1,4 @@
-//! The coordinate of the drive link: an angle φ, or a displacement s of one that slides; how each is named and shown.
+//! The coordinate of the drive link: an angle φ, or a displacement s of a sliding one; its names and units.
 
 use std::f64::consts::TAU;
 
@@ -38,8 +38,7 @@ impl Coordinate {
         }
     }
 
-    /// What efforts and speeds at the drive link are called and shown in. A motor that drives a slide through a screw has words
-    /// of its own.
+    /// Names and units of efforts and speeds at the drive link. A motor that drives a slide through a screw has its own vocabulary.
     pub const fn vocabulary(self) -> &'static Vocabulary {
         match self {
             Self::Angle => &Vocabulary::ROTARY,
@@ -65,12 +64,12 @@ impl Coordinate {
         self.pick("φ", "s")
     }
 
-    /// Unit of a shown position.
+    /// Unit of a displayed position.
     pub const fn unit(self) -> &'static str {
         self.pick("deg", "mm")
     }
 
-    /// A position (rad or m) as it is shown: in degrees or millimetres.
+    /// A position (rad or m) for display: in degrees or millimetres.
     pub fn shown(self, position: f64) -> f64 {
         match self {
             Self::Angle => position.to_degrees(),
@@ -147,7 +146,7 @@ impl Coordinate {
     }
 }
 
-/// `count` positions over the range: of a turn without its end, which is its start; of a stroke from end to end.
+/// `count` positions over the range: of a turn without its end, which equals its start; of a stroke from end to end.
 pub fn positions(domain: Domain, count: usize) -> impl Iterator<Item = f64> {
     let last = match domain {
         Domain::Turn => count,
@@ -156,7 +155,7 @@ pub fn positions(domain: Domain, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| at(domain, k, last))
 }
 
-/// `count` + 1 positions over the range with both its ends, for curves that are drawn.
+/// `count` + 1 positions over the range with both its ends, for plots.
 pub fn whole_range(domain: Domain, count: usize) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| at(domain, k, count))
 }

@@ -1,8 +1,8 @@
 //! The drive train: stages in a chain from the motor to the drive link, and branches beside it.
 //!
-//! A branch is a shaft that one of the train's shafts drives over stages of its own, as a friction disc drives several rollers or a line
-//! shaft its pumps: a fan. Each has its own direction of power: while the machine brakes, the inertia of a branch may feed back through its
-//! stages though the machine takes power, and its losses change sides with it. With the torque M of the branch's own friction at its end
+//! A branch is a shaft that one of the train's shafts drives through stages of its own, as a friction disc drives several rollers or a line shaft its
+//! pumps: a fan. Each has its own direction of power. While the machine brakes, the inertia of a branch may feed back through its stages although the
+//! machine takes power, and its losses change sides with it. With the torque M of the branch's own friction at its end
 //!
 //! ```text
 //! T_k = T_(chain behind k) + Σ T_branch       T_branch = (J·α_b + M·sgn ω_b + b·ω_b) through its stages, by its own flow of power
@@ -14,7 +14,7 @@ use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
 
-/// Refuses a machine whose drive train has branches for a command that looks for the bends of the torque in the chain alone.
+/// Refuses a machine whose drive train has branches, for a command that finds bends of the torque only in the chain.
 ///
 /// # Errors
 /// The drive train has branches.
@@ -29,23 +29,23 @@ pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
     ))
 }
 
-/// A shaft beside the chain, and what it drives.
+/// A shaft beside the chain, and its load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
     /// Name in reports.
     pub name: String,
-    /// The shaft of the chain that drives it: 0 is the input, then one behind each stage.
+    /// The shaft of the chain that drives it: 0 is the input, then one after each stage.
     pub shaft: usize,
-    /// Its stages, seen from that shaft, with the inertia of what it drives.
+    /// Its stages, seen from that shaft, with the inertia of its load.
     pub train: Train,
-    /// Friction of what it drives (N·m), against its rotation.
+    /// Friction of its load (N·m), against its rotation.
     pub opposing: f64,
-    /// The same in proportion to its speed (N·m·s/rad).
+    /// Viscous friction of its load (N·m·s/rad).
     pub viscous: f64,
 }
 
 impl Branch {
-    /// What the chain's shaft must give it; `seen` is shown each of its stages with what that delivers.
+    /// The torque that the chain's shaft must give it; `seen` receives each of its stages with its output torque.
     fn input(&self, shaft: &TrainOutput, seen: impl FnMut(&Stage, f64)) -> TrainInput {
         let ratio = self.train.ratio();
         let [omega, alpha, direction] =
@@ -82,11 +82,11 @@ enum Of<'a> {
     Branch(&'a Stage),
 }
 
-/// The fixed stages between the motor and the drive link, with what is driven beside it.
+/// The fixed stages between the motor and the drive link, with their branches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveTrain {
     chain: Train,
-    /// Each stage of the chain alone.
+    /// Each stage of the chain as a train.
     steps: Vec<Train>,
     branches: Vec<Branch>,
 }
@@ -95,7 +95,7 @@ impl DriveTrain {
     /// A chain with its branches.
     ///
     /// # Errors
-    /// None for a chain that was built without error.
+    /// Never for a chain that was built without error.
     pub fn new(chain: Train, branches: Vec<Branch>) -> Result<Self, Error> {
         let steps = chain
             .stages()
@@ -111,7 +111,7 @@ impl DriveTrain {
     /// The same with a flywheel (kg·m²) on the shaft that drives stage `number`, counted from 0.
     ///
     /// # Errors
-    /// An inertia negative or not finite.
+    /// The inertia is negative or not finite.
     pub fn with_flywheel(&self, number: usize, inertia: f64) -> Result<Self, Error> {
         let mut stages = self.stages().to_vec();
         if let Some(stage) = stages.get_mut(number) {
@@ -140,7 +140,7 @@ impl DriveTrain {
         self.chain.efficiency()
     }
 
-    /// Inertia of all shafts, those of the branches included, at the input shaft (kg·m²).
+    /// Inertia of all shafts, including the branches, at the input shaft (kg·m²).
     pub fn inertia_at_input(&self) -> f64 {
         let beside = self.branches.iter().map(|branch| {
             let before = self.stages().iter().take(branch.shaft);
@@ -150,7 +150,7 @@ impl DriveTrain {
         self.chain.inertia_at_input() + beside.sum::<f64>()
     }
 
-    /// The torque at the input that the branches ask for at a constant speed of the drive link (N·m), in the direction of motion.
+    /// The torque at the input for the branches at a constant speed of the drive link (N·m), in the direction of motion.
     pub fn beside(&self, omega: f64) -> f64 {
         let input = self.input(&TrainOutput {
             omega,
@@ -160,8 +160,8 @@ impl DriveTrain {
         input.torque.abs()
     }
 
-    /// What the input shaft must give so that the output shaft delivers its torque in its motion: shaft by shaft, each stage
-    /// of the chain and of a branch by its own direction of power ([`Train::input`]). The losses contain the friction of the branches.
+    /// The required input of the drive train for the output torque during a motion: shaft by shaft, each stage of the chain and of a branch by its
+    /// own direction of power ([`Train::input`]). The losses include the friction of the branches.
     pub fn input(&self, output: &TrainOutput) -> TrainInput {
         if self.branches.is_empty() {
             return self.chain.input(output);
@@ -169,7 +169,7 @@ impl DriveTrain {
         self.walk(output, |_, _| ())
     }
 
-    /// The torque that each stage delivers to the shaft behind it (N·m), in order from the motor.
+    /// Output torque of each stage (N·m), in order from the motor.
     pub fn delivered(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::with_capacity(self.steps.len());
         self.walk(output, |of, torque| {
@@ -181,7 +181,7 @@ impl DriveTrain {
         delivered
     }
 
-    /// Whether a stage has losses, whose sense changes with that of its power.
+    /// Whether a stage has losses, which depend on its direction of power.
     pub fn is_lossy(&self) -> bool {
         let branches = self
             .branches
@@ -191,8 +191,8 @@ impl DriveTrain {
         all.any(|stage| stage.efficiency() < 1.0)
     }
 
-    /// The torque (N·m) that each stage with losses delivers, in the chain and in the branches, always in the same order: while the shafts turn
-    /// one way, the torque at the input bends where one of these changes its sign.
+    /// Output torque (N·m) of each stage with losses, in the chain and in the branches, always in the same order. While the shafts turn in one
+    /// direction, the torque at the input bends where one of these changes sign.
     pub fn lossy_flows(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::new();
         self.walk(output, |of, torque| {
@@ -204,11 +204,11 @@ impl DriveTrain {
         delivered
     }
 
-    /// From the output shaft to the input; `seen` is shown what each stage delivers.
+    /// From the output shaft to the input; `seen` receives the output torque of each stage.
     fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(Of, f64)) -> TrainInput {
         let mut input = TrainInput::default();
         let mut shaft = *output;
-        // Per acceleration of the present shaft, which turns `ratio` times as fast as the output.
+        // Per acceleration of the current shaft, which turns `ratio` times as fast as the output.
         let mut ratio = 1.0;
         for k in (0..=self.steps.len()).rev() {
             for branch in self.branches.iter().filter(|branch| branch.shaft == k) {

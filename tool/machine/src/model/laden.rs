@@ -1,4 +1,4 @@
-//! Masses fixed to links: one rigid body with each of them.
+//! Masses fixed to links: a link and its masses form one rigid body.
 
 use jred::machine::{Frames, Jointed, Joints, MassProperties, Mechanism, PoseError};
 use jred::{Domain, Error, Link};
@@ -10,7 +10,7 @@ use crate::model::mechanism::AnyMechanism;
 pub struct Attached {
     /// Index of the link.
     pub link: usize,
-    /// Where its centre of mass is in the link's frame (m).
+    /// Position of its centre of mass in the link's frame (m).
     pub at: [f64; 2],
     /// Mass (kg).
     pub mass: f64,
@@ -22,7 +22,7 @@ impl Attached {
     /// The mass without its link, in the link's frame.
     ///
     /// # Errors
-    /// A value that is not finite.
+    /// A value is not finite.
     pub fn alone(&self) -> Result<Link, Error> {
         Ok(Link::new(MassProperties {
             mass: self.mass,
@@ -34,7 +34,7 @@ impl Attached {
     /// The link with the mass on it: one rigid body.
     ///
     /// # Errors
-    /// A sum that is not finite.
+    /// A sum is not finite.
     pub fn on(&self, link: &Link) -> Result<Link, Error> {
         let (own, mass) = (link.mass(), link.mass() + self.mass);
         if mass == 0.0 {
@@ -54,7 +54,7 @@ impl Attached {
 /// The mechanism with masses on its links.
 ///
 /// # Errors
-/// A sum that is not finite.
+/// A sum is not finite.
 pub fn laden<'a>(
     mechanism: &AnyMechanism,
     masses: impl IntoIterator<Item = &'a Attached>,
@@ -73,7 +73,7 @@ pub fn laden<'a>(
     Ok(mechanism.clone().with_inner(Laden { inner, links }))
 }
 
-/// A mechanism some of whose links carry something.
+/// A mechanism with masses on some of its links.
 #[derive(Clone, Debug)]
 pub(crate) struct Laden {
     inner: AnyMechanism,

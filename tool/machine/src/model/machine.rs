@@ -20,7 +20,7 @@ use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
 
-/// Positions over the range at which inertia and holding torque are looked at.
+/// Positions over the range at which inertia and holding torque are evaluated.
 pub const POSITIONS: usize = 720;
 
 /// The content of a machine file.
@@ -30,38 +30,37 @@ pub struct MachineFile {
     pub name: String,
     /// Title for reports.
     pub title: String,
-    /// The mechanism with gravity, loads and flywheel, *without* the drive train. What [`schedule`](Self::schedule) says is not in
-    /// it.
+    /// The mechanism with gravity, loads and flywheel, *without* the drive train and without the [`schedule`](Self::schedule).
     pub machine: Machine<AnyMechanism>,
-    /// Loads that act in a part of the motion only, payloads and carriages.
+    /// Loads that act only in a part of the motion, payloads and carriages.
     pub schedule: Schedule,
     /// Inertia of the flywheel on the drive link (kg·m²), contained in `machine`.
     pub flywheel: f64,
     /// The loads, in the order of the machine's.
     pub loads: Vec<NamedLoad>,
-    /// After how many turns the tables of loads repeat.
+    /// Number of turns after which the tables of loads repeat.
     pub table_turns: u32,
     /// The springs and dampers, in the order of the machine's.
     pub elements: Vec<NamedElement>,
-    /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; empty if there is none.
+    /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; it can be empty.
     pub drive_train: DriveTrain,
     /// Friction variator between the motor and the drive train, if there is one.
     pub variator: Option<Variator>,
-    /// The prescribed motion, if the file has one.
+    /// The prescribed motion, if any.
     pub motion: Option<Motion>,
-    /// The simulation for `jred simulate`, if the file has one.
+    /// The simulation for `jred simulate`, if any.
     pub simulation: Option<Simulation>,
-    /// Sizing rules, defaults unless the file overrides them.
+    /// Sizing rules: defaults, unless the file overrides them.
     pub rules: RuleSet,
     /// Tolerances of quantities, from `[tolerance]`.
     pub tolerances: Vec<Tolerance>,
     /// Supply, surroundings, stiffness and tool.
     pub site: Site,
-    /// The reduced link over the range, once somebody asked.
+    /// The reduced link over the range, computed on demand.
     pub over_range: OverRange,
 }
 
-/// The reduced link over the range of the drive link, computed once. A copy of a machine, which may be changed, begins without it.
+/// The reduced link over the range of the drive link, computed once. A clone of a machine, which may be changed, starts without it.
 #[derive(Default)]
 pub struct OverRange(OnceLock<Vec<(f64, Reduction)>>);
 
@@ -72,14 +71,14 @@ impl Clone for OverRange {
 }
 
 impl fmt::Debug for OverRange {
-    /// It follows from the rest of the machine, so a digest of that needs no more.
+    /// It follows from the rest of the machine, so a digest does not need it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("OverRange")
     }
 }
 
 impl MachineFile {
-    /// What the shaft is called at which a motor or its gearbox drives the machine.
+    /// Name of the shaft at which a motor or its gearbox drives the machine.
     pub fn input_name(&self) -> &'static str {
         if self.drive_train.stages().is_empty() {
             "drive link"
@@ -88,7 +87,7 @@ impl MachineFile {
         }
     }
 
-    /// After how many turns of the drive link the loads are the same again.
+    /// Number of turns of the drive link after which the loads repeat.
     pub fn turns(&self) -> u32 {
         let windows = self.loads.iter().filter_map(|named| named.load.window());
         let windows = windows.map(|window| window.turns().max(1));
@@ -98,15 +97,15 @@ impl MachineFile {
     /// The motion of a file that must have one.
     ///
     /// # Errors
-    /// It has none.
+    /// The file has no motion.
     pub fn required_motion(&self) -> miette::Result<&Motion> {
         self.motion_or("")
     }
 
-    /// The same where an option can stand in for it: `instead` is the beginning of the cure, such as `give --omega, or `.
+    /// The same if an option can replace it: `instead` is the beginning of the cure, such as `give --omega, or `.
     ///
     /// # Errors
-    /// It has none.
+    /// The file has no motion.
     pub fn motion_or(&self, instead: &str) -> miette::Result<&Motion> {
         self.motion.as_ref().ok_or_else(|| {
             miette::miette!(
@@ -119,23 +118,23 @@ impl MachineFile {
         })
     }
 
-    /// What the motion prescribes as process: segments of constant speed, and of a winder the constant speed of the web, whichever law leads to it.
+    /// The process parts of the motion: segments of constant speed, and for a winder the constant speed of the web, after any law.
     pub fn process(&self) -> Vec<Steady> {
         let winds = self.machine.mechanism().kind() == "winder";
         let stretches = self.motion.iter().flat_map(Motion::steady);
         stretches.filter(|steady| steady.whole || winds).collect()
     }
 
-    /// The coordinate in which people speak of this axis: see [`Axis::of`].
+    /// The coordinate of this axis for users: see [`Axis::of`].
     pub fn axis(&self) -> Axis {
         Axis::of(self.motion.as_ref(), self.machine.mechanism())
     }
 
-    /// The machine at an instant, with what acts and what is carried then, without the drive train. What it has of carriages is that of
-    /// the position `phi` of the drive link only.
+    /// The machine at an instant, with the loads and payloads of that time, without the drive train. Its carriages are valid only at the position
+    /// `phi` of the drive link.
     ///
     /// # Errors
-    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    /// The mechanism cannot be placed at `phi`, if there are carriages.
     pub fn machine_at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
         let machine = self.machine_among(now);
         self.schedule.flowing(Cow::Borrowed(machine), now, phi)
@@ -147,8 +146,8 @@ impl MachineFile {
         self.schedule.machine(number).unwrap_or(&self.machine)
     }
 
-    /// Share of carriages in the process torque of a machine of [`machine_at`](Self::machine_at), at its position: of their motion along
-    /// their guides (N·m).
+    /// Share of carriages in the process torque of a machine of [`machine_at`](Self::machine_at), at its position, from their motion along their
+    /// guides (N·m).
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -165,8 +164,8 @@ impl MachineFile {
         Ok(torques.sum())
     }
 
-    /// The reduced link of a machine of [`machine_at`](Self::machine_at) without the share of carriages in its process torque, and the torque (N·m)
-    /// with which they resist by their motion along their guides: it goes with masses and the square of the pace, as that of velocity does.
+    /// The reduced link of a machine of [`machine_at`](Self::machine_at) without the share of carriages in its process torque, and their resisting
+    /// torque (N·m) from their motion along their guides. Like the velocity torque, it is proportional to masses and the square of the pace.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -181,9 +180,8 @@ impl MachineFile {
         Ok((reduction, -driving))
     }
 
-    /// The reduced link at `phi` without the drive train and without what the schedule says, as [`Machine::bare_reduction`] gives it, but
-    /// with the weight of payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that
-    /// varies with the position has none.
+    /// The reduced link at `phi` without the drive train and without the schedule, as by [`Machine::bare_reduction`], but with the weight of payloads
+    /// from tables in U′ and not among the process loads. U stays without it: a payload that varies with the position has no U.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -205,7 +203,7 @@ impl MachineFile {
         Ok(self.over_range.0.get_or_init(|| all))
     }
 
-    /// The same at an instant, with what acts and what is carried then.
+    /// The same at an instant, with the loads and payloads of that time.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -213,7 +211,7 @@ impl MachineFile {
         self.reduction_of(&*self.machine_at(now, phi)?, phi)
     }
 
-    /// The same of one of its machines.
+    /// The same for one of its machines.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -229,7 +227,7 @@ impl MachineFile {
         Ok(reduction)
     }
 
-    /// Torque (N·m) of the drive link against the weight of payloads from tables, −m·g·r′; zero without such.
+    /// Torque (N·m) of the drive link against the weight of payloads from tables, −m·g·r′; zero without such payloads.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
@@ -248,10 +246,10 @@ impl MachineFile {
         Ok(torques.sum())
     }
 
-    /// Puts masses on links, and other springs in the place of those with these numbers; `None`: no spring.
+    /// Puts masses on links, and replaces the springs with these numbers; `None`: no spring.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub fn rebuild<'a>(
         &mut self,
         masses: impl IntoIterator<Item = &'a Attached>,
@@ -285,10 +283,10 @@ impl MachineFile {
         Ok(())
     }
 
-    /// The machine with its drive train reduced to the drive link: what the motor's gearbox has to move.
+    /// The machine with its drive train reduced to the drive link: the load of the motor's gearbox.
     ///
     /// # Errors
-    /// None for a machine file that was read without error.
+    /// Never for a machine file that was read without error.
     pub fn with_drive_train(&self) -> Result<Machine<AnyMechanism>, Error> {
         Ok(self.machine.clone().with_flywheel(self.train_inertia())?)
     }
@@ -300,7 +298,7 @@ impl MachineFile {
     }
 }
 
-/// The least number that both divide.
+/// The least common multiple.
 pub fn least_common_multiple(a: u32, b: u32) -> u32 {
     let (mut x, mut y) = (a, b);
     while y > 0 {
@@ -309,7 +307,7 @@ pub fn least_common_multiple(a: u32, b: u32) -> u32 {
     a / x.max(1) * b
 }
 
-/// The machines of a file with its drive train: the one of all times, or those of its schedule.
+/// The machines of a file with its drive train: a single one, or those of its schedule.
 #[derive(Clone, Debug)]
 pub struct Machines<'f> {
     schedule: &'f Schedule,
@@ -317,10 +315,10 @@ pub struct Machines<'f> {
 }
 
 impl<'f> Machines<'f> {
-    /// Those of a file.
+    /// The machines of a file.
     ///
     /// # Errors
-    /// None for a machine file that was read without error.
+    /// Never for a machine file that was read without error.
     pub fn of(file: &'f MachineFile) -> Result<Self, Error> {
         let with_train = |machine: &Machine<AnyMechanism>| {
             Ok(machine.clone().with_flywheel(file.train_inertia())?)
@@ -336,10 +334,10 @@ impl<'f> Machines<'f> {
         })
     }
 
-    /// The machine at an instant; what it has of carriages is that of the position `phi` of the drive link only.
+    /// The machine at an instant; its carriages are valid only at the position `phi` of the drive link.
     ///
     /// # Errors
-    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    /// The mechanism cannot be placed at `phi`, if there are carriages.
     pub fn at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
         self.flowing(self.among(now), now, phi)
     }
@@ -349,10 +347,10 @@ impl<'f> Machines<'f> {
         &self.machines[self.schedule.number(now)]
     }
 
-    /// One of the machines with the carriages where they are at an instant.
+    /// One of the machines, with the carriages in their positions at an instant.
     ///
     /// # Errors
-    /// The mechanism cannot be placed at `phi`, where there are carriages.
+    /// The mechanism cannot be placed at `phi`, if there are carriages.
     pub fn flowing<'m>(
         &self,
         machine: &'m Machine<AnyMechanism>,

@@ -19,7 +19,7 @@ use crate::model::tabulated::{Course, StandIn, Tabulated};
 
 pub use parts::{ChangePoint, Contact, Fact, NamedElement, NamedLoad, NamedPoint};
 
-/// A mechanism that knows its joints and can be kept in a machine.
+/// A mechanism that knows its joints and can be stored in a machine.
 pub trait Inner: Jointed + fmt::Debug + Send + Sync + Any {}
 
 impl<M: Jointed + fmt::Debug + Send + Sync + Any> Inner for M {}
@@ -37,29 +37,29 @@ pub struct AnyMechanism {
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
     loads: Vec<NamedLoad>,
-    /// Number of the first of them that may drive the machine as well as resist it: the pull of a web.
+    /// Number of leading loads that may drive the machine as well as resist it: the pull of a web.
     pulls: usize,
     /// Links on guides along x, with their friction coefficient times mass (kg).
     friction: Vec<(usize, f64)>,
     stand_ins: usize,
-    /// The stand-ins, as links, on which the weight of a payload acts.
+    /// The virtual links on which the weight of a payload acts.
     pub(super) weights: Vec<usize>,
     contacts: Vec<Contact>,
     ropes: Vec<usize>,
-    /// The link whose way ends somewhere, though the file does not say where.
+    /// A link with limited travel whose end the file does not give.
     open_ended: Option<usize>,
-    /// The coordinate in which its stroke is given, where that is not the drive link's.
+    /// The coordinate in which its stroke is given, if not the drive link's.
     pub(super) axis: Option<Axis>,
     facts: Vec<Fact>,
-    /// The pairs of a linkage: how each of its joints closes.
+    /// The pairs of a linkage: the closure of each of its joints.
     pairs: Vec<Pair>,
-    /// Positions at which a linkage lies flat, and passes on its branch.
+    /// Positions at which a linkage is flat and passes on its branch.
     change_points: Vec<ChangePoint>,
 }
 
 impl AnyMechanism {
-    /// A mechanism of the `kind` that machine files write as `type`, with a name for each link and each joint, in the order
-    /// of the mechanism's own lists.
+    /// A mechanism of the `kind` that machine files write as `type`, with a name for each link and each joint, in the order of the mechanism's own
+    /// lists.
     pub fn new<S: Into<String>, J: Into<String>>(
         kind: &'static str,
         mechanism: impl Inner + 'static,
@@ -68,7 +68,7 @@ impl AnyMechanism {
     ) -> Self {
         Self {
             kind,
-            // One that cannot be placed at all is refused by the reader, and by every question that follows.
+            // A mechanism that cannot be placed at all is refused by the reader, and by every later call.
             coordinate: Coordinate::of(&mechanism).unwrap_or(Coordinate::Angle),
             inner: Arc::new(mechanism),
             links: links.into_iter().map(Into::into).collect(),
@@ -92,19 +92,19 @@ impl AnyMechanism {
         }
     }
 
-    /// With the pairs that its joints are, gears and racks among them.
+    /// With the pairs of its joints, including gears and racks.
     #[must_use]
     pub(crate) fn with_pairs(mut self, pairs: &[Pair]) -> Self {
         self.pairs = pairs.to_vec();
         self
     }
 
-    /// The pairs of a linkage, in the order of its joints; none of other mechanisms.
+    /// The pairs of a linkage, in the order of its joints; empty for other mechanisms.
     pub(crate) fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
-    /// The mechanism without its stand-ins and on its whole range, and the curves of all stand-ins in the order of their links.
+    /// The mechanism without its virtual links and on its whole range, and the curves of all virtual links in the order of these links.
     pub(crate) fn bare(&self) -> (&dyn Inner, Vec<&Course>) {
         let mut inner = self.inner.as_ref();
         let mut courses = Vec::new();
@@ -146,26 +146,26 @@ impl AnyMechanism {
         self
     }
 
-    /// On a part of its range only.
+    /// The same mechanism on a part of its range.
     #[must_use]
     pub(crate) fn on_stroke(mut self, stroke: [f64; 2]) -> Self {
         self.inner = Arc::new(OnStroke::new(Arc::clone(&self.inner), stroke));
         self
     }
 
-    /// With a link whose way ends somewhere, though the file does not say where.
+    /// With a link of limited travel whose end the file does not give.
     #[must_use]
     pub(crate) const fn open_ended(mut self, link: usize) -> Self {
         self.open_ended = Some(link);
         self
     }
 
-    /// The link whose way ends somewhere, though the file does not say where.
+    /// The link of limited travel whose end the file does not give.
     pub const fn open_end(&self) -> Option<usize> {
         self.open_ended
     }
 
-    /// With loads of its own, such as the pull of a web.
+    /// With own loads, such as the pull of a web.
     #[must_use]
     pub fn with_loads(mut self, loads: impl IntoIterator<Item = NamedLoad>) -> Self {
         self.loads.extend(loads);
@@ -173,7 +173,7 @@ impl AnyMechanism {
         self
     }
 
-    /// With springs of its own, such as that which closes a cam.
+    /// With own springs, such as one that closes a cam.
     #[must_use]
     pub fn with_elements(mut self, elements: impl IntoIterator<Item = NamedElement>) -> Self {
         self.elements.extend(elements);
@@ -190,10 +190,10 @@ impl AnyMechanism {
         self
     }
 
-    /// With the friction of its guides as loads, in this `gravity` (m/s²): only its component across the guide presses.
+    /// With the friction of its guides as loads, in this `gravity` (m/s²): only its component normal to the guide presses.
     ///
     /// # Errors
-    /// A friction force that is not finite.
+    /// The friction force is not finite.
     pub(crate) fn with_gravity_on_guides(mut self, gravity: [f64; 2]) -> Result<Self, Error> {
         for (link, mass) in std::mem::take(&mut self.friction) {
             let force = mass * gravity[1].abs();
@@ -208,10 +208,10 @@ impl AnyMechanism {
         Ok(self)
     }
 
-    /// With curves over the drive link's position: each becomes a link with its bearing and gearing, and a load or a spring.
+    /// With curves over the drive link's position: each becomes a virtual link with its bearing and gearing, and a load or a spring.
     ///
     /// # Errors
-    /// More links than a mechanism may have.
+    /// There are more links than a mechanism may have.
     pub fn with_stand_ins(mut self, stand_ins: &[StandIn]) -> Result<Self, Error> {
         let own = self.links.len();
         self.inner = Arc::new(Tabulated::new(Arc::clone(&self.inner), stand_ins)?);
@@ -247,12 +247,12 @@ impl AnyMechanism {
         self
     }
 
-    /// Number of links that are parts of the mechanism; those after them stand in for curves.
+    /// Number of links that are parts of the mechanism; the later ones represent curves.
     pub fn own_links(&self) -> usize {
         self.links.len() - self.stand_ins
     }
 
-    /// Number of joints that are parts of the mechanism; after them come the bearing and the gearing of each stand-in.
+    /// Number of joints that are parts of the mechanism; after them come the bearing and the gearing of each virtual link.
     pub fn own_joints(&self) -> usize {
         self.joints.len() - 2 * self.stand_ins
     }
@@ -262,7 +262,7 @@ impl AnyMechanism {
         self.weights.contains(&load.link())
     }
 
-    /// Number of the first of its own loads that drive the machine as often as they resist it.
+    /// Number of leading own loads that drive the machine as often as they resist it.
     pub(crate) const fn pulls(&self) -> usize {
         self.pulls
     }
@@ -279,7 +279,7 @@ impl AnyMechanism {
         self
     }
 
-    /// With one more joint whose rope can only pull: its force on the second body is positive then.
+    /// With one more joint that is a rope and can only pull: its force on the second body is positive then.
     #[must_use]
     pub fn with_rope(mut self, joint: usize) -> Self {
         self.ropes.push(joint);
@@ -301,7 +301,7 @@ impl AnyMechanism {
         self
     }
 
-    /// The positions at which the linkage lies flat, and passes on its branch: the forces in its joints are not determined there.
+    /// The positions at which the linkage is flat and passes on its branch: the forces in its joints are not determined there.
     pub fn change_points(&self) -> &[ChangePoint] {
         &self.change_points
     }
@@ -316,7 +316,7 @@ impl AnyMechanism {
         &self.contacts
     }
 
-    /// How messages begin that are about the contact in this joint: with its name, if the file gives one.
+    /// Prefix of messages about the contact in this joint: its name, if the file gives one.
     pub fn contact_prefix(&self, joint: usize) -> String {
         let named = self.contacts.iter().any(|c| c.joint == joint && c.named);
         let name = self.joints.get(joint).filter(|_| named);
@@ -353,7 +353,7 @@ impl AnyMechanism {
         self.links.get(..self.own_links()).unwrap_or_default()
     }
 
-    /// The same, and behind them the names of the curves that links stand in for.
+    /// The same, followed by the names of the curves that virtual links represent.
     pub fn names(&self) -> &[String] {
         &self.links
     }
@@ -368,7 +368,7 @@ impl AnyMechanism {
         &self.points
     }
 
-    /// The points of the ground that have a name, in global coordinates (m).
+    /// The named points of the ground, in global coordinates (m).
     pub fn ground_points(&self) -> &[(String, [f64; 2])] {
         &self.ground_points
     }

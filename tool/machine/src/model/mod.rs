@@ -1,4 +1,4 @@
-//! A machine as a machine file describes it, in SI units, with what the file asks of its drive.
+//! A machine as described by a machine file, in SI units, with the requirements for its drive.
 
 pub mod axis;
 pub mod by_motion;

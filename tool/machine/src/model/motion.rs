@@ -37,27 +37,27 @@ pub use tool::{Measure, Standstill, ToolCoordinate};
 #[derive(Clone, Debug)]
 pub struct Motion {
     pieces: Vec<Piece>,
-    /// What is prescribed, if it is not the drive link.
+    /// The prescribed coordinate, if it is not the drive link.
     tool: Option<Arc<ToolCoordinate>>,
     limits: Vec<(usize, Limits)>,
-    /// Whether the motion repeats; sizing takes the RMS over the whole duration either way.
+    /// Whether the motion repeats; sizing uses the RMS over the whole duration in both cases.
     pub cyclic: bool,
 }
 
-/// Share of a recorded motion's largest speed below which it stands still: the curve through the positions of a dwell
-/// swings around zero by a few roundings, and friction must not take that for motion.
+/// Share of a recorded motion's largest speed below which it is at rest: the curve through the positions of a dwell oscillates around zero by a few
+/// rounding errors, which friction must not treat as motion.
 const STANDSTILL: f64 = 1e-6;
 
-/// Parts of a polynomial of seventh degree in which it is looked for a point where it turns back.
+/// Parts of a polynomial of seventh degree that are searched for a point where it turns back.
 const TURNS: u32 = 64;
 
-/// The same between two rows of a recorded motion, where the speed is of third degree at most.
+/// The same between two rows of a recorded motion, where the speed is at most of third degree.
 const TURNS_OF_ROWS: u32 = 4;
 
-/// Parts of a recorded motion at whose ends it is looked at.
+/// Parts of a recorded motion at whose ends it is evaluated.
 const RECORDED: u32 = 10_000;
 
-/// A place of a motion that may be an extreme.
+/// A point of a motion that may be an extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// Number of the segment.
@@ -92,10 +92,10 @@ impl Motion {
         }
     }
 
-    /// Moves and dwells one after another, from `start` (rad, or m).
+    /// Successive moves and dwells, from `start` (rad, or m).
     ///
     /// # Errors
-    /// A duration that is not positive or a law that is not valid, with the index of the segment.
+    /// The index of a segment whose duration is not positive or whose law is not valid.
     pub fn segments(
         start: f64,
         segments: &[Segment],
@@ -150,18 +150,18 @@ impl Motion {
         })
     }
 
-    /// A motion through recorded positions (rad, or m). The twice continuously differentiable curve through them, or near them,
-    /// gives speed and acceleration; of a cyclic one all three close.
+    /// A motion through recorded positions (rad, or m). A twice continuously differentiable curve through them, or near them, gives speed and
+    /// acceleration; for a cyclic motion all three close.
     ///
     /// # Errors
-    /// Times that do not rise, too few rows, numbers that are not finite.
+    /// Times do not rise, there are too few rows, or numbers are not finite.
     pub fn positions(recording: &Recording) -> Result<Self, Fault> {
         let duration = recording.duration()?;
         let advance = match recording.closing {
             Closing::Open => 0.0,
             Closing::After(advance) => advance / duration,
         };
-        // What is periodic is the deviation from the steady advance.
+        // The deviation from the steady advance is periodic.
         let deviation = recording.times.iter().zip(recording.values);
         let deviation: Vec<f64> = deviation.map(|(t, phi)| phi - advance * t).collect();
         let curve = recording.curve(&deviation)?;
@@ -181,8 +181,8 @@ impl Motion {
         ))
     }
 
-    /// A motion with recorded speeds (rad/s, or m/s), from the position `start`. The position is the exact integral of the curve
-    /// through them. What a cyclic one misses is spread over the cycle as a constant speed.
+    /// A motion with recorded speeds (rad/s, or m/s), from the position `start`. The position is the exact integral of the curve through them. For a
+    /// cyclic motion, the closing error is spread over the cycle as a constant speed.
     ///
     /// # Errors
     /// As for [`positions`](Self::positions).
@@ -207,8 +207,8 @@ impl Motion {
         ))
     }
 
-    /// A motion through nodes, of which there are two at least, in the order of their times, the first at t = 0. Where speeds and accelerations
-    /// are roundings it stands still.
+    /// A motion through at least two nodes, in the order of their times, the first at t = 0. Where speeds and accelerations are rounding, it is at
+    /// rest.
     pub fn nodes(nodes: &[Node], cyclic: bool) -> Self {
         let piece = |run: Vec<Node>| {
             let [start, end] = [run.first(), run.last()].map(|node| node.map_or(0.0, |n| n.t));
@@ -243,17 +243,17 @@ impl Motion {
         }
     }
 
-    /// The limits that the file gives its segments, by their numbers from 0 on.
+    /// The limits that the file gives its segments, by their indices from 0.
     pub fn limits(&self) -> &[(usize, Limits)] {
         &self.limits
     }
 
-    /// Length of the motion (s).
+    /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.pieces.last().map_or(0.0, Piece::end)
     }
 
-    /// Where the prescribed position may be at an extreme: the ends of the pieces, where a polynomial turns back, and a dense row of a
+    /// Points at which the prescribed position may be at an extreme: the ends of the pieces, turning points of polynomials, and dense samples of a
     /// recorded motion.
     pub fn reaches(&self) -> Vec<Reach> {
         let mut reaches = Vec::new();
@@ -317,13 +317,13 @@ impl Motion {
         stretches
     }
 
-    /// Whether it goes through recorded or computed rows somewhere.
+    /// Whether a part of it is recorded or computed as rows.
     pub(crate) fn is_recorded(&self) -> bool {
         self.pieces.iter().any(Piece::is_recorded)
     }
 
-    /// The times (s) strictly within a part of the motion at which its rows stand, in order: there a derivative jumps. None of a motion that
-    /// is not recorded, nor computed.
+    /// The times (s) of its rows strictly within a part of the motion, in order: there a derivative jumps. Empty for a motion that is neither
+    /// recorded nor computed.
     pub(crate) fn rows_within(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let first = self.pieces.partition_point(|piece| piece.end() <= from);
         let pieces = self.pieces.iter().skip(first);
@@ -335,15 +335,14 @@ impl Motion {
         rows
     }
 
-    /// A part of the motion cut where its rows stand. Times (s) with both ends.
+    /// A part of the motion cut at its rows: times (s) including both ends.
     pub(crate) fn cut_at_rows(&self, span: [f64; 2]) -> Vec<f64> {
         let [from, to] = span;
         let inner = self.rows_within(span);
         [from].into_iter().chain(inner).chain([to]).collect()
     }
 
-    /// Times (s) of a part of the motion, in order with both ends, between two of which the drive link turns back once at most, but for
-    /// roundings.
+    /// Times (s) of a part of the motion, in order with both ends: between two of them the drive link turns back at most once, except for rounding.
     pub(crate) fn turning(&self, span: [f64; 2]) -> Vec<f64> {
         let [from, to] = span;
         let first = self.pieces.partition_point(|piece| piece.end() <= from);
@@ -351,7 +350,7 @@ impl Motion {
         let mut places = vec![from];
         for piece in pieces.take_while(|piece| piece.start < to) {
             let parts = match piece.kind {
-                // It goes one way.
+                // It has one direction.
                 Kind::Move(_) => 1,
                 Kind::Polynomial { .. } => TURNS,
                 Kind::Positions { .. } | Kind::Speeds { .. } | Kind::Nodes(_) => TURNS_OF_ROWS,
@@ -376,7 +375,7 @@ impl Motion {
         self
     }
 
-    /// The coordinate of the tool that is prescribed; `None`: the drive link.
+    /// The prescribed coordinate of the tool; `None`: the drive link.
     pub fn tool(&self) -> Option<&ToolCoordinate> {
         self.tool.as_deref()
     }
@@ -393,13 +392,13 @@ impl Motion {
         }
     }
 
-    /// The state of what is prescribed at `t` (s), clamped to the motion: of the tool, or of the drive link.
+    /// The prescribed state at `t` (s), clamped to the motion: of the tool, or of the drive link.
     pub fn prescribed(&self, t: f64) -> State<f64> {
         let piece = self.piece(t);
         piece.map_or(State::default(), |piece| piece.at(t - piece.start))
     }
 
-    /// The piece of the time `t`, the later one where two meet.
+    /// The piece that contains the time `t`; at a border the later one.
     fn piece(&self, t: f64) -> Option<&Piece> {
         let index = self.pieces.partition_point(|p| p.start <= t).max(1) - 1;
         self.pieces.get(index)

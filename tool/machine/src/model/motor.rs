@@ -1,4 +1,4 @@
-//! What turns the input of the drive train: a motor, with what stands between it and the input.
+//! The drive of the drive train's input: a motor, with everything between it and the input.
 
 use crate::model::characteristic::Characteristic;
 
@@ -30,7 +30,7 @@ pub fn loads_of(alpha: f64, torque: f64, speed: f64) -> [f64; LOADS] {
 }
 
 impl Coefficients {
-    /// Those of a rotor alone (kg·m²).
+    /// The coefficients of a rotor without gearbox (kg·m²).
     pub const fn rotor(inertia: f64) -> Self {
         Self([inertia, 1.0, 1.0, 0.0, 0.0])
     }
@@ -52,13 +52,13 @@ pub trait Motor {
     /// Speed of the motor per speed of that input, positive.
     fn ratio(&self) -> f64;
 
-    /// The torque (N·m) that it gives without a controller at a speed of its own (rad/s), continuous in the speed.
+    /// The torque (N·m) without a controller at a motor speed (rad/s), continuous in the speed.
     fn torque(&self, speed: f64) -> f64;
 
     /// Least and largest torque that a controller can command at a speed, continuous in the speed.
     fn limits(&self, speed: f64) -> [f64; 2];
 
-    /// Speeds of its own at which its torque or its limits have a corner, other than 0.
+    /// Motor speeds at which its torque or its limits have a corner, other than 0.
     fn bends(&self) -> Vec<f64>;
 }
 
@@ -108,7 +108,7 @@ impl Motor for OwnMotor<'_> {
     }
 
     fn bends(&self) -> Vec<f64> {
-        // The limits are the same in both directions.
+        // The limits are equal in both directions.
         let own = self.characteristic.bends().into_iter();
         own.filter(|speed| *speed != 0.0)
             .flat_map(|speed| [speed, -speed])

@@ -1,4 +1,4 @@
-//! A mechanism of which only a part of the range is used: an axis that ends.
+//! A mechanism of which only a part of the range is used: an axis with ends.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -22,9 +22,9 @@ impl OnStroke {
         self.inner.as_ref()
     }
 
-    /// From one position to another.
+    /// The mechanism from one position to another.
     pub(super) fn new(inner: Arc<dyn Inner>, [from, to]: [f64; 2]) -> Self {
-        // An edge of the turn, in every turn on the stroke; at its start and at its end there is none.
+        // An edge of the turn, in every turn on the stroke, except at its ends.
         let repeats = inner.domain() == Domain::Turn;
         let mut edges = Vec::new();
         for edge in (0..).map_while(|k| inner.edge(k)) {

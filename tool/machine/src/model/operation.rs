@@ -1,17 +1,17 @@
 //! Operation: continuous, short-time or intermittent.
 
-/// How long the machine runs through its cycle, and how long it rests.
+/// Durations of operation and rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Operation {
     /// The cycle repeats without end: S1 and S6 to S9, and S3 to S5 whose rests are part of the motion.
     #[default]
     Continuous,
-    /// From the temperature of the surroundings for a while, then until all is cold again: S2.
+    /// One run from a cold start until everything is cold again: S2.
     Short {
         /// Operating time (s).
         operating: f64,
     },
-    /// For a while, then at rest for a while, and so on: S3, S4, S5.
+    /// Alternating operation and rest: S3, S4, S5.
     Intermittent {
         /// Operating time (s).
         operating: f64,
@@ -32,7 +32,7 @@ pub struct Duty {
 }
 
 impl Operation {
-    /// Share of the time in which the machine runs; of a short operation nothing is known of it.
+    /// Share of the time in which the machine runs; `None` for a short operation.
     pub fn running(&self) -> Option<f64> {
         match *self {
             Self::Continuous => Some(1.0),

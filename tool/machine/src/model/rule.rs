@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::units::Vocabulary;
 
-/// One table for all rules: what each is, its variant, its name in reports (and that of a linear motor's), its key in `[rules]`.
+/// One table for all rules: its doc, its variant, its name in reports (and for a linear motor), its key in `[rules]`.
 macro_rules! rules {
     ($($(#[$doc:meta])+ $rule:ident, $name:literal $(/ $linear:literal)?, $key:literal;)+) => {
         /// One rule. A rule compares a figure of the duty with a share of a rating.
@@ -40,7 +40,7 @@ macro_rules! rules {
                 }
             }
 
-            /// The key of its warning.
+            /// The key of its warning limit.
             pub const fn warning_key(self) -> &'static str {
                 match self {
                     $(Self::$rule => concat!($key, "_warning"),)+
@@ -57,13 +57,13 @@ rules! {
     PeakTorque, "peak torque" / "peak force", "peak_torque";
     /// Largest speed against the motor's largest speed.
     Speed, "speed", "speed";
-    /// Torque that holds the machine at rest against the standstill torque.
+    /// Holding torque at rest against the standstill torque.
     HoldingTorque, "holding torque" / "holding force", "gravity_hold";
     /// Torque of weight and friction, without acceleration and process loads, against the standstill torque.
     ConstantTorque, "constant torque" / "constant force", "constant_torque";
-    /// Torque that holds the machine at rest against the motor's brake.
+    /// Holding torque at rest against the motor's brake.
     BrakeTorque, "brake torque" / "brake force", "brake_torque";
-    /// Work of the motor's brake in a stop without supply against what it bears.
+    /// Work of the motor's brake in a stop without supply against its allowed work.
     BrakeWork, "brake work", "brake_work";
     /// Inertia ratio λ.
     InertiaRatio, "inertia ratio" / "mass ratio", "inertia_ratio";
@@ -71,11 +71,11 @@ rules! {
     WindingTemperature, "winding temperature", "winding_temperature";
     /// Hottest point of the housing, as a rise above the ambient temperature.
     HousingTemperature, "housing temperature", "housing_temperature";
-    /// Temperature of the motor's surroundings against where its derating ends.
+    /// Ambient temperature of the motor against the end of its derating.
     AmbientTemperature, "ambient temperature", "ambient_temperature";
-    /// Temperature of the amplifier's surroundings against where its derating ends.
+    /// Ambient temperature of the amplifier against the end of its derating.
     CabinetTemperature, "cabinet temperature", "cabinet_temperature";
-    /// Altitude against where the derating of motor and amplifier ends.
+    /// Altitude against the end of the derating of motor and amplifier.
     Altitude, "altitude", "altitude";
     /// Largest torque at the gearbox output against T2B.
     GearboxPeak, "gearbox peak torque", "gearbox_peak";
@@ -111,11 +111,11 @@ rules! {
     ResistorPulse, "brake resistor pulse energy", "resistor_pulse";
     /// Lowest natural frequency against the drive frequency (VDI 2149).
     NaturalFrequency, "natural frequency", "natural_frequency";
-    /// Play at the tool.
+    /// Backlash at the tool.
     Backlash, "backlash", "backlash";
 }
 
-/// Which side of its limit a figure must keep.
+/// On which side of its limit a figure must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
     /// Not above.
@@ -141,7 +141,7 @@ impl Rule {
         matches!(self, Self::InertiaRatio | Self::NaturalFrequency)
     }
 
-    /// Whether another motion of the same moves may keep it; the others are rules of machine and drive alone.
+    /// Whether another motion of the same moves may satisfy it; other rules depend only on machine and drive.
     pub const fn follows_motion(self) -> bool {
         !matches!(
             self,
@@ -156,19 +156,19 @@ impl Rule {
         )
     }
 
-    /// Whether it says that a part is made for the voltage of the supply, without which nobody can buy it.
+    /// Whether it requires that a part is made for the voltage of the supply.
     pub const fn is_of_voltage(self) -> bool {
         matches!(self, Self::MotorVoltage | Self::AmplifierVoltage)
     }
 
-    /// Whether it only asks yes or no: figure and limit are what the parts are made for, not what the motion asks of them. Such a rule
-    /// has no margin, and how near its figure is to its limit says nothing about a drive that satisfies it.
+    /// Whether it is a yes-or-no rule: figure and limit depend on the parts, not on the motion. Such a rule has no margin, and the distance of its
+    /// figure from its limit says nothing about a drive that satisfies it.
     pub const fn is_yes_or_no(self) -> bool {
         self.is_of_voltage() || matches!(self, Self::BusVoltage | Self::BrakeResistance)
     }
 
-    /// Whether judging it means following the time course of a state (temperature, charge), sample by sample. Such rules
-    /// are checked only for drives that satisfy all others.
+    /// Whether judging it needs the time course of a state (temperature, charge), sample by sample. Such rules are checked only for drives that
+    /// satisfy all others.
     pub const fn follows_time(self) -> bool {
         matches!(
             self,

@@ -1,6 +1,6 @@
 //! A rule set: the rules that are checked, with their limits and sources.
 //!
-//! The sets that come with the tool are files of `tool/machine/rules`; `docs/sizing-rules.md` lists them with their sources.
+//! The built-in sets are files of `tool/machine/rules`; `docs/sizing-rules.md` lists them with their sources.
 
 use serde::Serialize;
 
@@ -33,11 +33,11 @@ impl Limit {
 /// Limits of the sizing rules. All can be overridden in `[rules]` of the machine file, and all are printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RuleSet {
-    /// Name of the set that was chosen.
+    /// Name of the chosen set.
     pub name: String,
     /// Short description of the set.
     pub title: String,
-    /// Values that a rule may check, where there is a choice.
+    /// Choices between values that a rule may check.
     pub choices: Choices,
     limits: [Limit; Rule::COUNT],
     off: [bool; Rule::COUNT],
@@ -80,7 +80,7 @@ impl RuleSet {
         self.is_off(rule) || self.limit(rule).is_set()
     }
 
-    /// Where the rule's limits come from.
+    /// Source of the rule's limits.
     pub fn source(&self, rule: Rule) -> &str {
         &self.sources[rule as usize]
     }
@@ -112,20 +112,21 @@ impl RuleSet {
         }
     }
 
-    /// Use of the limit by a finding; zero if there is no limit, or if a rule that only asks yes or no is satisfied; infinite if the limit is zero and the value is not.
+    /// Use of the limit by a finding; zero if there is no limit, or if a yes-or-no rule is satisfied; infinite if the limit is zero and the value is
+    /// not.
     #[inline]
     pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
         use_of(self.limit(rule).fail, rule, finding)
     }
 
-    /// Use of the limit that is shown: that of the warning if there is no other.
+    /// Use of the displayed limit: the warning limit if there is no other.
     pub fn use_shown(&self, rule: Rule, finding: Finding) -> f64 {
         let limit = self.limit(rule);
         use_of(limit.fail.or(limit.warn), rule, finding)
     }
 }
 
-/// Share of a limit that is the error of a duty: a mean speed of 1500 rpm is at a limit of 1500 rpm, whatever its last digits.
+/// Share of a limit that is the error of a duty: a mean speed of 1500 rpm satisfies a limit of 1500 rpm, whatever its last digits.
 const ROUNDING: f64 = 1e-9;
 
 #[inline]

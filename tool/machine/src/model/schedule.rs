@@ -1,8 +1,8 @@
-//! What of a machine changes in the course of its motion: loads that act in a part of it only, payloads that are picked up and set
-//! down, and carriages that a second axis moves.
+//! Changes of a machine during its motion: loads that act only in a part of it, payloads that are picked up and set down, and carriages that a second
+//! axis moves.
 //!
-//! At every instant the machine is one of a few: each of them has the same links, joints and loads in the same order, of which some
-//! are without force, and some links are heavier by what they carry. A carriage makes another machine at every instant.
+//! At every instant the machine is one of a few variants. All have the same links, joints and loads in the same order; some loads are without force,
+//! and some links are heavier by their payload. With a carriage the machine is different at every instant.
 
 use std::borrow::Cow;
 
@@ -19,37 +19,37 @@ mod when;
 
 pub use when::{Now, Travel, When};
 
-/// A load that does not always act, or has a value of its own at rest.
+/// A load that does not always act, or has a separate value at rest.
 #[derive(Clone, Debug)]
 pub struct Scheduled {
     /// Its name.
     pub name: String,
     /// Index of the load among the machine's.
     pub load: usize,
-    /// When it acts.
+    /// Its times.
     pub when: When,
-    /// The load where the drive link is at rest, if that is another one: of a load against the motion its static friction.
+    /// A different load for a drive link at rest; for a motion-opposing load its static friction.
     pub at_rest: Option<Load>,
     /// Whether that is static friction.
     pub is_static_friction: bool,
-    /// The same in words, for reports.
+    /// Its description for reports.
     pub words: String,
 }
 
-/// A mass that a link carries for a while.
+/// A mass that a link carries for a part of the motion.
 #[derive(Clone, Debug)]
 pub struct Payload {
     /// Its name.
     pub name: String,
-    /// What is carried.
+    /// The mass.
     pub mass: Attached,
-    /// When it is carried.
+    /// Its times.
     pub when: When,
-    /// The same in words, for reports.
+    /// Its description for reports.
     pub words: String,
 }
 
-/// What a load does at an instant.
+/// State of a load at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Share {
     Nothing,
@@ -57,10 +57,10 @@ enum Share {
     AtRest,
 }
 
-/// Which loads act and which payloads are carried, in the schedule's order.
+/// The states of the loads, and whether each payload is carried, in the schedule's order.
 type State = (Vec<Share>, Vec<bool>);
 
-/// Everything that changes in the course of the motion, and the machines that follow from it.
+/// All changes during the motion, and the resulting machines.
 #[derive(Clone, Debug, Default)]
 pub struct Schedule {
     loads: Vec<Scheduled>,
@@ -72,10 +72,10 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// The machines that `machine`, all of whose loads act, is at some instant of the motion, and without one.
+    /// The variants of `machine`, all of whose loads act, at the instants of the motion, and without a motion.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub fn new(
         machine: &Machine<AnyMechanism>,
         (loads, payloads, carriages): (Vec<Scheduled>, Vec<Payload>, Vec<Carriage>),
@@ -122,10 +122,10 @@ impl Schedule {
         Ok(schedule)
     }
 
-    /// The same schedule of another machine with the same loads.
+    /// The same schedule for another machine with the same loads.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// Errors of the machine.
     pub fn of_machine(
         &self,
         machine: &Machine<AnyMechanism>,
@@ -142,22 +142,22 @@ impl Schedule {
         Self::new(machine, parts, motion)
     }
 
-    /// The loads that do not always act, or have a value of their own at rest.
+    /// The loads that do not always act, or have a separate value at rest.
     pub fn loads(&self) -> &[Scheduled] {
         &self.loads
     }
 
-    /// What is picked up and set down.
+    /// The payloads that are picked up and set down.
     pub fn payloads(&self) -> &[Payload] {
         &self.payloads
     }
 
-    /// What second axes move.
+    /// The carriages that second axes move.
     pub fn carriages(&self) -> &[Carriage] {
         &self.carriages
     }
 
-    /// Whether the load of this index is that of a carriage.
+    /// Whether the load with this index belongs to a carriage.
     pub fn is_of_carriage(&self, load: usize) -> bool {
         self.carriages.iter().any(|carriage| carriage.load == load)
     }
@@ -167,22 +167,22 @@ impl Schedule {
         self.loads.is_empty() && self.payloads.is_empty() && self.carriages.is_empty()
     }
 
-    /// Whether the machine is another one at every instant, not one of a few.
+    /// Whether the machine is different at every instant, not one of a few variants.
     pub const fn flows(&self) -> bool {
         !self.carriages.is_empty()
     }
 
-    /// Whether a load has a value of its own at rest.
+    /// Whether a load has a separate value at rest.
     pub fn has_values_at_rest(&self) -> bool {
         self.loads.iter().any(|load| load.at_rest.is_some())
     }
 
-    /// Whether a load has to be broken away from rest.
+    /// Whether a load has static friction.
     pub fn has_static_friction(&self) -> bool {
         self.loads.iter().any(|load| load.is_static_friction)
     }
 
-    /// The times of the motion (s) at which something begins or ends.
+    /// The times of the motion (s) at which a load or payload begins or ends.
     pub fn times(&self) -> Vec<f64> {
         let loads = self.loads.iter().map(|load| &load.when);
         let whens = loads.chain(self.payloads.iter().map(|payload| &payload.when));
@@ -196,7 +196,7 @@ impl Schedule {
         times
     }
 
-    /// Which machine it is at this instant, as a number that changes where the machine does.
+    /// Number of the variant at this instant.
     pub fn number(&self, now: &Now) -> usize {
         if self.is_empty() {
             return 0;
@@ -206,25 +206,25 @@ impl Schedule {
         self.variants.iter().position(same).unwrap_or_default()
     }
 
-    /// The machine of this number; `None` if nothing changes.
+    /// The variant with this number; `None` if nothing changes.
     pub fn machine(&self, number: usize) -> Option<&Machine<AnyMechanism>> {
         self.variants.get(number).map(|(_, machine)| machine)
     }
 
-    /// The machine without anything that goes by the motion; `None` if nothing changes.
+    /// The machine without any part that depends on the motion; `None` if nothing changes.
     pub fn at_no_time(&self) -> Option<&Machine<AnyMechanism>> {
         self.machine(self.number(&Now::default()))
     }
 
-    /// The machines, in the order of their numbers.
+    /// The variants, in the order of their numbers.
     pub fn machines(&self) -> impl Iterator<Item = &Machine<AnyMechanism>> {
         self.variants.iter().map(|(_, machine)| machine)
     }
 
-    /// `machine`, which is that of this instant but for its carriages, with them where they are, at the position `phi` of the drive link.
+    /// `machine`, the variant of this instant, with its carriages in position, at the position `phi` of the drive link.
     ///
     /// # Errors
-    /// The mechanism cannot be placed there; those of the machine.
+    /// The mechanism cannot be placed there; errors of the machine.
     pub fn flowing<'m>(
         &self,
         machine: Cow<'m, Machine<AnyMechanism>>,
@@ -248,7 +248,7 @@ impl Schedule {
         Ok(Cow::Owned(moved))
     }
 
-    /// Whether something is carried at this time of the motion.
+    /// Whether a payload is carried at this time of the motion.
     pub fn is_laden(&self, t: f64) -> bool {
         if self.flows() {
             return true;
@@ -260,7 +260,7 @@ impl Schedule {
     fn state(&self, now: &Now) -> State {
         let share = |load: &Scheduled| {
             if load.at_rest.is_some() && now.is_at_rest() {
-                // Where no move begins the direction is unknown: its value at rest is that of every direction.
+                // Where no move begins the direction is unknown: the value at rest is valid for every direction.
                 let travel = load.when.travel.filter(|_| now.starts.is_some());
                 let when = When {
                     travel,
@@ -297,7 +297,7 @@ impl Schedule {
             let scheduled = self.loads.iter().zip(shares).find(|(s, _)| s.load == k);
             Ok(match scheduled {
                 Some((_, Share::Nothing)) => {
-                    // Its edges stay: the machines differ in nothing but their forces and masses.
+                    // Its edges stay: the variants differ only in their forces and masses.
                     let none = Load::new(load.link(), Action::Moment(0.0))?;
                     load.window().map_or(none, |window| none.within(window))
                 }
@@ -308,7 +308,7 @@ impl Schedule {
     }
 }
 
-/// The machine with another mechanism of the same links, and with other loads in the place of its own.
+/// The machine with another mechanism of the same links, and with other loads instead of its own.
 fn rebuilt(
     machine: &Machine<AnyMechanism>,
     mechanism: AnyMechanism,

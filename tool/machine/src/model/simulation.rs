@@ -1,4 +1,4 @@
-//! `[simulation]`: the motor of a free motion, its controller, and what stops it.
+//! `[simulation]`: the motor of a free motion, its controller, and its stop.
 
 use jred::{Domain, Reducible as _};
 
@@ -19,26 +19,26 @@ pub enum Shaft {
 /// A free motion under a motor torque.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// φ at the start (rad, or m of a link that slides).
+    /// φ at the start (rad, or m of a sliding link).
     pub start_angle: f64,
     /// ω of the drive link at the start (rad/s).
     pub start_speed: f64,
-    /// Length (s).
+    /// Duration (s).
     pub duration: f64,
-    /// Distance of the output points (s).
+    /// Time between output points (s).
     pub output_step: f64,
-    /// Torque of the motor over the speed, both at `at`. Under a controller, its limit: the same in both directions. Not given: the
-    /// motor is that of a drive.
+    /// Torque of the motor over its speed, both at `at`. Under a controller it is the limit, equal in both directions. `None`: the motor belongs to a
+    /// drive.
     pub torque: Option<Characteristic>,
-    /// The winding of that motor, if its current takes time to follow. Without a controller.
+    /// The winding of that motor, if the delay of its current is modelled. Without a controller.
     pub winding: Option<Winding>,
-    /// The controller that commands the torque, if there is one.
+    /// The controller that commands the torque, if any.
     pub control: Option<Control>,
     /// A stop in the middle of the motion.
     pub halt: Option<Halt>,
-    /// A speed of the drive link (rad/s, or m/s), by magnitude, of which it is to be said when it is reached.
+    /// A speed of the drive link (rad/s, or m/s), by magnitude, that is reported when it is reached.
     pub to_speed: Option<f64>,
-    /// What stops the drive link at the ends of its way.
+    /// The end stops of the drive link's travel.
     pub end_stops: Option<EndStops>,
     /// Where the torque acts.
     pub at: Shaft,
@@ -49,7 +49,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Where nothing but the motor is given: at the motor shaft, without a rotor, from 0 and from rest, for a second.
+    /// Defaults if only the motor is given: at the motor shaft, without a rotor, from position 0 and from rest, for one second.
     pub const fn of_motor(torque: Characteristic) -> Self {
         Self {
             start_angle: 0.0,
@@ -77,7 +77,7 @@ impl Simulation {
         })
     }
 
-    /// Where the drive link's way ends: its end stops, or the ends of the stroke.
+    /// The ends of the drive link's travel: its end stops, or the ends of the stroke.
     pub fn ends(&self, file: &MachineFile) -> Option<[f64; 2]> {
         match (self.end_stops, file.machine.domain()) {
             (Some(stops), _) => Some([stops.from, stops.to]),
@@ -86,7 +86,7 @@ impl Simulation {
         }
     }
 
-    /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
+    /// Whether the motor drives a sliding link without a rotating stage: its torque is then a force.
     pub fn drives_a_slide(&self, file: &MachineFile) -> bool {
         let coordinate = file.machine.mechanism().coordinate();
         let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
@@ -97,7 +97,7 @@ impl Simulation {
 /// The winding of a DC motor at a constant voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Winding {
-    /// Voltage at the terminals (V); its sign is the way in which the motor drives.
+    /// Voltage at the terminals (V); its sign is the driving direction.
     pub voltage: f64,
     /// Resistance (Ω).
     pub resistance: f64,
@@ -107,17 +107,17 @@ pub struct Winding {
     pub constant: f64,
 }
 
-/// A cascade of controllers as servo amplifiers have it, at the shaft where the torque acts: position, then speed.
+/// A cascade of controllers as in servo amplifiers, at the shaft where the torque acts: position, then speed.
 ///
 /// ```text
 /// n* = n_ref + K_v·(φ_ref − φ)·i
 /// T* = T_ff + K·(n* − n) + z,   z′ = (K·(n* − n) + T − T*)/t_i,   T = T* within the motor's limits
 /// ```
 ///
-/// The reference is the motion of the file. Where the torque is limited, the last term keeps the integral z from winding up.
+/// The reference is the motion of the file. Where the torque is limited, the last term prevents windup of the integral z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
-    /// K_v (1/s); 0: the speed alone is controlled.
+    /// K_v (1/s); 0: only the speed is controlled.
     pub position_gain: f64,
     /// K (N·m·s/rad), positive.
     pub speed_gain: f64,
@@ -127,25 +127,25 @@ pub struct Control {
     pub feed_forward: FeedForward,
 }
 
-/// The torque that a controller is told before there is an error.
+/// The torque that a controller adds before there is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedForward {
     /// None.
     None,
-    /// That of the mean inertia under the acceleration of the reference, as most drives have it.
+    /// The torque of the mean inertia at the acceleration of the reference, as in most drives.
     MeanInertia,
-    /// All that the reference asks for: J(φ), J′(φ), loads, friction and losses.
+    /// The full torque of the reference: J(φ), J′(φ), loads, friction and losses.
     Model,
 }
 
 /// A stop in the middle of the motion: the motor is switched off, and a brake may close.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Halt {
-    /// When the motor gives no torque any more (s).
+    /// Time at which the motor is switched off (s).
     pub time: f64,
     /// Torque of the brake at the motor shaft (N·m), against the motion; 0: the machine coasts.
     pub brake_torque: f64,
-    /// How much later the brake acts (s).
+    /// Delay of the brake (s).
     pub brake_delay: f64,
 }
 

@@ -4,12 +4,12 @@ use crate::model::operation::Duty;
 use crate::model::supply::{MAINS_TOLERANCE, Supply, rectified};
 use crate::model::surroundings::Surroundings;
 
-/// The surroundings of the drive.
+/// The site of the drive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Site {
     /// Voltage of the DC bus (V); `None`: each motor at the voltage of its data sheet.
     pub bus_voltage: Option<f64>,
-    /// Voltage of the mains that the bus is rectified from (V); `None`: not given, or the bus voltage was given itself.
+    /// Mains voltage from which the bus is rectified (V); `None`: not given, or the bus voltage is given directly.
     pub mains_voltage: Option<f64>,
     /// The rest of the supply.
     pub supply: Supply,
@@ -19,15 +19,14 @@ pub struct Site {
     pub duty: Duty,
     /// Torsional stiffness of shafts and couplings, at the input of the drive train (N·m/rad); `None`: not given.
     pub shaft_stiffness: Option<f64>,
-    /// Play of the drive train at the drive link (rad, or m of a link that slides); `None`: not given.
+    /// Backlash of the drive train at the drive link (rad, or m of a sliding link); `None`: not given.
     pub train_play: Option<f64>,
-    /// The tool, where backlash matters; `None`: none.
+    /// The tool for the backlash rule, if given.
     pub tool: Option<Tool>,
 }
 
 impl Site {
-    /// Highest voltage of the DC bus without braking (V): the rectified mains at the upper end of their tolerance, or the bus
-    /// voltage where that was given itself.
+    /// Highest voltage of the DC bus without braking (V): the rectified mains at their upper tolerance, or the bus voltage if that is given directly.
     pub fn highest_supply(&self) -> Option<f64> {
         let mains = self
             .mains_voltage
@@ -36,7 +35,7 @@ impl Site {
     }
 }
 
-/// The tool: where backlash matters, and how much is allowed.
+/// The tool for the backlash rule, with its allowed backlash.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Name of the point or link.
@@ -45,7 +44,7 @@ pub struct Tool {
     pub link: usize,
     /// The part of the link whose motion matters.
     pub place: ToolPlace,
-    /// Largest play (m, or rad where the link turns).
+    /// Largest backlash (m, or rad for a turning link).
     pub play: f64,
 }
 
@@ -54,6 +53,6 @@ pub struct Tool {
 pub enum ToolPlace {
     /// A point of its frame (m).
     Point([f64; 2]),
-    /// The link as a whole turns.
+    /// The rotation of the link.
     Turning,
 }

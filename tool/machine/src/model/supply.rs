@@ -3,7 +3,7 @@
 /// Mains may be this much above their nominal voltage: 10 % (IEC 60038).
 pub const MAINS_TOLERANCE: f64 = 1.1;
 
-/// Lowest and highest mains voltage of a servo amplifier (V): a transformer for 24 V, and the end of low voltage (IEC 60038).
+/// Lowest and highest mains voltage of a servo amplifier (V): a transformer for 24 V, and the upper end of low voltage (IEC 60038).
 pub const MAINS: [f64; 2] = [20.0, 1000.0];
 
 /// Voltage (V) of a DC bus behind a rectifier without load: U_dc = √2·U_ac.
@@ -11,14 +11,14 @@ pub const fn rectified(mains: f64) -> f64 {
     std::f64::consts::SQRT_2 * mains
 }
 
-/// The supply of the machine file. What is not given is taken from the amplifier.
+/// The supply of the machine file. Missing values come from the amplifier.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Supply {
     /// Whether the file has a `[supply]`.
     pub given: bool,
     /// Capacitance of the DC bus (F).
     pub capacitance: Option<f64>,
-    /// Voltage at which the brake resistor comes on (V).
+    /// Switch-on voltage of the brake resistor (V).
     pub chopper_voltage: Option<f64>,
     /// Highest voltage of the DC bus (V).
     pub max_voltage: Option<f64>,

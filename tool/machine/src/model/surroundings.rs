@@ -1,9 +1,9 @@
 //! Ambient conditions of the motor.
 
-/// Temperature of the surroundings for which S1 torques are stated, and up to which none are reduced (°C): IEC 60034-1.
+/// Ambient temperature for which S1 torques are given, and up to which they are not reduced (°C): IEC 60034-1.
 pub const REFERENCE: f64 = 40.0;
 
-/// Altitude up to which the allowed rise is the whole one (m): IEC 60034-1.
+/// Altitude up to which the full rise is allowed (m): IEC 60034-1.
 pub const LOW: f64 = 1000.0;
 
 /// The surroundings of the motor.
@@ -11,13 +11,13 @@ pub const LOW: f64 = 1000.0;
 pub struct Surroundings {
     /// Temperature (°C).
     pub ambient: f64,
-    /// Temperature around the amplifier, as in its cabinet (°C); `None`: that of the motor.
+    /// Temperature around the amplifier, for example in its cabinet (°C); `None`: that of the motor.
     pub cabinet: Option<f64>,
     /// Altitude above sea level (m).
     pub altitude: f64,
-    /// Temperature at which the copper's resistance is taken (°C); `None`: that of the winding at every instant.
+    /// Temperature for the copper's resistance (°C); `None`: that of the winding at every instant.
     pub resistance_at: Option<f64>,
-    /// Highest temperature of the housing (°C), as for touch; `None`: no such limit.
+    /// Highest temperature of the housing (°C), for example for touch; `None`: no limit.
     pub housing: Option<f64>,
 }
 
@@ -39,7 +39,7 @@ impl Surroundings {
         self.cabinet.unwrap_or(self.ambient)
     }
 
-    /// The share of a rise that thin air leaves: 1 % less for every 100 m above 1000 m.
+    /// Factor of a rise in thin air: 1 % less for every 100 m above 1000 m.
     pub fn altitude_factor(&self) -> f64 {
         1.0 - (self.altitude - LOW).max(0.0) / 1e4
     }

@@ -1,8 +1,8 @@
-//! Tabulated curves as links of a mechanism.
+//! Tabulated curves as virtual links of a mechanism.
 //!
-//! A curve in a machine file over the position of the drive link is represented by a *stand-in*: a rotor on its own bearing,
-//! geared to the drive link with a ratio ψ′(φ) that follows from the curve. The method of reduction then gives the curve
-//! back, with consistent derivatives, and d'Alembert's principle finds the same torque through the gearing:
+//! A curve in a machine file over the position of the drive link is represented by a *virtual link* (`StandIn`): a rotor on its own bearing, geared
+//! to the drive link with a ratio ψ′(φ) that follows from the curve. The method of reduction then reproduces the curve, with consistent derivatives,
+//! and d'Alembert's principle gives the same torque through the gearing:
 //!
 //! ```text
 //! inertia J(φ)            rotor of 1 kg·m²                ψ′ = √J        J_red = ψ′², J_red′ = 2·ψ′·ψ″
@@ -17,9 +17,9 @@
 //! moment M on a link      1 N·m                           ψ′ = M·ψ_link′
 //! ```
 //!
-//! What acts on a link is geared to that link instead: by its own force at its own point, so that the joints carry it.
+//! A curve that acts on a link is geared to that link instead: by its own force at its own point, so that the joints carry it.
 //!
-//! ψ itself is only kept where a spring needs it; elsewhere nothing depends on it and it stays zero.
+//! ψ itself is only computed where a spring needs it; elsewhere nothing depends on it and it stays zero.
 
 mod mechanism;
 mod table;
@@ -33,18 +33,18 @@ use jred::number::Transfer;
 
 use crate::number::spline::Spline;
 
-/// Kind of curve that a stand-in represents.
+/// Kind of curve that a virtual link represents.
 #[derive(Clone, Debug)]
 pub enum Course {
-    /// A reduced inertia (kg·m², or kg of a drive link that slides).
+    /// A reduced inertia (kg·m², or kg of a sliding drive link).
     Inertia(Spline),
     /// A torque (N·m, or N) in the direction of growing φ.
     Torque(Spline),
-    /// A torque that a potential makes, −U′; over a turn its integral is zero. See [`Course::potential`].
+    /// A torque from a potential, −U′; its integral over a turn is zero. See [`Course::potential`].
     Potential {
         /// The torque.
         torque: Spline,
-        /// Offset added to −∫T, so that the energy is never near zero.
+        /// Offset added to −∫T, so that the energy is never close to zero.
         offset: f64,
     },
     /// A torque against the motion, not negative.
@@ -55,7 +55,7 @@ pub enum Course {
     Payload {
         /// Mass.
         mass: Spline,
-        /// Where it is.
+        /// Its point.
         on: Place,
         /// 0: along x, 1: along y.
         axis: usize,
@@ -64,7 +64,7 @@ pub enum Course {
     Weight {
         /// Mass.
         mass: Spline,
-        /// Where it is.
+        /// Its point.
         on: Place,
         /// Gravity (m/s²).
         gravity: [f64; 2],
@@ -73,14 +73,14 @@ pub enum Course {
     Thrust {
         /// Force.
         force: Table,
-        /// Where it acts.
+        /// Its point.
         on: Place,
     },
     /// A force (N) on a point.
     Force {
         /// Force.
         force: Table,
-        /// Where it acts.
+        /// Its point.
         on: Place,
         /// Its direction.
         along: Direction,
@@ -117,7 +117,7 @@ impl Place {
 pub enum Direction {
     /// In the coordinates of the mechanism.
     Fixed([f64; 2]),
-    /// In the link's frame: it turns with the link.
+    /// In the link's frame: it rotates with the link.
     OnLink([f64; 2]),
 }
 
@@ -130,21 +130,21 @@ impl Direction {
     }
 }
 
-/// A stand-in.
+/// A virtual link.
 #[derive(Clone, Debug)]
 pub struct StandIn {
     /// Its name in tables.
     pub name: String,
     /// The curve it represents.
     pub course: Course,
-    /// The part of the range in which it acts, if not the whole; of a load.
+    /// The part of the range in which a load acts, if not the whole.
     pub window: Option<Window>,
     /// The drive link's positions at which the curve is not smooth.
     pub edges: Vec<f64>,
 }
 
 impl StandIn {
-    /// One that acts everywhere and is smooth.
+    /// A virtual link that acts everywhere and is smooth.
     pub const fn new(name: String, course: Course) -> Self {
         Self {
             name,
@@ -204,14 +204,14 @@ const fn values(f: Transfer) -> [f64; 3] {
 }
 
 impl Course {
-    /// The torque of a potential, with an offset of more than it can fall: a constant in U does nothing.
+    /// The torque of a potential, with an offset larger than its possible fall: a constant in U has no effect.
     pub fn potential(torque: Spline) -> Self {
         let [from, to] = torque.range();
         let offset = 2.0 * (to - from) * torque.largest() + 1e-9;
         Self::Potential { torque, offset }
     }
 
-    /// ψ of the rotor at `phi`, where the mechanism's own links are at `frames`.
+    /// ψ of the rotor at `phi`, with the mechanism's own links at `frames`.
     fn psi(&self, phi: f64, frames: &[Frame]) -> Transfer {
         match self {
             Self::Inertia(curve) | Self::Viscous(curve) => from_rate(root(curve.at(phi))),
@@ -262,8 +262,8 @@ impl Course {
         }
     }
 
-    /// What the gearing of the rotor, whose frame is `rotor`, does for one unit of its effort to what moves it: to the point or the link
-    /// on which the curve acts, otherwise the `drive`'s unit effort times −ψ′. With 1 N·m on the rotor it does no work.
+    /// The gearing wrench for one unit of effort of the rotor, whose frame is `rotor`. It acts on the point or link of the curve, otherwise it is the
+    /// `drive`'s unit effort times −ψ′. With 1 N·m on the rotor it does no work.
     fn gearing(&self, phi: f64, frames: &[Frame], rotor: &Frame, drive: Wrench) -> Wrench {
         let force = |on: &Place, force: [f64; 2]| {
             let point = on.position(frames).map(|c| c.value);
@@ -307,7 +307,7 @@ impl Course {
         }
     }
 
-    /// Whether it is a mass or an inertia, or the weight of one.
+    /// Whether it is a mass or an inertia, or the weight of a mass.
     pub(crate) const fn is_payload(&self) -> bool {
         matches!(
             self,
@@ -326,7 +326,7 @@ impl Course {
     /// The load on the rotor, link number `link`.
     ///
     /// # Errors
-    /// None: the loads are constants.
+    /// Never: the loads are constants.
     pub(crate) fn load(&self, link: usize) -> Result<Option<Load>, Error> {
         let action = match self {
             Self::Torque(_) | Self::Weight { .. } | Self::Force { .. } | Self::Moment { .. } => {
@@ -342,7 +342,7 @@ impl Course {
     /// The spring on the rotor, link number `link`.
     ///
     /// # Errors
-    /// None: the spring is a constant.
+    /// Never: the spring is a constant.
     pub(crate) fn spring(&self, link: usize) -> Result<Option<Element>, Error> {
         let Self::Potential { .. } = self else {
             return Ok(None);

@@ -1,14 +1,14 @@
-//! How far quantities of a machine file may lie from what it says.
+//! Tolerances of a machine file's quantities.
 
 use std::ops::Range;
 
 use crate::plain;
 use crate::units::literal::{self, Literal};
 
-/// How deviations are distributed.
+/// Distribution of deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Every value within ± the amount is as likely as any other.
+    /// Every value within ± the amount is equally likely.
     Uniform,
     /// The normal distribution; the amount is its standard deviation.
     Normal,
@@ -24,16 +24,16 @@ impl Shape {
     }
 }
 
-/// How far one quantity may deviate from its value in the file.
+/// Tolerance of one quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
     /// Path of the quantity.
     pub path: String,
-    /// How deviations are distributed.
+    /// Distribution of deviations.
     pub shape: Shape,
-    /// By how much: a share of the quantity, or an amount in a unit like its own.
+    /// Size: a share of the quantity, or an amount in a unit of its kind.
     pub amount: Literal,
-    /// Where the machine file gives it; `None`: it does not.
+    /// Position in the machine file; `None`: not from the machine file.
     pub place: Option<Range<usize>>,
 }
 
@@ -41,7 +41,7 @@ impl Tolerance {
     /// Reads "±5 %", "5 %", "0.1 mm", "normal 2 %" or "uniform 5 %" for the quantity of a path.
     ///
     /// # Errors
-    /// In words for a message.
+    /// Text for a message.
     pub fn parse(path: &str, text: &str) -> Result<Self, String> {
         let text = text.trim();
         let (shape, amount) = if let Some(rest) = text.strip_prefix("normal") {
@@ -55,7 +55,7 @@ impl Tolerance {
     /// From a shape and the text of the amount.
     ///
     /// # Errors
-    /// In words for a message.
+    /// Text for a message.
     pub fn of(path: &str, shape: Shape, text: &str) -> Result<Self, String> {
         let amount = text
             .trim_start_matches([' ', ':'])

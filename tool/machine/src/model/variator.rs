@@ -1,8 +1,7 @@
 //! A friction variator between the motor and the drive train.
 //!
-//! Its ratio is shifted in time, so the constraint between its shafts is not integrable: the angle of the drive link is not
-//! a function of the motor's angle, and there is no one table J_red(φ) of the motor shaft. What remains is the equation of
-//! motion, [`simulate`](crate::analysis::simulate).
+//! Its ratio is shifted in time, so the constraint between its shafts is not integrable: the angle of the drive link is not a function of the motor's
+//! angle, and there is no unique table J_red(φ) at the motor shaft. What remains is the equation of motion, [`simulate`](crate::analysis::simulate).
 
 use jred::Error;
 use jred::friction::{
@@ -17,7 +16,7 @@ use crate::model::machine::MachineFile;
 use crate::number::formula::Formula;
 use crate::number::spline::{Fault, Spline, Way};
 
-/// A variator as the machine file gives it.
+/// A variator of a machine file.
 #[derive(Clone, Debug)]
 pub struct Variator {
     /// Its ratio over time.
@@ -31,25 +30,25 @@ pub struct Variator {
 /// Slip of the contact.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Slip {
-    /// None, or a constant one.
+    /// Zero or constant slip.
     Constant {
         /// ε
         share: f64,
-        /// Which way power flows.
+        /// Direction of power.
         flow: Flow,
         /// Whether it loses power.
         contact: Contact,
     },
-    /// Slip that grows with the load, up to the limit of friction.
+    /// Slip that grows with the load, up to the friction limit.
     Creep(Adhesion),
 }
 
-/// Torque of the contact over its slip, up to the limit of friction.
+/// Torque of the contact over its slip, up to the friction limit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Adhesion {
-    /// In proportion, and then sliding.
+    /// Proportional, then sliding.
     Line(CreepContact),
-    /// A curve through points, the same in both directions; beyond the last it slides.
+    /// A curve through points, the same in both directions; beyond the last one it slides.
     Curve(Spline),
 }
 
@@ -57,12 +56,12 @@ impl Adhesion {
     /// A curve through slips and their torques (N·m), both rising from zero.
     ///
     /// # Errors
-    /// Fewer than three points, or slips that do not rise.
+    /// There are fewer than three points, or slips do not rise.
     pub fn through(slips: &[f64], torques: &[f64]) -> Result<Self, Fault> {
         let both = |values: &[f64]| {
             let backward = values.iter().rev().map(|value| -value);
             let forward = values.iter().copied();
-            // Not zero itself, where a curve of this kind would be level: the piece between is odd, and so passes it.
+            // Zero itself is omitted, because a curve of this kind would be level there: the piece between is odd, and so passes through zero.
             backward.chain(forward).collect::<Vec<f64>>()
         };
         let spline = Spline::bounded(&both(slips), &both(torques), Way::Monotone)?;
@@ -77,7 +76,7 @@ impl Adhesion {
         }
     }
 
-    /// What the contact does at the speeds of its two surfaces, as angular speeds of the output shaft (rad/s).
+    /// The traction at the speeds of the contact's two surfaces, as angular speeds of the output shaft (rad/s).
     pub fn traction(&self, first: f64, second: f64) -> Traction {
         match self {
             Self::Line(contact) => contact.traction(first, second),
@@ -88,7 +87,7 @@ impl Adhesion {
     }
 }
 
-/// A ratio i = ω₂/ω₁ that varies: by shifts one after another, by a curve through points in time, or by a formula.
+/// A varying ratio i = ω₂/ω₁: by successive shifts, by a curve through points in time, or by a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ratio {
     start: f64,
@@ -125,7 +124,7 @@ struct Shift {
 pub const RATIOS: [f64; 2] = [1e-3, 1e3];
 
 impl Ratio {
-    /// A ratio that stays `start`.
+    /// A constant ratio.
     pub const fn new(start: f64) -> Self {
         Self {
             start,
@@ -134,11 +133,11 @@ impl Ratio {
         }
     }
 
-    /// A ratio that follows a twice continuously differentiable curve through points in time (s), which is level at both ends and stays the
-    /// same beyond them; and its smallest value with its time.
+    /// A ratio that follows a twice continuously differentiable curve through points in time (s), level at both ends and constant beyond them; and
+    /// its smallest value with its time.
     ///
     /// # Errors
-    /// Too few points, or times that do not rise.
+    /// There are too few points, or times do not rise.
     pub fn through(times: &[f64], ratios: &[f64]) -> Result<(Self, [f64; 2]), Fault> {
         let spline = Spline::bounded(times, ratios, Way::Level)?;
         let (least, at) = spline.least();
@@ -162,7 +161,7 @@ impl Ratio {
         }
     }
 
-    /// An interval with all ratios of a formula over these times (s) and angles of the input shaft (rad); `None` of what is not one.
+    /// An interval that contains all ratios of a formula over these times (s) and angles of the input shaft (rad); `None` if it is not a formula.
     pub fn bounds(&self, t: Interval, phi: Interval) -> Option<Interval> {
         match &self.whole {
             Some(Whole::Formula(formula)) => Some(formula.bounds(&[t, phi])),
@@ -176,7 +175,7 @@ impl Ratio {
         self.shifts.last().map_or(self.start, value)
     }
 
-    /// When the last shift, or the curve, ends (s).
+    /// End of the last shift, or of the curve (s).
     pub fn end(&self) -> f64 {
         let shifted = self.shifts.last().map(|shift| shift.to);
         let drawn = self.times().last().copied();
@@ -186,7 +185,7 @@ impl Ratio {
     /// With one more shift to the ratio `to`, from the time `at` (s) over `duration` (s), after the last one.
     ///
     /// # Errors
-    /// A duration that is not positive, or a value that is not finite.
+    /// The duration is not positive, or a value is not finite.
     pub fn shift(&mut self, at: f64, duration: f64, to: f64, law: Law) -> Result<(), Error> {
         let course = Ramp::new(
             Variable::Time,
@@ -205,7 +204,7 @@ impl Ratio {
         Ok(())
     }
 
-    /// The times at which a shift begins or ends, and those of the points of a curve (s), where a derivative of the motion jumps.
+    /// The times at which a shift begins or ends, and the times of a curve's points (s): there a derivative of the motion jumps.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
         let points = self.times().iter();
         let shifts = self.shifts.iter().flat_map(|s| [s.from, s.to]);
@@ -252,10 +251,10 @@ impl Course for Ratio {
 }
 
 impl Variator {
-    /// The one stage that it is; of a creeping contact, without its slip.
+    /// The variator as a single stage; for a creeping contact, without its slip.
     ///
     /// # Errors
-    /// None for a variator that was read without error.
+    /// Never for a variator that was read without error.
     pub fn stage(&self) -> Result<Stage<'_>, Error> {
         let stage = Stage::new(&self.ratio)?;
         match self.slip {
@@ -273,7 +272,7 @@ impl Variator {
     }
 }
 
-/// Whether the angles of the variator's shafts are related, in words; nothing for a machine without one.
+/// Text on whether the angles of the variator's shafts are related; `None` for a machine without a variator.
 pub fn integrability_text(file: &MachineFile) -> Option<String> {
     let variator = file.variator.as_ref()?;
     if let Slip::Creep(_) = variator.slip {
@@ -298,8 +297,7 @@ pub fn integrability_text(file: &MachineFile) -> Option<String> {
     })
 }
 
-/// Refuses a machine with a variator for a command that needs one table of the drive link, or one motion of it, for the
-/// motor.
+/// Refuses a machine with a variator, for a command that needs a unique table of the drive link, or a unique motion of it, for the motor.
 ///
 /// # Errors
 /// The machine has a variator.

@@ -1,6 +1,6 @@
 //! A roll onto which a web is wound: its radius and its inertia grow with the turns.
 //!
-//! With thickness h, width b, density ρ and the core's radius r₀, an Archimedean spiral holds
+//! With thickness h, width b, density ρ and the core's radius r₀, an Archimedean spiral has
 //!
 //! ```text
 //! r = r₀ + h·φ/2π        L = r₀·φ + h·φ²/4π        L′ = r
@@ -75,10 +75,10 @@ impl Winder {
     pub(crate) const WEB: usize = 1;
     const WOUND: usize = 2;
 
-    /// A winder, wound by φ > 0.
+    /// A winder that winds for φ > 0.
     ///
     /// # Errors
-    /// A range that is empty or not finite.
+    /// The range is empty or not finite.
     pub(crate) fn new(roll: Roll) -> Result<Self, Error> {
         Ok(Self {
             domain: Domain::stroke(0.0, roll.turned())?,
@@ -124,7 +124,7 @@ impl Mechanism for Winder {
 }
 
 impl Jointed for Winder {
-    /// The roll's bearing, the web's guide, the web's pull, and the bearing and gearing of the rotor that stands for J.
+    /// The roll's bearing, the web's guide, the web's pull, and the bearing and gearing of the rotor that represents J.
     fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let of = |link: usize| frames.get(link).unwrap_or(&Frame::GROUND);
         let (web, wound) = (of(Self::WEB), of(Self::WOUND));

@@ -1,4 +1,4 @@
-//! Loads against the motion that do the work of the process: a press force, a cut. What acts all the time is friction.
+//! Motion-opposing loads that do process work: a press force, a cut. A load that acts all the time is friction.
 
 use jred::machine::{Action, Load, Mechanism as _};
 use jred::{Error, Machine};
@@ -7,7 +7,7 @@ use crate::model::machine::MachineFile;
 use crate::model::mechanism::AnyMechanism;
 
 impl MachineFile {
-    /// Whether a load against the motion is of the process: it acts in a part of the range or of the motion, or its size comes from a table.
+    /// Whether a motion-opposing load belongs to the process: it acts in a part of the range or of the motion, or its size comes from a table.
     fn is_working(&self, number: usize, load: &Load) -> bool {
         let opposes = match load.action() {
             Action::Force(_) | Action::Moment(_) => false,
@@ -17,7 +17,7 @@ impl MachineFile {
             | Action::ViscousMoment(_) => true,
         };
         let mechanism = self.machine.mechanism();
-        // Of measured curves of a whole machine nobody knows what is friction.
+        // In measured curves of a whole machine friction cannot be separated.
         let measured = mechanism.kind() == "reduced-curves";
         let from_table = || !measured && load.link() >= mechanism.own_links();
         let timed = || {

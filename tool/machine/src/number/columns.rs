@@ -1,6 +1,6 @@
-//! Columns of numbers, each with its quantity, name and unit: what an analysis gives.
+//! Columns of numbers, each with its quantity, name and unit: the result of an analysis.
 
-/// What a column holds: by this a program finds it, whatever its name.
+/// Quantity of a column: a program finds the column by it, whatever its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quantity {
     /// Time.
@@ -17,9 +17,9 @@ pub enum Quantity {
     ReducedInertia,
     /// Its derivative with respect to the position.
     InertiaSlope,
-    /// Torque or force that the drive link requires.
+    /// Required torque or force of the drive link.
     DriveEffort,
-    /// A part of that torque or force: of the acceleration, of loads and so on.
+    /// A term of that torque or force: of the acceleration, of loads and so on.
     EffortTerm,
     /// Torque or force of the motor.
     MotorEffort,
@@ -53,23 +53,23 @@ pub enum Quantity {
     Moment,
     /// Energy, work or loss.
     Energy,
-    /// What should be zero but for the error of the integration.
+    /// A balance that is zero except for the error of the integration.
     EnergyBalance,
     /// Anything else.
     #[default]
     Other,
 }
 
-/// The head of a column.
+/// The header of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// What it holds.
+    /// Its quantity.
     pub quantity: Quantity,
-    /// What it is of, beside others of the same quantity: a point, a link, a joint. Empty: there is one only.
+    /// Its part, if several columns have the same quantity: a point, a link, a joint. Empty if there is only one.
     pub part: String,
-    /// Its name, such as `B v_x`.
+    /// Its name, for example `B v_x`.
     pub name: String,
-    /// Its unit; empty: none.
+    /// Its unit; empty: no unit.
     pub unit: String,
 }
 
@@ -84,12 +84,12 @@ impl Column {
         }
     }
 
-    /// A column that programs do not look for.
+    /// A column without a quantity for programs.
     pub fn other(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self::new(Quantity::Other, name, unit)
     }
 
-    /// A column of one part, such as `B` and `v_x`.
+    /// A column of one part, for example `B` and `v_x`.
     pub fn of(quantity: Quantity, part: &str, symbol: &str, unit: &str) -> Self {
         Self {
             part: part.to_owned(),
@@ -97,7 +97,7 @@ impl Column {
         }
     }
 
-    /// Name and unit, such as `omega [rad/s]`.
+    /// Name and unit, for example `omega [rad/s]`.
     pub fn title(&self) -> String {
         if self.unit.is_empty() {
             self.name.clone()
@@ -115,7 +115,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Columns with these heads, without rows.
+    /// Columns with these headers, without rows.
     pub fn new(heads: impl IntoIterator<Item = Column>) -> Self {
         Self {
             heads: heads.into_iter().collect(),
@@ -126,14 +126,14 @@ impl Columns {
     /// Adds a row with one value for each column.
     ///
     /// # Panics
-    /// If it has another number of values.
+    /// If the number of values differs.
     pub fn push(&mut self, row: impl IntoIterator<Item = impl Into<Option<f64>>>) {
         let row: Vec<Option<f64>> = row.into_iter().map(Into::into).collect();
         assert_eq!(row.len(), self.heads.len());
         self.rows.push(row);
     }
 
-    /// The heads.
+    /// The headers.
     pub fn heads(&self) -> &[Column] {
         &self.heads
     }
@@ -143,13 +143,13 @@ impl Columns {
         self.heads.iter().map(Column::title).collect()
     }
 
-    /// The columns of one quantity: index and head.
+    /// The columns of one quantity: index and header.
     pub fn of(&self, quantity: Quantity) -> impl Iterator<Item = (usize, &Column)> {
         let heads = self.heads.iter().enumerate();
         heads.filter(move |(_, head)| head.quantity == quantity)
     }
 
-    /// Whether a value is missing anywhere in the first columns, so many.
+    /// Whether a value is missing anywhere in the first `columns` columns.
     pub fn has_empty_cells(&self, columns: usize) -> bool {
         let first = |row: &Vec<Option<f64>>| row.iter().take(columns).any(Option::is_none);
         self.rows.iter().any(first)

@@ -1,8 +1,7 @@
-//! Comma-separated values (RFC 4180): the one way in which every result is written.
+//! Comma-separated values (RFC 4180): the common writer of all results.
 //!
-//! A number has the shortest digits that read back to the same number; a cell is in quotes where it holds a comma, a quote
-//! or a line break. `tests/cli/forms.rs` reads every command's CSV back. A text that a spreadsheet would take for a formula gets
-//! an apostrophe in front.
+//! A number has the shortest digits that read back to the same number. A cell is in quotes if it contains a comma, a quote or a line break.
+//! `tests/cli/forms.rs` reads every command's CSV back. A text that a spreadsheet would read as a formula gets a leading apostrophe.
 
 /// Rows as text, each ended by a line feed.
 pub fn rows<R, C>(rows: impl IntoIterator<Item = R>) -> String
@@ -15,7 +14,7 @@ where
         .buffer_capacity(512)
         .from_writer(Vec::new());
     for row in rows {
-        // Into memory, with rows of any length: there is nothing that could fail.
+        // Writing rows of any length into memory cannot fail.
         for cell in row {
             let cell = cell.as_ref();
             let _ = if is_formula(cell) {
@@ -30,7 +29,7 @@ where
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Whether a spreadsheet would take a cell for a formula: it begins like one, and is neither a number nor signs alone.
+/// Whether a spreadsheet would read a cell as a formula: it begins like one, and is neither a number nor only signs.
 fn is_formula(cell: &[u8]) -> bool {
     let is_number = || std::str::from_utf8(cell).is_ok_and(|text| text.parse::<f64>().is_ok());
     matches!(cell, [b'=' | b'+' | b'-' | b'@' | b'\t' | b'\r', ..])
@@ -43,7 +42,7 @@ pub fn row<C: AsRef<[u8]>>(cells: impl IntoIterator<Item = C>) -> String {
     rows([cells])
 }
 
-/// A number with every digit, tiny and huge ones with an exponent; zero has no sign, a whole number no point.
+/// A number with every digit, tiny and huge ones with an exponent; zero has no sign, a whole number no decimal point.
 pub fn number(x: f64) -> String {
     let mut text = format!("{:?}", x + 0.0);
     if text.ends_with(".0") {
@@ -52,7 +51,7 @@ pub fn number(x: f64) -> String {
     text
 }
 
-/// A number, or an empty cell where there is none.
+/// A number, or an empty cell without a number.
 pub fn known(x: Option<f64>) -> String {
     x.map_or_else(String::new, number)
 }

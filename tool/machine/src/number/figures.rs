@@ -24,7 +24,7 @@ impl Figures {
         [self.min, self.mean, self.max, self.rms]
     }
 
-    /// With zero for what is only rounding compared with `largest`.
+    /// Replaces values that are only rounding compared with `largest` by zero.
     #[must_use]
     pub const fn cleared(&self, largest: f64) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl Figures {
     }
 }
 
-/// Programs read zero where a mean over a cycle is zero but for rounding.
+/// Programs read zero if a mean over a cycle is zero except for rounding.
 impl Serialize for Figures {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = ["min", "mean", "max", "rms"];

@@ -8,8 +8,8 @@
 //! atom     = number | name | function "(" sum ")" | "(" sum ")"
 //! ```
 //!
-//! Evaluated in dual numbers, so that the slopes are exact. Written here and not taken from a library: those that know derivatives bring an engine
-//! for regular expressions with them, ten times the size of this file's code, and say less of where a mistake is.
+//! Evaluated in dual numbers, so that the slopes are exact. It is written here because libraries with derivatives bring a regular-expression engine
+//! ten times the size of this file's code, and report the position of a mistake less precisely.
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ const DEPTH: usize = 64;
 /// Longest text (bytes).
 const LONGEST: usize = 1000;
 
-/// A function of one argument: value and derivative, and the values of an interval.
+/// A function of one argument: value and derivative, and the enclosure over an interval.
 type Function = (fn(f64) -> [f64; 2], fn(Interval) -> Interval);
 
 /// The functions by name. Angles are in radians.
@@ -42,12 +42,12 @@ const FUNCTIONS: [(&str, Function); 8] = [
     ("sqrt", (|x| [x.sqrt(), 0.5 / x.sqrt()], Interval::sqrt)),
 ];
 
-/// Where in the text a formula cannot be read, and why.
+/// Why a formula cannot be parsed, with the position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Bytes of the text.
     pub place: Range<usize>,
-    /// What is wrong there.
+    /// The fault.
     pub what: String,
 }
 
@@ -79,7 +79,7 @@ impl Formula {
     /// The formula of a `text` in these variables.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// The position of the fault.
     pub fn parse(text: &str, variables: &[&str]) -> Result<Self, Fault> {
         if text.len() > LONGEST {
             return Err(Fault {
@@ -105,7 +105,7 @@ impl Formula {
         }
     }
 
-    /// Its value, with derivatives by what the `variables` depend on.
+    /// Its value, with derivatives by the quantities of which the `variables` are functions.
     pub fn at<const N: usize>(&self, variables: &[Dual<N>]) -> Dual<N> {
         value(&self.root, variables)
     }
@@ -151,7 +151,7 @@ fn value<const N: usize>(node: &Node, variables: &[Dual<N>]) -> Dual<N> {
     }
 }
 
-/// aᵇ; a constant exponent asks for no logarithm, so that a may be negative or zero.
+/// aᵇ; a constant exponent needs no logarithm, so a may be negative or zero.
 fn power<const N: usize>(a: Dual<N>, b: Dual<N>) -> Dual<N> {
     let at = a.value.powf(b.value);
     let mut slope = if b.value == 0.0 {
@@ -176,7 +176,7 @@ struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
-    /// The next word, number or sign with its place, if there is one.
+    /// The next word, number or sign with its position, if there is one.
     fn next(&mut self) -> Option<(Range<usize>, &'t str)> {
         let rest = &self.text[self.at..];
         self.at += rest.len() - rest.trim_start().len();
@@ -193,7 +193,7 @@ impl<'t> Reader<'t> {
         Some((self.at..self.at + length, &rest[..length]))
     }
 
-    /// Takes the next sign, if it is one of these.
+    /// Consumes the next sign, if it is one of these.
     fn take(&mut self, signs: &[&str]) -> Option<usize> {
         let (place, found) = self.next()?;
         let which = signs.iter().position(|sign| *sign == found)?;
@@ -297,7 +297,7 @@ impl<'t> Reader<'t> {
         )
     }
 
-    /// What stands in brackets that were opened at `open`.
+    /// The content of brackets that were opened at `open`.
     fn closed(&mut self, inner: Node, open: Range<usize>) -> Result<Node, Fault> {
         match self.take(&[")"]) {
             Some(_) => Ok(inner),
@@ -311,7 +311,7 @@ fn fault<T>(place: Range<usize>, what: impl Into<String>) -> Result<T, Fault> {
     Err(Fault { place, what })
 }
 
-/// Bytes of the number at the beginning of the text.
+/// Length in bytes of the number at the start of the text.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| {

@@ -1,4 +1,4 @@
-//! Numbers: how they are rounded for reading, integrated, fitted, and put in columns.
+//! Numbers: rounding for reading, integration, fitting, and columns.
 
 pub mod columns;
 pub mod csv;

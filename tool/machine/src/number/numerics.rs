@@ -6,14 +6,13 @@ use std::cell::Cell;
 
 use super::quadrature::CENTRED_GAUSS_5;
 
-/// Thirds after which the bracket is down to rounding.
+/// Number of steps after which the bracket is reduced to rounding.
 const THIRDS: u32 = 80;
 
-/// The most halvings of one [`integral`]: a curve of roundings alone must not be halved without end.
+/// The most halvings of one [`integral`]: a curve that is only rounding must not be halved without end.
 const MOST_HALVINGS: u32 = 20_000;
 
-/// The zero of a rising, piecewise linear function, from its value and slope: the efficiencies of the drive train change
-/// sides with its power.
+/// The zero of a rising, piecewise linear function, from its value and slope: the drive train's efficiencies change sides with its power.
 pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let mut x = 0.0f64;
     for _ in 0..50 {
@@ -27,8 +26,8 @@ pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
     x
 }
 
-/// The place of the smallest value of `f` between `low` and `high`, where it has one minimum, by thirds: down to rounding, because no step
-/// depends on the places of the one before, as in [`golden_section`].
+/// The position of the minimum of `f` between `low` and `high`, where it has only one, by thirds. It is accurate to rounding, because no step reuses
+/// earlier positions as in [`golden_section`].
 ///
 /// # Errors
 /// Those of `f`.
@@ -44,8 +43,8 @@ pub fn least<E>(f: impl Fn(f64) -> Result<f64, E>, mut low: f64, mut high: f64) 
     Ok(low.midpoint(high))
 }
 
-/// The golden section, for values that cost much: each step takes one of them, and leaves 0.618 of the range in which `f` has one minimum. The
-/// last two places inside it, with their values. `is_less` compares values; it ends early where one of them `is_enough`.
+/// Golden section, for expensive values: each step needs one value and leaves 0.618 of the range in which `f` has one minimum. Returns the last two
+/// inner positions with their values. `is_less` compares values; the search ends early if one of them `is_enough`.
 ///
 /// # Errors
 /// Those of `f`.
@@ -77,7 +76,7 @@ pub fn golden_section<T, E>(
     Ok([left, right])
 }
 
-/// The place between `a`, where `before` holds, and `b`, where it does not hold any more.
+/// The border between `a`, where `before` is true, and `b`, where it is false.
 ///
 /// # Errors
 /// Those of `before`.
@@ -93,8 +92,8 @@ pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, mut a: f64, mut b: f64) 
     Ok(a.midpoint(b))
 }
 
-/// The zero of `f` between `a` and `b`, where it has the values `fa` and `fb` of opposite signs, to `share` of its place: inverse
-/// quadratic interpolation, or halving where that is no good (T. R. Chandrupatla, Advances in Engineering Software 28, 1997).
+/// The zero of `f` between `a` and `b`, where it has the values `fa` and `fb` of opposite signs, to a relative accuracy of `share`: inverse quadratic
+/// interpolation, or bisection where that is not safe (T. R. Chandrupatla, Advances in Engineering Software 28, 1997).
 ///
 /// # Errors
 /// Those of `f`.
@@ -137,8 +136,8 @@ pub fn zero<E>(
     Ok(a)
 }
 
-/// The integral of `f` from `a` to `b` to about `tolerance`: Gauss and Legendre's rule with five points over `panels` equal
-/// parts, each halved where its two halves disagree, so that a jump or a bend of the curve is closed in.
+/// The integral of `f` from `a` to `b` to about `tolerance`: Gauss-Legendre quadrature with five points over `panels` equal parts, each halved while
+/// its halves disagree, so that jumps and bends of the curve are isolated.
 ///
 /// # Errors
 /// Those of `f`.
@@ -167,7 +166,7 @@ pub fn integral<E>(
     Ok(sum)
 }
 
-/// The integral of a smooth `f` from `a` to `b` by Gauss and Legendre's rule with five points.
+/// The integral of a smooth `f` from `a` to `b` by Gauss-Legendre quadrature with five points.
 ///
 /// # Errors
 /// Those of `f`.
@@ -246,7 +245,7 @@ mod tests {
         assert!(calls.get() < 20 * MOST_HALVINGS + 200, "{}", calls.get());
     }
 
-    /// A few evaluations for a smooth curve, and no more than halving takes for one that jumps.
+    /// A few evaluations for a smooth curve, and no more than bisection for one that jumps.
     #[test]
     fn zeros() {
         let calls = Cell::new(0u32);

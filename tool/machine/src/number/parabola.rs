@@ -1,9 +1,9 @@
 //! The parabola through three points of a curve, and the peak of the curve by it.
 
-/// Most places of a curve that are looked at more closely for its peak.
+/// Most positions of a curve at which a peak is refined.
 const MOST_SUMMITS: usize = 8;
 
-/// Steps to a peak, each to the vertex of the parabola through three places around it.
+/// Steps to a peak, each to the vertex of the parabola through three positions around it.
 const CLOSER: u32 = 6;
 
 /// The parabola through three points, in Newton's form.
@@ -16,7 +16,7 @@ pub struct Parabola {
 }
 
 impl Parabola {
-    /// Through these values at these times.
+    /// The parabola through these values at these times.
     pub fn through([a, b, c]: [f64; 3], [u, v, w]: [f64; 3]) -> Self {
         let slope = (v - u) / (b - a);
         Self {
@@ -33,15 +33,15 @@ impl Parabola {
         self.value + (t - a) * (self.slope + (t - b) * self.bend)
     }
 
-    /// The time of its largest value, if it has one.
+    /// The time of its maximum, if it has one.
     pub fn vertex(&self) -> Option<f64> {
         let [a, b] = self.times;
         (self.bend < 0.0).then(|| a.midpoint(b) - 0.5 * self.slope / self.bend)
     }
 }
 
-/// The place of the largest value of `f` near three places in order, of which none outside is larger than the middle one: by
-/// vertices of parabolas. At an end of a curve's smooth part the largest may be an outer one.
+/// The position of the largest value of `f` near three ordered positions, of which the middle one has the largest value: by vertices of parabolas. At
+/// an end of a smooth part of a curve the largest value may be an outer one.
 ///
 /// # Errors
 /// Those of `f`.
@@ -51,13 +51,13 @@ pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Re
     for _ in 0..CLOSER {
         let [a, b, c] = three;
         let vertex = Parabola::through([a.0, b.0, c.0], [a.1, b.1, c.1]).vertex();
-        // A place twice would be a division by zero.
+        // Equal positions would cause a division by zero.
         let inside = |at: &f64| a.0 < *at && *at < c.0 && at.to_bits() != b.0.to_bits();
         let Some(at) = vertex.filter(inside) else {
             break;
         };
         let new = (at, f(at)?);
-        // It joins the three; the outer one beside the lower of the two in the middle leaves.
+        // It joins the three, and the outer one next to the lower of the two inner ones leaves.
         let [left, right] = if at < b.0 { [new, b] } else { [b, new] };
         three = if left.1 > right.1 {
             [a, left, right]
@@ -69,21 +69,21 @@ pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Re
     Ok(most.map_or(b, |most| most.0))
 }
 
-/// Whether a peak is higher than another one: the first of two that differ by rounding is kept.
+/// Whether a peak is higher than another one: of two that differ by rounding the first is kept.
 fn is_higher(peak: f64, other: f64) -> bool {
     peak - other > 1e-14 * other.abs()
 }
 
-/// Where the peak of a curve may lie between its places, of which `count` values are known: the three places around each, of the
-/// most promising ones, in order. Two summits may be nearly as high as each other, and the places may lie nearer to the top of the lower one.
+/// Candidates for the peak of a curve, of which `count` values are known: the three positions around each of the most promising ones, in order. Two
+/// summits may be almost equally high, and the positions may lie closer to the top of the lower one.
 ///
-/// `around` gives the place `k` and two others, in order, all in one smooth part of the curve.
+/// `around` gives the position `k` and two others, in order, all in one smooth part of the curve.
 fn summits(
     count: usize,
     value: impl Fn(usize) -> f64,
     around: impl Fn(usize) -> Option<[usize; 3]>,
 ) -> Vec<[usize; 3]> {
-    // The first of those that are equal.
+    // The first of equal ones.
     let by = |j: &usize, k: &usize| value(*j).total_cmp(&value(*k));
     let Some(most) = (0..count).rev().max_by(by) else {
         return Vec::new();
@@ -98,7 +98,7 @@ fn summits(
         let Some(around) = around(k) else {
             continue;
         };
-        // A parabola rises above the middle one of three places by less than the others lie below it, together.
+        // The rise of a parabola above the middle of three positions is less than the sum of its drops to the others.
         let [a, b, c] = around.map(&value);
         let may_be = value(k) + (2.0 * b - a - c).max(0.0);
         if k == most || may_be > top {
@@ -113,11 +113,11 @@ fn summits(
     places
 }
 
-/// The highest peak of a curve, if it is higher than `above`: the three known places around it, and where it is. The first of those that differ
-/// by rounding.
+/// The highest peak of a curve, if it is higher than `above`: the three known positions around it, and its position. Of peaks that differ by
+/// rounding, the first.
 ///
-/// `value` is that of a known place, of which there are `count`, `place` says where it is, and `around` gives it with two others, in order, all in one
-/// smooth part of the curve; `f` is the curve.
+/// `value` is the value at a known position, of which there are `count`; `place` gives the position; `around` gives it with two others, in order, all
+/// in one smooth part of the curve; `f` is the curve.
 ///
 /// # Errors
 /// Those of `f`.

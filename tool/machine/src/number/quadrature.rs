@@ -1,5 +1,5 @@
-//! Gauss and Legendre's rules, on 0 to 1 unless they are centred: places and weights. A rule of n points is exact to degree 2n − 1.
-//! Rules with an estimate of their error, and the polynomial through their places: [`kronrod`].
+//! Gauss-Legendre rules, on 0 to 1 unless they are centred: places and weights. A rule of n points is exact to degree 2n − 1. Rules with an error
+//! estimate, and the polynomial through their places: [`kronrod`].
 
 pub mod kronrod;
 
@@ -46,7 +46,7 @@ mod tests {
         }
     }
 
-    /// Each integrates powers of its degree to rounding, and the next one no more.
+    /// Each rule integrates powers of its degree to rounding, and not the next power.
     #[test]
     fn degrees() {
         for rule in [&GAUSS_2[..], &GAUSS_3, &GAUSS_5] {

@@ -5,8 +5,7 @@ pub fn short(x: f64) -> String {
     significant(x, 4)
 }
 
-/// A number with the given number of significant digits, at most six; plain between 1e-4 and 1e6, otherwise with an
-/// exponent.
+/// A number with the given number of significant digits, at most six; plain between 1e-4 and 1e6, otherwise with an exponent.
 pub fn significant(x: f64, digits: i32) -> String {
     if x == 0.0 || !x.is_finite() {
         return rounded(x);
@@ -20,7 +19,7 @@ pub fn significant(x: f64, digits: i32) -> String {
     format!("{x:.places$e}")
 }
 
-/// Two numbers with four significant digits, and with as many more, up to twelve, as tell them apart.
+/// Two numbers with four significant digits, or with as many more, up to twelve, as distinguish them.
 pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
     let texts = |digits: i32| pair.map(|x| plain(x, digits));
     let apart = (5..=12).map(texts).find(|[one, other]| one != other);
@@ -31,7 +30,7 @@ pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
     }
 }
 
-/// A number with so many significant digits, plain between 1e-4 and 1e6.
+/// A number with the given number of significant digits, plain between 1e-4 and 1e6.
 fn plain(x: f64, digits: i32) -> String {
     let magnitude = x.abs();
     if digits <= 6 || !(1e-4..1e6).contains(&magnitude) {
@@ -60,7 +59,7 @@ pub fn shown(x: f64, largest: f64) -> String {
     short(cleared(x, largest))
 }
 
-/// Share of the terms of a sum below which what is left of them is rounding.
+/// Share of the terms of a sum below which the sum is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A sum, 0 if it is only the rounding of terms as large as `terms`.
@@ -95,7 +94,7 @@ pub fn rounded(x: f64) -> String {
     }
 }
 
-/// As [`rounded`], for a positive number that is a bound: not below it.
+/// Like [`rounded`], for a positive upper bound: never below it.
 pub fn bound(x: f64) -> String {
     let text = rounded(x);
     if x > 0.0 && text.parse().is_ok_and(|shown: f64| shown < x) {

@@ -18,7 +18,7 @@ mod fit;
 
 use std::fmt;
 
-/// Fewest points of a curve; of a period one less, for its first point is its last as well.
+/// Fewest points of a curve; one less for a period, whose last point is its first.
 pub const MIN_POINTS: usize = 5;
 
 /// Faults of points.
@@ -44,12 +44,12 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// How a curve fits its points.
+/// The type of fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// Through every point, twice continuously differentiable.
     Interpolating,
-    /// The same, level at both ends; around a period there are none.
+    /// The same, level at both ends; not for periodic curves.
     Level,
     /// Through every point without overshoot, once continuously differentiable.
     Monotone,
@@ -60,11 +60,11 @@ pub enum Way {
 /// A piecewise cubic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
-    /// Where pieces begin, and the end of the last.
+    /// Starts of the pieces, and the end of the last.
     knots: Vec<f64>,
-    /// f = c₀ + c₁·u + c₂·u² + c₃·u³ with u from the beginning of the piece.
+    /// f = c₀ + c₁·u + c₂·u² + c₃·u³ with u from the start of the piece.
     pieces: Vec<[f64; 4]>,
-    /// ∫f from the first knot to the beginning of each piece, and over all.
+    /// ∫f from the first knot to the start of each piece, and over all.
     areas: Vec<f64>,
     periodic: bool,
 }
@@ -72,16 +72,16 @@ pub struct Spline {
 /// One of the cubics of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Where it holds.
+    /// Its range.
     pub ends: [f64; 2],
-    /// Where its u is zero.
+    /// Origin of its u.
     pub origin: f64,
     /// f = c₀ + c₁·u + c₂·u² + c₃·u³.
     pub coefficients: [f64; 4],
 }
 
 impl Spline {
-    /// A curve over the range of its points; beyond its ends the end's value.
+    /// A curve over the range of its points, constant beyond its ends.
     ///
     /// # Errors
     /// See [`Fault`].
@@ -90,7 +90,7 @@ impl Spline {
         Ok(Self::new(x.to_vec(), fit::bounded(x, y, way), false))
     }
 
-    /// A curve that repeats after `period`: the points lie in one period, without the last, which is the first again.
+    /// A curve that repeats after `period`: the points lie in one period, without the last, which equals the first.
     ///
     /// # Errors
     /// See [`Fault`].
@@ -125,12 +125,12 @@ impl Spline {
         }
     }
 
-    /// Where the curve begins and ends.
+    /// Start and end of the curve.
     pub fn range(&self) -> [f64; 2] {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
-    /// The points that it goes through, or near: arguments and values; of a period without its last.
+    /// The points of the curve: arguments and values; for a period without the last.
     pub fn points(&self) -> (Vec<f64>, Vec<f64>) {
         let count = self.knots.len() - usize::from(self.periodic);
         let x = self.knots[..count].to_vec();
@@ -160,7 +160,7 @@ impl Spline {
         after.take_while(move |knot| *knot < high)
     }
 
-    /// The piece at `x`, the place in it, and whole periods before it.
+    /// The piece at `x`, the position in it, and the number of whole periods before it.
     fn place(&self, x: f64) -> (usize, f64, f64) {
         let [from, to] = self.range();
         let (x, turns) = if self.periodic {
@@ -188,14 +188,14 @@ impl Spline {
         [value, slope, 2.0 * c + 6.0 * d * u, 6.0 * d]
     }
 
-    /// The cubics that f is between two arguments, with the constants beyond the ends of a curve that does not repeat.
+    /// The cubics of f between two arguments, with the constants beyond the ends of a curve that does not repeat.
     pub fn pieces_between(&self, [low, high]: [f64; 2]) -> Vec<Piece> {
         let [from, to] = self.range();
         let period = to - from;
         let mut found = Vec::new();
         let turns = if self.periodic {
             let turn = |x: f64| ((x - from) / period).floor();
-            // One more on each side, where a rounding may lie in the next.
+            // One more on each side, because of rounding.
             (turn(low) as i64 - 1, turn(high) as i64 + 1)
         } else {
             found.push(Piece {
@@ -223,7 +223,7 @@ impl Spline {
         found
     }
 
-    /// ∫f from the beginning of the range to `x`: exact for the cubic pieces.
+    /// ∫f from the start of the range to `x`: exact for the cubic pieces.
     pub fn integral(&self, x: f64) -> f64 {
         let (k, u, turns) = self.place(x);
         let [from, to] = self.range();
@@ -235,7 +235,7 @@ impl Spline {
         self.areas[k] + area(&self.pieces[k], u) + beyond
     }
 
-    /// A bound on |f|: for each piece that of its Bézier points, between which it runs.
+    /// A bound on |f|: the largest of all pieces' Bézier points, between which a piece lies.
     pub fn largest(&self) -> f64 {
         let mut largest = 0.0f64;
         for ([a, b, c, d], ends) in self.pieces.iter().zip(self.knots.windows(2)) {
@@ -251,7 +251,7 @@ impl Spline {
         largest
     }
 
-    /// The smallest value and where it is: at a knot, or where the slope of a piece is zero.
+    /// The smallest value and its position: at a knot, or where the slope of a piece is zero.
     pub fn least(&self) -> (f64, f64) {
         let mut least = (f64::INFINITY, self.knots[0]);
         for (piece, ends) in self.pieces.iter().zip(self.knots.windows(2)) {
@@ -280,14 +280,14 @@ fn check(x: &[f64], y: &[f64], fewest: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-/// ∫ of a piece from its beginning over `u`.
+/// ∫ of a piece from its start over `u`.
 fn area([a, b, c, d]: &[f64; 4], u: f64) -> f64 {
     u * (a + u * (b / 2.0 + u * (c / 3.0 + u * d / 4.0)))
 }
 
-/// Where the slope of a piece is zero.
+/// Zeros of a piece's slope.
 fn stationary([_, b, c, d]: &[f64; 4]) -> [f64; 2] {
-    // b + 2c·u + 3d·u² = 0, by the form that does not cancel.
+    // b + 2c·u + 3d·u² = 0, in the form without cancellation.
     let discriminant = c * c - 3.0 * b * d;
     if discriminant < 0.0 {
         return [0.0; 2];

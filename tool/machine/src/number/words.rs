@@ -1,8 +1,8 @@
-//! Values that a command line names by a word, each with what it means: said once, beside the value; counts with their nouns.
+//! Values that a command line names by a word, with their meanings defined beside them; counts with their nouns.
 
 /// A value with its word.
 pub trait Word: Copy + Send + Sync + 'static {
-    /// All values: the value, its word, what it means.
+    /// All values: the value, its word, its meaning.
     const WORDS: &'static [(Self, &'static str, &'static str)];
 
     /// The value of a word.

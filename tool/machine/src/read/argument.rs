@@ -1,4 +1,4 @@
-//! Quantities on the command line, read as in machine files.
+//! Quantities on the command line, read like those of machine files.
 
 use jred::Domain;
 
@@ -15,10 +15,10 @@ use crate::units::quantity;
 /// Share of a stroke by which a position may lie beyond its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Reader of a quantity of a drive link that turns or slides.
+/// Reads a quantity of a turning or sliding drive link.
 pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
 
-/// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", of one that slides.
+/// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", for a sliding one.
 ///
 /// # Errors
 /// A message for the command line.
@@ -148,7 +148,7 @@ pub fn length_argument(text: &str) -> Result<f64, String> {
     positive(text, &LENGTH)
 }
 
-/// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" of one that slides.
+/// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" for a sliding one.
 ///
 /// # Errors
 /// A message for the command line.
@@ -156,7 +156,7 @@ pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     any(text, speed_kind(coordinate))
 }
 
-/// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" of one that slides.
+/// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" for a sliding one.
 ///
 /// # Errors
 /// A message for the command line.
@@ -180,8 +180,7 @@ fn drive_position(part: &str, domain: Domain, coordinate: Coordinate) -> Result<
     }
 }
 
-/// The drive link's position (rad or m) that a position of the axis leads to, such as "250 mm" of a carriage; it must lie within the
-/// stroke of the drive link.
+/// The drive link's position (rad or m) for a position of the axis, such as "250 mm" of a carriage; it must lie within the stroke of the drive link.
 ///
 /// # Errors
 /// A message for the command line.
@@ -224,15 +223,14 @@ const fn position_kind(coordinate: Coordinate) -> &'static Kind {
     }
 }
 
-/// Positions of the drive link, each with its speed and its acceleration after it, if they are given, separated by commas, such as
-/// "30 deg, 60 deg" or "30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm". Where the drive link turns and people speak of lengths, these are read as
-/// well: "250 mm, 0.5 m/s".
+/// Positions of the drive link, each optionally followed by its speed and its acceleration, separated by commas, such as "30 deg, 60 deg" or "30 deg,
+/// 60 rpm, 5 rad/s^2, 60 deg, 90 rpm". If the drive link turns but the axis is a length, lengths are accepted too: "250 mm, 0.5 m/s".
 ///
 /// # Errors
 /// A message for the command line.
 pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<At>, String> {
     let [drive, spoken] = axis;
-    // Where the kinds are the same, all is the drive link's.
+    // If the kinds are equal, all values are the drive link's.
     let other = (spoken.coordinate != drive.coordinate).then_some(spoken);
     let axes = std::iter::once(drive).chain(other);
     let read = |part: &str, kinds: fn(Coordinate) -> &'static Kind| {
@@ -243,7 +241,7 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
         found.next()
     };
     let mut rows: Vec<At> = Vec::new();
-    // How much is known of the last row: its position, its speed, its acceleration.
+    // Number of known values of the last row: its position, its speed, its acceleration.
     let mut known = 0;
     for part in text.split(',') {
         let speed = read(part, speed_kind);
@@ -279,11 +277,11 @@ fn position_of(part: &str, domain: Domain, [drive, spoken]: [&Axis; 2]) -> Resul
     drive_position(part, domain, drive.coordinate)
 }
 
-/// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides; those of an axis of another
-/// kind are read as well.
+/// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" for a sliding one; positions of an axis of another
+/// kind are accepted too.
 ///
 /// # Errors
-/// A message for the command line: no position, one outside the stroke, or one that is named twice, as 60 deg and 420 deg are.
+/// A message for the command line: no position, one outside the stroke, or one that appears twice, as 60 deg and 420 deg do.
 pub fn drive_positions(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<f64>, String> {
     let position = |part: &str| position_of(part, domain, axis);
     let parts: Vec<&str> = text.split(',').collect();

@@ -1,4 +1,4 @@
-//! `[[carriage]]`: what a second axis moves along a guide on a link, while the drive link moves.
+//! `[[carriage]]`: a mass that a second axis moves along a guide on a link, while the drive link moves.
 
 use jred::machine::{Action, Load, MAX_LOADS};
 use jred::{Domain, Machine};
@@ -27,10 +27,10 @@ const CLOSED: f64 = 1e-9;
 /// Share of the time of the motion by which two times may differ: rounding.
 const SAME_TIME: f64 = 1e-9;
 
-/// Instants at which the largest speed of a carriage is looked for.
+/// Instants at which the largest speed of a carriage is searched.
 const INSTANTS: u32 = 1000;
 
-/// The carriages of the file. Each gets a load of its own, as yet without force, behind those of the machine.
+/// The carriages of the file. Each gets its own load, initially without force, after those of the machine.
 pub(super) fn read(
     root: &Section,
     files: &dyn Files,
@@ -56,7 +56,7 @@ pub(super) fn read(
             .help("add a [motion] of the drive link: a carriage moves over its time"));
     };
     let mut carriages: Vec<Carriage> = Vec::new();
-    // A carriage is a load as well, and reports list it with them.
+    // A carriage is also a load, and reports list it with the loads.
     let mut names = Names::of("carriages or loads");
     if let Some(item) = root.peek("load") {
         let sections = item.sections("[[load]]")?;
@@ -141,7 +141,7 @@ fn carriage(
     })
 }
 
-/// The motion of a carriage ends with that of the machine, or stands before; where that repeats, it ends where it began.
+/// Checks that the motion of a carriage ends with that of the machine, or is at rest before; if the latter repeats, the carriage ends at its start.
 fn fits(own: &Section, motion: &Motion, of_machine: &Motion, stroke: f64) -> Result<()> {
     let [lasts, whole] = [motion, of_machine].map(Motion::duration);
     let times = format!(

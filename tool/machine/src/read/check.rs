@@ -13,10 +13,10 @@ use crate::number::numerics;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// An inertia that falls below this share of its largest value is zero.
+/// Share of its largest value below which an inertia is zero.
 const ZERO: f64 = 1e-12;
 
-/// Checks that the reduced inertia is positive at every angle, drive train included.
+/// Checks that the reduced inertia is positive at every angle, including the drive train.
 pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let report = |error: &Error| {
         let problem = mechanism.problem(error.to_string(), "in this machine");
@@ -32,7 +32,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let step = domain.span() / (POSITIONS - 1) as f64;
     let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
     let all = file.over_range().map_err(|error| report(&error))?;
-    // A turn ends where it begins.
+    // A turn ends at its start.
     let (mut before, mut steepest) = (None, 0.0_f64);
     if let (Domain::Turn, Some((_, last))) = (domain, all.last()) {
         before = Some(last.inertia + train);
@@ -46,7 +46,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
         steepest = steepest.max((value - before.unwrap_or(value)).abs());
         before = Some(value);
     }
-    // Far from zero, as usual: between two samples it falls no further than it changes from one to the next anywhere.
+    // Usually far from zero: between two samples it falls by no more than its largest change between samples.
     if smallest - steepest > ZERO * largest {
         return Ok(());
     }
@@ -67,7 +67,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     Ok(())
 }
 
-/// The reduced inertia is zero at a position, or at every one; the cure names the links that the mechanism has.
+/// The error that the reduced inertia is zero at a position, or everywhere; the cure names the mechanism's links.
 fn no_inertia(file: &MachineFile, section: &Section, place: Option<f64>) -> Problem {
     let mechanism = file.machine.mechanism();
     let drive = Axis::of_drive(mechanism.coordinate());
@@ -85,7 +85,7 @@ fn no_inertia(file: &MachineFile, section: &Section, place: Option<f64>) -> Prob
     section.problem(what, "in this machine").help(help)
 }
 
-/// Most passages of the edges of loads and cams in a motion: between two of them it has instants of its own.
+/// Most passages of the edges of loads and cams in a motion: between any two of them it has separate instants.
 const MOST_PASSAGES: u64 = 5000;
 
 /// Refuses a motion that passes more edges than are resolved.

@@ -8,8 +8,7 @@ use crate::model::machine::MachineFile;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-/// Checks that every cam's contact presses and every rope pulls over the whole motion. A cam that guides its follower on
-/// both sides has no contact to check.
+/// Checks that every cam contact presses and every rope pulls over the whole motion. A cam that guides its follower on both sides needs no check.
 pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let Some(motion) = &file.motion else {
         return Ok(());

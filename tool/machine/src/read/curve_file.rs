@@ -16,21 +16,21 @@ const CLOSEST: f64 = 1e-6;
 /// Largest difference between the first and the last row of a turn, as a share of the column's largest magnitude.
 const CLOSED: f64 = 1e-6;
 
-/// If the last row of a turn is not given, the turn may be open by this many of its largest steps.
+/// Without a closing last row, a turn may be open by this many of its largest steps.
 const OPEN: f64 = 2.0;
 
 /// Share of a range by which its rows may miss its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What the rows of a file run over.
+/// The variable of a file's rows.
 pub(super) struct Rows {
     /// The range of the positions.
     pub(super) domain: Domain,
-    /// What moves over it.
+    /// Name of the moving part.
     pub(super) of: String,
-    /// Whether they may cover a part of it only.
+    /// Whether they may cover only a part of it.
     pub(super) partly: bool,
-    /// After how many turns they repeat, if they are over a turn.
+    /// Number of turns after which they repeat, if they are over a turn.
     pub(super) turns: u32,
 }
 
@@ -45,7 +45,7 @@ impl Rows {
         }
     }
 
-    /// After how many turns they repeat; 0: never.
+    /// Number of turns after which they repeat; 0: never.
     pub(super) fn repeats(&self) -> u32 {
         match self.domain {
             Domain::Turn => self.turns,
@@ -53,12 +53,12 @@ impl Rows {
         }
     }
 
-    /// The way after which they repeat (rad).
+    /// The angle after which they repeat (rad).
     fn period(&self) -> f64 {
         f64::from(self.turns) * TAU
     }
 
-    /// The same in words.
+    /// The same as text.
     fn whole(&self) -> String {
         if self.turns == 1 {
             "turn".to_owned()
@@ -71,18 +71,18 @@ impl Rows {
 /// The positions of the rows, checked against the range.
 pub(super) struct Positions<'c> {
     columns: &'c Columns,
-    /// Positions of the rows that count (rad or m).
+    /// Positions of the rows that are used (rad or m).
     x: &'c [f64],
-    /// Whether the range is a turn, or several.
+    /// Whether the range is one or several turns.
     turn: bool,
-    /// The way after which they repeat then (rad).
+    /// The angle after which they then repeat (rad).
     period: f64,
-    /// Whether the last row is the first, a turn later.
+    /// Whether the last row equals the first, a turn later.
     closing: bool,
 }
 
 impl<'c> Positions<'c> {
-    /// The rows of column 0, rising, over a turn or at least the stroke of what they run over.
+    /// The rising rows of column 0, over a turn or at least the stroke of their variable.
     pub(super) fn of(columns: &'c Columns, rows: &Rows) -> Result<Self> {
         columns.check_rising(
             0,
@@ -178,7 +178,7 @@ impl<'c> Positions<'c> {
         })
     }
 
-    /// Rows over a part of the range, outside of which there is nothing.
+    /// Rows over a part of the range; outside it the curve is zero.
     fn part(columns: &'c Columns, rows: &Rows) -> Result<Self> {
         let x = columns.get(0).unwrap_or_default();
         let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
@@ -221,12 +221,12 @@ impl<'c> Positions<'c> {
         }
     }
 
-    /// Positions of the rows that count.
+    /// Positions of the rows that are used.
     pub(super) const fn x(&self) -> &[f64] {
         self.x
     }
 
-    /// The column's values at these positions; on a turn its last row must be its first.
+    /// The column's values at these positions; on a turn its last row must equal its first.
     pub(super) fn values(&self, index: usize) -> Result<Option<Vec<f64>>> {
         let Some(values) = self.columns.get(index) else {
             return Ok(None);
@@ -287,8 +287,8 @@ impl<'c> Positions<'c> {
         })
     }
 
-    /// How far a curve through every second row misses the rows between, as a share of the largest magnitude: through all
-    /// rows it is about a sixteenth of that.
+    /// Error of a curve through every second row at the rows between, as a share of the largest magnitude: through all rows it is about a sixteenth
+    /// of that.
     pub(super) fn resolution(&self, values: &[f64]) -> Option<f64> {
         let every_second = |v: &[f64]| -> Vec<f64> { v.iter().copied().step_by(2).collect() };
         let (x, y) = (every_second(self.x), every_second(values));

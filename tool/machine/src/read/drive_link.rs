@@ -1,4 +1,4 @@
-//! The drive link for the rest of the file: whether it turns, swings or slides, and how far.
+//! The drive link for the other readers of the file: whether it turns, swings or slides, and its range.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ use crate::units::kind::{
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Speed (rad/s or m/s) below which nothing moves: a turn in twenty years.
+/// Speed (rad/s or m/s) below which a link is at rest: a turn in twenty years.
 const STANDS: f64 = 1e-8;
 
 /// Type and range of the drive link's motion, or of another coordinate that is prescribed.
@@ -36,7 +36,7 @@ impl DriveLink {
         })
     }
 
-    /// It slides.
+    /// Whether it slides.
     pub(super) fn slides(self) -> bool {
         self.coordinate == Coordinate::Length
     }
@@ -82,7 +82,7 @@ impl DriveLink {
         )
     }
 
-    /// A speed (rad/s or m/s) with its unit; a rounding error is zero.
+    /// A speed (rad/s or m/s) with its unit; rounding is shown as zero.
     pub(super) fn pace(self, speed: f64) -> String {
         let speed = if speed.abs() < STANDS { 0.0 } else { speed };
         match self.coordinate {
@@ -91,7 +91,7 @@ impl DriveLink {
         }
     }
 
-    /// The kind of what drives it.
+    /// The kind of its effort.
     pub(super) const fn effort(self) -> &'static Kind {
         match self.coordinate {
             Coordinate::Angle => &TORQUE,
@@ -99,7 +99,7 @@ impl DriveLink {
         }
     }
 
-    /// Where a motion starts, if nothing is said: at zero, or at the beginning of the stroke.
+    /// Default start of a motion: at zero, or at the start of the stroke.
     pub(super) fn start(self) -> f64 {
         match self.domain {
             Domain::Turn => 0.0,
@@ -107,12 +107,12 @@ impl DriveLink {
         }
     }
 
-    /// Whether `position` lies on the stroke; on a turn, every position does.
+    /// Whether `position` lies on the stroke; on a turn, always true.
     pub(super) fn reaches(self, position: f64) -> bool {
         self.beyond(position) <= ROUNDING * self.domain.span()
     }
 
-    /// How far `position` lies beyond the stroke.
+    /// Distance of `position` beyond the stroke.
     pub(super) fn beyond(self, position: f64) -> f64 {
         match self.domain {
             Domain::Turn => 0.0,
@@ -120,7 +120,7 @@ impl DriveLink {
         }
     }
 
-    /// The ends of the stroke in words, such as "400 mm to 650 mm".
+    /// The ends of the stroke as text, such as "400 mm to 650 mm".
     pub(super) fn range(self) -> String {
         let shown = |position| {
             let shown = (self.coordinate.shown(position) * 1e4).round() / 1e4 + 0.0;

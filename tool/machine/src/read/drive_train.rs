@@ -9,7 +9,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, TORQUE, VISCOUS_MOMENT};
 
-/// The types of stage; those from `FIRST_LINEAR` on convert rotation into displacement.
+/// The types of stage; the types from `FIRST_LINEAR` convert rotation into displacement.
 const TYPES: [&str; 5] = ["gear-train", "belt", "friction", "ball-screw", "rack"];
 const FIRST_LINEAR: usize = 3;
 
@@ -77,7 +77,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
         .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))
 }
 
-/// A shaft beside the chain, driven by the shaft before or behind a stage.
+/// A shaft beside the chain, driven by the shaft before or after a stage.
 fn branch(
     section: &Section,
     number: usize,
@@ -124,7 +124,7 @@ fn branch(
     })
 }
 
-/// The last stage moves as the drive link does.
+/// Checks that the last stage fits the motion of the drive link.
 fn fits(item: &Item, linear: Option<&(Item, &str)>, drive: DriveLink, empty: bool) -> Result<()> {
     match (linear, drive.slides()) {
         (Some((word, _)), false) => Err(word

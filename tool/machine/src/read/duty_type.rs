@@ -1,4 +1,4 @@
-//! `[duty]`: how long the machine runs through its cycle, and how long it rests.
+//! `[duty]`: the durations of operation and rest.
 
 use crate::model::operation::{Duty, Operation};
 use crate::model::site::Site;
@@ -8,7 +8,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::TIME;
 
-/// The duty types that can be named.
+/// The named duty types.
 const TYPES: [&str; 9] = ["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];
 
 /// Reads the operation into the site.

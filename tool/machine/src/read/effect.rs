@@ -1,4 +1,4 @@
-//! Whether a load has an effect on its link, and one that repeats.
+//! Checks whether a load has an effect on its link, and repeats.
 
 use std::f64::consts::TAU;
 
@@ -9,19 +9,19 @@ use crate::model::mechanism::AnyMechanism;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 
-/// What acts where.
+/// The action of a load and its place.
 pub(super) struct Effect {
     pub(super) link: usize,
     /// The point of a force in the link's frame (m).
     pub(super) point: [f64; 2],
-    /// A force, otherwise a moment.
+    /// Whether it is a force, otherwise a moment.
     pub(super) force: bool,
-    /// A force whose direction does not turn.
+    /// Whether it is a force whose direction does not rotate.
     pub(super) fixed: bool,
 }
 
 impl Effect {
-    /// The load moves something, and does the same in every turn; a problem is shown at `item`.
+    /// Checks that the load moves something, and acts equally in every turn; a problem is shown at `item`.
     pub(super) fn check(&self, mechanism: &AnyMechanism, item: &Item) -> Result<()> {
         let link_name = mechanism.link_names().get(self.link);
         let link_name = link_name.map_or("", String::as_str);
@@ -58,7 +58,7 @@ impl Effect {
     }
 }
 
-/// Motion of a link, as far as loads depend on it.
+/// Motion of a link, as far as it matters for loads.
 struct Movement {
     /// It never turns.
     slides: bool,
@@ -69,7 +69,7 @@ struct Movement {
 }
 
 impl Movement {
-    /// Looked up at places spread over the drive link's range by the golden ratio, none of them special.
+    /// Evaluated at positions spread over the drive link's range by the golden ratio, so that no position is special.
     fn of(mechanism: &AnyMechanism, link: usize) -> Self {
         let domain = mechanism.domain();
         let mut movement = Self {
@@ -86,7 +86,7 @@ impl Movement {
             if let (Domain::Turn, Some(later)) = (domain, frame(phi + TAU)) {
                 let turns = (later.psi.value - now.psi.value) / TAU;
                 movement.closes &= (turns - turns.round()).abs() < 1e-9;
-                // A rack may be elsewhere after a turn, but must move as before.
+                // A rack may have another position after a turn, but must move as before.
                 let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + a.abs());
                 movement.closes &= same(now.x.d1, later.x.d1) && same(now.y.d1, later.y.d1);
             }

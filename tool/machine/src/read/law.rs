@@ -8,7 +8,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::SHARE;
 
-/// The motion laws, as machine files write them.
+/// The motion laws, by their names in machine files.
 pub(super) const LAWS: [&str; 10] = [
     "trapezoid",
     "polynomial-345",
@@ -71,7 +71,7 @@ pub(super) fn read(section: &Section) -> Result<Law> {
     })
 }
 
-/// The shares of sine, constant part and cosine; none if not given.
+/// The shares of sine, constant part and cosine; zero if not given.
 fn sine_constant_cosine(section: &Section, law: &Item) -> Result<Law> {
     let (mut shares, mut place) = ([0.0; 3], law.span());
     for (key, share) in ["sine", "constant", "cosine"].into_iter().zip(&mut shares) {

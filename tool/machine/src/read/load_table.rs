@@ -29,7 +29,7 @@ pub(super) fn is_table(section: &Section) -> bool {
     section.peek("table").is_some()
 }
 
-/// The mechanism with the curves of all tables, and which of its own loads belong to each.
+/// The mechanism with the curves of all tables, and the mechanism's own loads that belong to each table.
 pub(super) fn read(
     root: &Section,
     mut mechanism: AnyMechanism,
@@ -68,7 +68,7 @@ pub(super) fn read(
     Ok((mechanism, loads, turns))
 }
 
-/// On what a table acts, and how.
+/// The target of a table.
 struct Target<'t> {
     mechanism: &'t AnyMechanism,
     drive: DriveLink,
@@ -78,7 +78,7 @@ struct Target<'t> {
     on: Option<(Item<'t>, Place)>,
     /// The direction of the column Force.
     along: Option<(Item<'t>, Direction)>,
-    /// What the rows run over.
+    /// The variable of the rows.
     over: Over,
     rows: Rows,
     way: Option<(Item<'t>, Way)>,
@@ -173,7 +173,7 @@ fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>>
     let (fixed, turning) = (section.get("angle"), section.get("angle_on_link"));
     let unit = |item: &Item| {
         let (sin, cos) = item.quantity(&ANGLE)?.si.sin_cos();
-        // A right angle has no rounding of the other component.
+        // Removes the rounding of the other component at a right angle.
         let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
         Ok::<_, Problem>([cos, sin].map(clean))
     };
@@ -196,7 +196,7 @@ fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>>
     })
 }
 
-/// What the rows run over, its range, and its name.
+/// The variable of the rows, its range, and its name.
 fn over(
     section: &Section,
     mechanism: &AnyMechanism,
@@ -248,7 +248,7 @@ impl Target<'_> {
         }
     }
 
-    /// A force or a moment on the link does something.
+    /// Checks that the force or moment has an effect on the link.
     fn check_effect(&self, force: bool, fixed: bool) -> Result<Place> {
         let Some((item, place)) = &self.on else {
             return Err(Problem::new("a table acts on no link"));

@@ -1,4 +1,4 @@
-//! `[[load]]`: what acts on the links.
+//! `[[load]]`: loads on the links.
 
 use std::ops::Range;
 
@@ -25,10 +25,10 @@ const ACTIONS: [&str; 6] = [
     "viscous_moment",
 ];
 
-/// Keys that say when a load acts, or a payload is carried.
+/// Keys for the times at which a load acts, or a payload is carried.
 pub(super) const SCHEDULE: [&str; 3] = ["segments", "during", "direction"];
 
-/// All loads of the file, and which of them belong to each `[[load]]`: those of a table are among the mechanism's own, at these places.
+/// All loads of the file, and which of them belong to each `[[load]]`. The loads of a table are among the mechanism's own, at these indices.
 pub(super) fn read(
     root: &Section,
     mechanism: &AnyMechanism,
@@ -63,7 +63,7 @@ pub(super) fn read(
     Ok((loads, entries))
 }
 
-/// `at_rest`: the load where the drive link stands still, and whether that is static friction.
+/// `at_rest`: the load while the drive link is at rest, and whether that is static friction.
 pub(super) fn at_rest(section: &Section, load: &Load, item: &Item) -> Result<(Load, bool)> {
     let (key, moving_item) = action_key(section)?;
     let found = match key {

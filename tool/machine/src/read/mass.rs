@@ -1,4 +1,4 @@
-//! `[[mass]]`: what is fixed to a link, such as a counterweight or a tool.
+//! `[[mass]]`: a mass fixed to a link, for example a counterweight or a tool.
 
 use super::names::Names;
 use crate::model::laden::{Attached, laden};
@@ -39,7 +39,7 @@ pub(super) fn read(root: &Section, mechanism: AnyMechanism) -> Result<AnyMechani
     })
 }
 
-/// A mass on a link, and its name: "`what` on" the link, if it has none.
+/// A mass on a link, and its name; by default "`what` on" and the name of the link.
 pub(super) fn attached(
     section: &Section,
     mechanism: &AnyMechanism,

@@ -1,7 +1,6 @@
 //! Machine files: TOML in, a checked [`MachineFile`] in SI units out.
 //!
-//! What a machine file may say is listed in `docs/machine-file.md`. Every error shows the line, names the quantity,
-//! its value and the limit, and says what to do.
+//! `docs/machine-file.md` lists all keys. Every error shows the line, names the quantity, its value and the limit, and gives a cure.
 
 mod argument;
 mod carriage;
@@ -66,28 +65,28 @@ const MAX_SIZE: u64 = 1 << 20;
 const LARGE: &str =
     "put recorded motions into a separate CSV file and name it with `file` in [motion]";
 
-/// The rule set of this name that comes with the tool.
+/// The built-in rule set of this name.
 pub fn built_in_rules(name: &str) -> Option<RuleSet> {
     rules::built_in(name)?.ok()
 }
 
-/// The names of the rule sets that come with the tool.
+/// The names of the built-in rule sets.
 pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
     rules::BUILT_IN.iter().map(|(name, _)| *name)
 }
 
-/// The rule set of a name, or of a file: what ends in `.toml` or holds a slash.
+/// The rule set of this name, or of a file if `word` ends in `.toml` or contains a slash.
 ///
 /// # Errors
-/// A name that does not exist, a file that cannot be read, or whatever is wrong in it, with its place.
+/// An unknown name, a file that cannot be read, or the first fault in it, with its place.
 pub fn rule_set(word: &str, files: impl Files) -> std::result::Result<RuleSet, Report> {
     rules::named_or_file(word, &files).map_err(|problem| problem.into_report(word, ""))
 }
 
-/// What a machine file says of its rules, on top of another set.
+/// The rules of a machine file applied on top of another set.
 ///
 /// # Errors
-/// What the machine file says contradicts the set.
+/// The machine file contradicts the set.
 pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<RuleSet, Report> {
     let word = set.name.clone();
     rules.based_on(set).map_err(|contradiction| {
@@ -99,10 +98,10 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<Rule
     })
 }
 
-/// Reads the machine file at `path`, whose loads are the same in every turn.
+/// Reads the machine file at `path`; its loads must repeat every turn.
 ///
 /// # Errors
-/// A file that cannot be read, or anything that [`parse`] reports; loads that repeat after several turns only.
+/// A file that cannot be read, any error of [`parse`], or a load that repeats only after several turns.
 #[cfg(feature = "fs")]
 pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
     let file = read_over_turns(path)?;
@@ -116,10 +115,10 @@ pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
     }
 }
 
-/// The same for a command that follows the drive link from turn to turn.
+/// [`read`] for a command that follows the drive link over several turns; loads may repeat after several turns.
 ///
 /// # Errors
-/// A file that cannot be read, or anything that [`parse`] reports.
+/// A file that cannot be read, or any error of [`parse`].
 #[cfg(feature = "fs")]
 pub fn read_over_turns(path: &Path) -> std::result::Result<MachineFile, Report> {
     parse(&plain::path(path), &text(path)?, folder(path))
@@ -146,16 +145,15 @@ pub fn text(path: &Path) -> std::result::Result<String, Report> {
     })
 }
 
-/// The folder of a machine file, in which the files that it names are looked for.
+/// The folder of a machine file: files that it names are relative to it.
 pub fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// Reads a machine file from its `text`. The `name` is used in messages; the files that it names, such as a profile's CSV, are
-/// taken from `files`.
+/// Reads a machine file from its `text`. `name` is its name in messages; `files` provides the files that it names, for example a profile's CSV.
 ///
 /// # Errors
-/// Whatever is wrong with the file: the first thing found, with its place and what to do.
+/// The first fault in the file, with its place and a cure.
 pub fn parse(
     name: &str,
     text: &str,
@@ -164,11 +162,11 @@ pub fn parse(
     machine(name, text, &files, true).map_err(|problem| problem.into_report(name, text))
 }
 
-/// The same for a `text` that differs from one read before in nothing of the machine and its motion: their checks, which take
-/// most of the time, are not repeated.
+/// [`parse`] for a `text` that differs from one already read, but not in its machine and motion: their checks, which take most of the time, are
+/// skipped.
 ///
 /// # Errors
-/// Those of [`parse`].
+/// Errors of [`parse`].
 pub fn parse_around(
     name: &str,
     text: &str,
@@ -177,10 +175,10 @@ pub fn parse_around(
     machine(name, text, &files, false).map_err(|problem| problem.into_report(name, text))
 }
 
-/// Gravity (m/s²) at most places, for a file that only gives the inclination.
+/// Gravity (m/s²) for a file that gives only the inclination.
 const GRAVITY: f64 = 9.81;
 
-/// `gravity`: its components, or by how much the x axis rises.
+/// `gravity`: its components, or the inclination of the x axis.
 fn gravity(root: &Section) -> Result<[f64; 2]> {
     let item = root.require(
         "gravity",

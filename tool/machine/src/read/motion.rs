@@ -20,7 +20,7 @@ mod tool;
 
 pub(super) use tool::Prescribed;
 
-/// The prescribed motion of a machine and its loads, if the file has one. A profile's file is looked for among `files`.
+/// The prescribed motion of a machine and its loads, if the file has one. The file of a profile is taken from `files`.
 pub(super) fn read(
     root: &Section,
     files: &dyn Files,
@@ -61,7 +61,7 @@ pub(super) fn finish(section: &Section) -> Result<()> {
     })
 }
 
-/// Where the motion starts.
+/// Start position of the motion.
 fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
     let axis = prescribed.axis;
     let Some(start) = section.optional("start", axis.position())? else {
@@ -71,7 +71,7 @@ fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
     Ok(start.si)
 }
 
-/// The motion of another axis, over the time of that of the machine: its positions are lengths on a stroke.
+/// The motion of another axis over the machine's time; its positions are lengths on a stroke.
 pub(super) fn along(
     section: &Section,
     files: &dyn Files,

@@ -1,19 +1,19 @@
-//! Names that a list of the file gives: each stands for one thing.
+//! Unique names of the entries in a list.
 
 use std::ops::Range;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// The names given so far, and where.
+/// The names given so far, and their places.
 pub(super) struct Names {
-    /// What has them, in the plural.
+    /// The kind of entry, in the plural.
     what: &'static str,
     given: Vec<(String, Range<usize>)>,
 }
 
 impl Names {
-    /// None yet; `what` has them, in the plural.
+    /// No names yet. `what`: the kind of entry, in the plural.
     pub(super) const fn of(what: &'static str) -> Self {
         Self {
             what,
@@ -21,7 +21,7 @@ impl Names {
         }
     }
 
-    /// The `name` of a table, if the file gives it; it must be another one than those before.
+    /// Adds the `name` of a table, if the file gives it. It must differ from those before.
     pub(super) fn add(&mut self, section: &Section) -> Result<()> {
         match section.peek("name") {
             Some(item) => self.add_text(item.text("name")?, item.span()),
@@ -29,7 +29,7 @@ impl Names {
         }
     }
 
-    /// The `name` of a table, if the file gives it, which others before it may have as well.
+    /// Adds the `name` of a table, if the file gives it; earlier entries may have the same.
     pub(super) fn take(&mut self, section: &Section) {
         if let Some(item) = section.peek("name")
             && let Ok(name) = item.text("name")
@@ -38,7 +38,7 @@ impl Names {
         }
     }
 
-    /// A name and its place.
+    /// Adds a name with its place.
     pub(super) fn add_text(&mut self, name: &str, place: Range<usize>) -> Result<()> {
         if let Some((_, first)) = self.given.iter().find(|(given, _)| given == name) {
             return Err(

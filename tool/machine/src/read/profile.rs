@@ -24,26 +24,26 @@ mod states;
 use closing::{CLOSED, check_speed_closes, closed};
 use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 
-/// A time step this many times the usual one is a gap in the recording.
+/// A time step this many times the median step is a gap in the recording.
 const GAP: f64 = 20.0;
 
-/// A time step this many times shorter than the usual one makes two rows of one.
+/// A time step this many times shorter than the median means two rows of one instant.
 const TWICE: f64 = 1000.0;
 
 /// Cure for most faults of the time column.
 const TIMES: &str =
     "give one row for each instant, in order, with enough digits in the times to tell them apart";
 
-/// Entries of `[motion]` about the file.
+/// Keys of `[motion]` about the file.
 struct Request {
     cyclic: bool,
-    /// Where a recorded speed starts (rad or m).
+    /// Start position of a recorded speed (rad or m).
     start: Option<Value>,
-    /// Time between rows (s), if there is no column for it.
+    /// Time between rows (s), if the file has no time column.
     step: Option<Value>,
     /// Cut-off frequency of smoothing.
     smoothing: Option<Value>,
-    /// How far a cycle may miss its start.
+    /// Distance by which a cycle may miss its start.
     close_within: Option<Value>,
     /// Speed of the master of an electronic cam.
     master_speed: Option<Value>,
@@ -237,7 +237,7 @@ fn curve(
     Ok(motion)
 }
 
-/// No row leaves the stroke.
+/// Checks that no row leaves the stroke.
 fn check_stroke(motion: &Motion, times: &[f64], columns: &Columns, drive: DriveLink) -> Result<()> {
     let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
     let Some(row) = outside else {
@@ -253,7 +253,7 @@ fn check_stroke(motion: &Motion, times: &[f64], columns: &Columns, drive: DriveL
     .help("give a motion that stays within the stroke, or lengthen it"))
 }
 
-/// The times from the first row on (s).
+/// The times since the first row (s).
 fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
     if let Some(step) = &request.step {
         return Ok((0..columns.rows()).map(|k| k as f64 * step.si).collect());
@@ -265,7 +265,7 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
     }
     columns.check_rising(TIME_COLUMN, "time", TIMES)?;
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    // The usual step is the middle one: a single gap then does not shift what is expected of all others.
+    // The usual step is the median, which a single gap does not shift.
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
     let usual = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
@@ -297,7 +297,7 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
     Ok(times.iter().map(|t| t - first).collect())
 }
 
-/// The cut-off (rad/s), which the rows must be able to show.
+/// The cut-off (rad/s); it must be within the range that the rows allow.
 fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Fault> {
     let Some(smoothing) = &request.smoothing else {
         return Ok(None);
@@ -328,5 +328,5 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
     Ok(Some(smoothing.si * TAU))
 }
 
-/// How the machine differs after the motion has gone on from a start by a way.
+/// How the machine differs after the motion has advanced from a start by a distance; `None` if it does not.
 type Repeats<'a> = dyn Fn(f64, f64) -> Result<Option<Difference>> + 'a;

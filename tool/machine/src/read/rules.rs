@@ -1,4 +1,4 @@
-//! `[rules]` of a machine file, and files of rule sets: limits that replace those of the set they are based on.
+//! `[rules]` of a machine file, and files of rule sets: limits that replace those of the set on which they are based.
 
 use std::ops::Range;
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::text::tree;
 use crate::units::did_you_mean;
 use crate::units::kind::SHARE;
 
-/// The rule sets that come with the tool, by name; each is a file.
+/// The built-in rule sets: name and file.
 pub(super) const BUILT_IN: [(&str, &str); 9] = [
     ("general", include_str!("../../rules/general.toml")),
     ("fanuc", include_str!("../../rules/fanuc.toml")),
@@ -49,20 +49,20 @@ pub(super) const BUILT_IN: [(&str, &str); 9] = [
     ),
 ];
 
-/// The set that all others are based on.
+/// The set on which all others are based.
 const GENERAL: &str = "general";
 
-/// The largest share that makes sense as a limit.
+/// Largest share allowed as a limit.
 const MAX_SHARE: f64 = 2.0;
-/// The same for the cycles per hour; T2B is valid for 1000.
+/// Largest limit of cycles per hour, as a share; T2B is valid for 1000.
 const MAX_CYCLES: f64 = 1000.0;
-/// The same of a ratio of inertias or frequencies.
+/// Largest limit of a ratio of inertias or frequencies.
 const MAX_RATIO: f64 = 1000.0;
 
 /// The largest file of a rule set (bytes).
 const MAX_SIZE: u64 = 1 << 16;
 
-/// The rule set of a machine file among `files`: the set that it names, or the general one, with what it changes.
+/// The rule set of a machine file: the set that it names (built in or from `files`), by default the general one, with the file's changes.
 pub(super) fn read(root: &Section, files: &dyn Files) -> Result<RuleSet> {
     let Some(item) = root.get("rules") else {
         return named(GENERAL);
@@ -77,7 +77,7 @@ pub(super) fn read(root: &Section, files: &dyn Files) -> Result<RuleSet> {
     set.with_own(changes).map_err(contradicts)
 }
 
-/// The set of a name that comes with the tool.
+/// The built-in set of this name.
 pub(super) fn built_in(name: &str) -> Option<Result<RuleSet>> {
     let (name, text) = BUILT_IN.iter().find(|(known, _)| *known == name)?;
     Some(parse(name, text))
@@ -87,7 +87,7 @@ fn is_file(word: &str) -> bool {
     word.contains(['/', '\\']) || Path::new(word).extension().is_some_and(|e| e == "toml")
 }
 
-/// The set of a name, or of a file: what ends in ".toml" or holds a "/" is a file.
+/// The set of this name, or of a file if `word` ends in ".toml" or contains a "/".
 pub(super) fn named_or_file(word: &str, files: &dyn Files) -> Result<RuleSet> {
     if !is_file(word) {
         return named(word);
@@ -117,7 +117,7 @@ fn unknown(name: &str) -> Problem {
     ))
 }
 
-/// The set that the key `set` names, with the place where it does.
+/// The set that the key `set` names; errors are shown at the key.
 fn chosen(word: &Item, files: &dyn Files) -> Result<RuleSet> {
     let name = word.text(GENERAL)?;
     let is_known = BUILT_IN.iter().any(|(known, _)| *known == name);
@@ -157,7 +157,7 @@ fn parse(name: &str, text: &str) -> Result<RuleSet> {
     section.finish_with(explain)?;
     root.finish()?;
     let mut set = base.with(&changes).map_err(contradicts)?;
-    // A file is called by its name without folder and ending.
+    // The name of a set from a file is the file's name without folder and extension.
     let path = Path::new(name);
     let stem = path
         .file_stem()
@@ -180,7 +180,7 @@ fn explain(key: &str) -> Option<&'static str> {
         .then_some("the key of a warning is that of its rule followed by _warning")
 }
 
-/// Every change in a table.
+/// All changes in a table.
 fn changes(section: &Section, source: &str) -> Result<Changes> {
     section.expects(&Rule::ALL.map(Rule::key));
     let mut changes = Vec::new();
@@ -322,7 +322,7 @@ fn by_moves(item: &Item) -> Result<Vec<Moves>> {
 impl Default for RuleSet {
     /// The set `general`.
     fn default() -> Self {
-        // The file is part of the tool, and a test reads it.
+        // Cannot fail: the file is built in, and a test reads it.
         built_in("general")
             .and_then(std::result::Result::ok)
             .unwrap_or_else(|| Self::empty("general", ""))

@@ -1,4 +1,4 @@
-//! When loads act: `segments`, `during`, `direction` and `at_rest` in `[[load]]`; and what is carried: `[[payload]]`.
+//! Times at which loads act: `segments`, `during`, `direction` and `at_rest` in `[[load]]`; and carried parts: `[[payload]]`.
 
 use std::ops::Range;
 
@@ -21,34 +21,34 @@ use contradictions::{Acting, check_contradictions};
 mod contradictions;
 mod payload;
 
-/// Instants of a stretch of the motion at which it is looked whether a load acts.
+/// Instants per stretch of the motion at which loads are checked.
 const INSTANTS: u32 = 64;
 
 /// Most segments of a motion.
 const MOST_SEGMENTS: u32 = 1000;
 
-/// The motion of the file, as far as it says when something happens.
+/// The motion of the file, as far as schedules refer to it.
 struct Course<'m> {
     motion: Option<&'m Motion>,
-    /// Its segments as times (s); empty if it has none.
+    /// Start and end of its segments (s); empty if it has none.
     segments: Vec<[f64; 2]>,
 }
 
-/// What a file says of when something acts.
+/// The part of the motion in which something acts.
 struct Part<'s> {
     when: When,
-    /// In words, such as "in segments 2 and 3".
+    /// In words, for example "in segments 2 and 3".
     words: Vec<String>,
-    /// The key that says it.
+    /// The key that gives it.
     item: Option<Item<'s>>,
 }
 
-/// A load's entry in the file, and its loads among the machine's.
+/// A load's entry in the file: the range of its loads among the machine's.
 pub(super) struct Entry {
     pub(super) loads: Range<usize>,
 }
 
-/// The schedule of the file, whose `entries` are the `[[load]]` tables in their order.
+/// The schedule of the file. `entries`: the `[[load]]` tables in their order.
 pub(super) fn read(
     root: &Section,
     (entries, carriages): (&[Entry], Vec<Carriage>),
@@ -137,7 +137,7 @@ impl<'m> Course<'m> {
                     segments.push([t, t + course.duration]);
                     t += course.duration;
                 }
-                // The sum of the parts may miss the whole by a rounding.
+                // The sum of the durations can differ from the whole by rounding.
                 if let Some([_, end]) = segments.last_mut() {
                     *end = motion.duration();
                 }
@@ -240,7 +240,7 @@ fn of_segments(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> 
     Ok((joined(spans), in_segments(&numbers)))
 }
 
-/// Such as "in segments 2, 3 and 5".
+/// For example "in segments 2, 3 and 5".
 fn in_segments(numbers: &[usize]) -> String {
     let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
     match words.as_slice() {
@@ -250,7 +250,7 @@ fn in_segments(numbers: &[usize]) -> String {
     }
 }
 
-/// Spans in order, those that meet as one.
+/// Sorted spans, with adjoining ones merged.
 fn joined(spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut joined: Vec<[f64; 2]> = Vec::new();
     for [from, to] in spans {
@@ -262,7 +262,7 @@ fn joined(spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     joined
 }
 
-/// `during = ["0.2 s", "0.5 s"]`; in a cycle over its end, too.
+/// `during = ["0.2 s", "0.5 s"]`; in a cycle it can extend past the end.
 fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
     let motion = course.required(item)?;
     let times = item.pair([&TIME, &TIME])?;
@@ -301,7 +301,7 @@ fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
     Ok((spans, words))
 }
 
-/// Instants all over the motion, inside its stretches, also cut at these spans.
+/// Instants over the whole motion, inside its stretches, which are also divided at these spans.
 fn instants(course: &Course, spans: &[[f64; 2]]) -> Vec<Now> {
     let Some(motion) = course.motion else {
         return Vec::new();
@@ -320,7 +320,7 @@ fn instants(course: &Course, spans: &[[f64; 2]]) -> Vec<Now> {
     found
 }
 
-/// A load acts at some instant of the motion.
+/// Checks that a load acts at some instant of the motion.
 fn check_acts(part: &Part, course: &Course) -> Result<()> {
     let Some(item) = &part.item else {
         return Ok(());

@@ -18,7 +18,7 @@ use crate::units::kind::{INERTIA, LENGTH, MASS, TIME};
 use motor::effort;
 use place::Places;
 
-/// Of the integrator, unless given: golden motions come out to 3e-10 of their largest (`tests/simulate.rs`).
+/// Default tolerance of the integrator: it reproduces golden motions within 3e-10 of their largest value (`tests/simulate.rs`).
 const TOLERANCE: f64 = 1e-12;
 
 /// The most output points of a simulation.
@@ -47,7 +47,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         Some(item) if item.choice(&words)? == 1 => Shaft::DriveLink,
         _ => Shaft::Motor,
     };
-    // A sliding link is driven directly by a linear motor or a cylinder.
+    // A sliding link is driven by a linear motor or a cylinder directly.
     let linear = drive.slides() && (at == Shaft::DriveLink || drive_train.stages().is_empty());
     let torque = if linear {
         effort(
@@ -68,7 +68,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
             ["3000 rpm", "14 N m"],
         )?
     };
-    // A linear motor has a mass where a rotary one has an inertia.
+    // A linear motor has a mass instead of a rotor inertia.
     let direct = drive.slides() && drive_train.stages().is_empty();
     let (rotor, kind) = if direct {
         ("motor_mass", &MASS)
@@ -113,7 +113,7 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
     }))
 }
 
-/// Length and distance of the rows.
+/// Duration and step of the output rows.
 fn times(section: &Section) -> Result<[Value; 2]> {
     let duration = section.quantity("duration", &TIME)?;
     let output_step = section.quantity("output_step", &TIME)?;
@@ -138,7 +138,7 @@ fn times(section: &Section) -> Result<[Value; 2]> {
     Ok([duration, output_step])
 }
 
-/// A position of what is prescribed, in a file that prescribes nothing.
+/// A position of the prescribed coordinate in a file that prescribes none.
 fn no_axis(position: &Item, around: Around) -> Problem {
     let has = if around.motion.is_some() {
         "a [motion] without `of`"
@@ -152,7 +152,7 @@ fn no_axis(position: &Item, around: Around) -> Problem {
     ))
 }
 
-/// Where the drive link starts (rad, or m), and how fast. A controlled machine that is not told so starts as its motion does.
+/// Start position (rad or m) and speed of the drive link. By default a controlled machine starts with its motion.
 fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
     let places = Places::of(around);
     let speed = match section.get("start_speed") {
@@ -165,7 +165,7 @@ fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
     {
         return Err(no_axis(&position, around));
     }
-    // The drive link's own angle, or the position of what is prescribed.
+    // The drive link's own angle, or the position of the prescribed coordinate.
     let (own, position) = if around.drive.slides() {
         (None, section.get("start_position"))
     } else if places.has_axis() {

@@ -1,4 +1,4 @@
-//! Stages of gear trains and belts, of the mechanism as well as of the drive train.
+//! Stages of gear trains and belts, in the mechanism and in the drive train.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ pub(super) enum Losses {
     Allowed,
 }
 
-/// A stage with the place it was read from.
+/// A stage and its place in the file.
 pub(super) struct Placed {
     stage: Stage,
     place: Range<usize>,
@@ -109,8 +109,8 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
     .map_err(|error| core(section, error))
 }
 
-/// The stage of a table with `type = "friction"`: a friction wheel, a V-belt, a disc, whose slip loses speed and so power. The torques are
-/// in the ratio of the radii, so that the efficiency is 1 − ε.
+/// The stage of a table with `type = "friction"`: a friction wheel, a V-belt or a disc, whose slip reduces the speed and thus the power. The torques
+/// are in the ratio of the radii, so the efficiency is 1 − ε.
 pub(super) fn friction(section: &Section) -> Result<Placed> {
     let item = section.require(
         "ratio",
@@ -143,7 +143,7 @@ pub(super) fn friction(section: &Section) -> Result<Placed> {
         .map_err(|error| core(section, error))
 }
 
-/// The same stages with an inertia (kg·m²) more behind the last.
+/// The stages with an additional inertia (kg·m²) after the last.
 pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Placed>> {
     if let Some(last) = stages.last_mut() {
         let [driver, driven] = last.stage.inertias();
@@ -155,7 +155,7 @@ pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Pla
     Ok(stages)
 }
 
-/// The stage of a table with `type = "ball-screw"`: 2π/lead radians of the screw for each metre of the nut.
+/// The stage of a table with `type = "ball-screw"`: 2π/lead (rad of the screw per m of the nut).
 pub(super) fn screw(section: &Section) -> Result<Placed> {
     let lead = section.quantity("lead", &LENGTH)?.positive()?;
     let left = match section.get("hand") {
@@ -166,13 +166,13 @@ pub(super) fn screw(section: &Section) -> Result<Placed> {
     linear(section, if left { -ratio } else { ratio })
 }
 
-/// The stage of a table with `type = "rack"`: 1/radius radians of the pinion for each metre of the rack.
+/// The stage of a table with `type = "rack"`: 1/radius (rad of the pinion per m of the rack).
 pub(super) fn rack(section: &Section) -> Result<Placed> {
     let radius = section.quantity("radius", &LENGTH)?.positive()?;
     linear(section, 1.0 / radius)
 }
 
-/// A stage with the `ratio` (rad/m) from a part that turns to a part that slides.
+/// A stage with the `ratio` (rad/m) from a rotating to a sliding part.
 fn linear(section: &Section, ratio: f64) -> Result<Placed> {
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
     let mass = match section.optional("mass", &MASS)? {

@@ -7,7 +7,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
 
-/// Reference points of the values.
+/// Reference points for the values.
 const PLACES: [&str; 2] = ["input", "drive-link"];
 
 /// Values of the section.
@@ -49,7 +49,7 @@ pub(super) fn read(root: &Section, drive: DriveLink, train: &DriveTrain) -> Resu
     let shaft = shaft.map(Value::positive).transpose()?;
     let play = play.map(Value::not_negative).transpose()?;
     Ok(Stiffness {
-        // ½·c·θ² is the same at both ends.
+        // ½·c·θ² is equal at both ends.
         shaft: shaft.map(|c| if at_input { c } else { c / (ratio * ratio) }),
         play: play.map(|play| if at_input { play / ratio } else { play }),
     })

@@ -1,4 +1,4 @@
-//! `[supply]`: the supply of the DC bus and everything that takes regenerated energy.
+//! `[supply]`: the supply of the DC bus, and the consumers of regenerated energy.
 
 use crate::model::site::Site;
 use crate::model::supply::{BrakeResistor, MAINS, Supply, rectified};
@@ -81,7 +81,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     Ok(())
 }
 
-/// Checks that there are such mains.
+/// Checks that the mains voltage is in the range of drives.
 fn check_mains(mains: &Value) -> Result<()> {
     mains.check_positive()?;
     let [least, most] = MAINS;
@@ -97,7 +97,7 @@ fn check_mains(mains: &Value) -> Result<()> {
     ))
 }
 
-/// Checks that a voltage is greater than that of the supply.
+/// Checks that a voltage exceeds that of the supply.
 fn above(
     value: Option<&Value>,
     key: &str,

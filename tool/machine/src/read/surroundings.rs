@@ -8,10 +8,10 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ALTITUDE, TEMPERATURE};
 
-/// Temperatures that motors are built for (°C).
+/// Range of ambient temperatures of motors (°C).
 const TEMPERATURES: [f64; 2] = [-60.0, 300.0];
 
-/// Altitude up to which the rule for thin air is meant (m).
+/// Highest altitude for which the derating rule is valid (m).
 const HIGHEST: f64 = 4000.0;
 
 /// Reads the surroundings into the site.
@@ -57,7 +57,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     Ok(())
 }
 
-/// A temperature on the Celsius scale (°C).
+/// A temperature in degrees Celsius.
 fn celsius(item: &Item) -> Result<f64> {
     let value = item.quantity(&TEMPERATURE)?;
     let [low, high] = TEMPERATURES;

@@ -1,4 +1,4 @@
-//! `[tolerance]`: how far quantities may deviate from their values in the file.
+//! `[tolerance]`: deviations of quantities from their values in the file.
 
 use crate::model::tolerance::{Shape, Tolerance};
 use crate::text::problem::Result;

@@ -1,4 +1,4 @@
-//! `[tool]`: where backlash matters, and how much is allowed.
+//! `[tool]`: the point or link where backlash matters, and the backlash allowed there.
 
 use jred::machine::Mechanism as _;
 
@@ -11,7 +11,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};
 
-/// A tool slower than this (m or rad, per rad or m of the drive link) does not move.
+/// A tool slower than this (m or rad per rad or m of the drive link) does not move.
 const STANDS: f64 = 1e-9;
 
 /// Number of positions at which the motion of the tool is checked.
@@ -77,7 +77,7 @@ fn of_point(section: &Section, item: &Item, mechanism: &AnyMechanism) -> Result<
     })
 }
 
-/// A named point, or the point `at` of a link: its name, its link, and where it is on it.
+/// A named point, or the point `at` of a link: its name, its link, and its position on the link.
 pub(super) fn place(
     section: &Section,
     item: &Item,
@@ -101,7 +101,7 @@ pub(super) fn place(
     }
 }
 
-/// Whether the tool moves anywhere in the range of the drive link.
+/// Whether the tool moves anywhere in the drive link's range.
 fn moves(tool: &Tool, mechanism: &AnyMechanism) -> bool {
     coordinate::positions(mechanism.domain(), POSITIONS).any(|phi| {
         let Ok(frames) = mechanism.frames(phi) else {

@@ -17,10 +17,10 @@ use crate::units::kind::{INERTIA, SHARE, TIME, TORQUE};
 /// The most shifts.
 const MAX_SHIFTS: usize = 1000;
 
-/// The laws of a shift: those without a jump of speed's second derivative.
+/// The laws of a shift: those whose speed has a continuous second derivative.
 const LAWS: [&str; 3] = ["polynomial-345", "cycloidal", "modified-sine"];
 
-/// Which way power flows, as files write it.
+/// Direction of power flow, as written in files.
 pub(super) const FLOWS: [&str; 2] = ["input-drives", "output-drives"];
 
 /// The variator, if the file has one.
@@ -98,7 +98,7 @@ fn ratio(section: &Section) -> Result<f64> {
         .number(RATIOS, "0.5")
 }
 
-/// `ratio = [["0 s", 0.5], …]`: a curve through points in time.
+/// `ratio = [["0 s", 0.5], …]`: a curve through points over time.
 fn points(list: &Item) -> Result<Ratio> {
     const EXAMPLE: &str = "[[\"0 s\", 0.5], [\"0.2 s\", 0.6], …]";
     let (mut times, mut ratios): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -180,7 +180,7 @@ fn slip(section: &Section) -> Result<Slip> {
     }
 }
 
-/// A slip of at least zero and below one.
+/// A slip of at least zero and less than one.
 pub(super) fn share(item: &Item) -> Result<f64> {
     let value = item.quantity(&SHARE)?;
     if value.si >= 1.0 {
@@ -192,7 +192,7 @@ pub(super) fn share(item: &Item) -> Result<f64> {
     value.not_negative()
 }
 
-/// Direction of power flow, which is required for the reason `why`.
+/// Direction of power flow; the message about a missing one gives the reason `why`.
 pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
     let item = section.get("power_flow").ok_or_else(|| {
         section.missing(
@@ -243,7 +243,7 @@ fn creep(item: &Item) -> Result<Slip> {
     })
 }
 
-/// `curve = [["0.5 %", "12 N m"], …]`: slip over the torque of the contact.
+/// `curve = [["0.5 %", "12 N m"], …]`: slip over the torque at the contact.
 fn adhesion(list: &Item) -> Result<Adhesion> {
     const EXAMPLE: &str =
         "[[\"0.5 %\", \"12 N m\"], [\"1.5 %\", \"30 N m\"], [\"3 %\", \"36 N m\"]]";
@@ -279,7 +279,7 @@ fn adhesion(list: &Item) -> Result<Adhesion> {
         .map_err(|fault| list.problem(&format!("is no curve: {fault}"), "these points"))
 }
 
-/// One shift after the others.
+/// Adds a shift after those before.
 fn add(course: &mut Ratio, section: &Section) -> Result<()> {
     section.expects(&["at", "duration", "ratio", "law"]);
     let at = section.quantity("at", &TIME)?;

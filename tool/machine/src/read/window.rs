@@ -11,7 +11,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::ANGLE;
 
-/// `turns`: after how many turns of the drive link a load is the same again.
+/// `turns`: number of turns of the drive link after which a load repeats.
 pub(super) fn turns(section: &Section, drive: DriveLink) -> Result<u32> {
     let Some(item) = section.get("turns") else {
         return Ok(1);
@@ -28,7 +28,7 @@ pub(super) fn turns(section: &Section, drive: DriveLink) -> Result<u32> {
         .help("remove `turns`: the load acts wherever the drive link is"))
 }
 
-/// The window of a load that is the same again after some turns, if it has one.
+/// The window of a load that repeats after some turns, if it has one.
 pub(super) fn read(section: &Section, drive: DriveLink, turns: u32) -> Result<Option<Window>> {
     match drive.domain {
         Domain::Turn => window(section, turns),
@@ -82,7 +82,7 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
                 to.show(width)
             )));
     }
-    // Kept a hair below the whole, so that rounding cannot make it wider.
+    // Kept 1e-14 below the whole, so that rounding cannot make it wider.
     let start = from.si.rem_euclid(period);
     let end = start + width.min(period * (1.0 - 1e-14));
     if width < 2.0 * ramp.si {
@@ -113,7 +113,7 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
 /// Share of a ramp by which the rounding of a window's ends may move it.
 const ROUNDED: f64 = 1e-6;
 
-/// Ends that have digits enough for the ramp between them: far from zero a position is rounded.
+/// Checks that the ends have enough digits for the ramp: far from zero, a position is rounded.
 fn precise_enough(between: &Item, [from, to]: [&Value; 2], ramp: f64) -> Result<()> {
     let rounding = f64::EPSILON * from.si.abs().max(to.si.abs());
     if rounding <= ROUNDED * ramp {
@@ -132,7 +132,7 @@ fn precise_enough(between: &Item, [from, to]: [&Value; 2], ramp: f64) -> Result<
         .help("give positions of the first turn, or of the stroke counted from its beginning, or a longer ramp"))
 }
 
-/// A ramp that a table can tell from a jump.
+/// Checks that a ramp is long enough to differ from a step.
 fn long_enough(ramp: &Value, span: f64) -> Result<()> {
     ramp.check_positive()?;
     let least = Window::SHORTEST_RAMP * span;
@@ -226,7 +226,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
         })
 }
 
-/// Whether two ramps are wider than a range. Rounding may leave them a hair wider, the more the further away the range is.
+/// Whether two ramps are longer than a range by more than rounding, which grows with the distance of the range from zero.
 fn is_too_long(ramp: f64, from: f64, width: f64) -> bool {
     width + 1e-14 * from.abs() < 2.0 * ramp * (1.0 - 1e-12)
 }

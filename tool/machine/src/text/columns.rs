@@ -1,5 +1,5 @@
-//! CSV files from other programs: columns of numbers with units in the header; where no comma separates, decimals may have
-//! one. Every mistake is shown in the CSV file.
+//! CSV files of other programs: columns of numbers with units in the header. A comma can be the decimal point if it does not separate cells. Every
+//! fault is shown in the CSV file.
 
 mod header;
 mod layout;
@@ -25,12 +25,12 @@ pub(crate) use layout::Layout;
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
 
-/// A column that a file may have.
+/// A column that a file can have.
 #[derive(Clone, Copy)]
 pub(crate) struct Known {
-    /// The names that it may have, the usual one first, that of the machine file's `columns` last; capitals do not matter.
+    /// Its possible names: the usual one first, the one of the machine file's `columns` last. Case does not matter.
     pub(crate) names: &'static [&'static str],
-    /// What it measures.
+    /// The kind of quantity.
     pub(crate) kind: &'static Kind,
 }
 
@@ -46,12 +46,12 @@ impl Known {
     }
 }
 
-/// A column of these names that measures this.
+/// A column with these names and this kind of quantity.
 pub(crate) const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
     Known { names, kind }
 }
 
-/// What is wrong, and where that is shown.
+/// A fault, and the file in which it is shown.
 pub(crate) enum Fault {
     /// In the CSV file.
     InFile(Problem),
@@ -65,19 +65,19 @@ impl From<Problem> for Fault {
     }
 }
 
-/// Columns that a kind of file may have.
+/// The columns that a kind of file can have.
 pub(crate) struct Format<'f> {
-    /// Its columns.
+    /// The columns.
     pub(crate) known: &'f [Known],
-    /// Whether columns with other names are ignored.
+    /// Whether a column with this other name is ignored.
     pub(crate) ignored: fn(&str) -> bool,
     /// A header to suggest.
     pub(crate) example: &'f str,
-    /// Fewest rows.
+    /// Smallest number of rows.
     pub(crate) min_rows: usize,
 }
 
-/// The file that `item` names, among `files`.
+/// The text of the file that `item` names.
 pub(crate) struct CsvFile {
     pub(crate) text: Arc<String>,
     name: String,
@@ -102,7 +102,7 @@ impl CsvFile {
         })
     }
 
-    /// The problem of a fault, shown where it is.
+    /// The fault as a problem shown in its file.
     pub(crate) fn shows(&self, fault: impl Into<Fault>) -> Problem {
         match fault.into() {
             Fault::InFile(problem) => problem.in_file(&self.name, &self.text),
@@ -113,16 +113,16 @@ impl CsvFile {
 
 /// The columns of a file in SI units.
 pub(crate) struct Columns {
-    /// For each column of the format its values.
+    /// The values of each column of the format.
     values: Vec<Option<Vec<f64>>>,
-    /// For each its name in the file with its unit, and the size of that unit.
+    /// For each column its name and unit in the file, and the size of the unit.
     headers: Vec<(String, f64)>,
-    /// Where the rows are.
+    /// Places of the rows.
     places: Vec<Range<usize>>,
 }
 
 impl Columns {
-    /// The values of the format's column number `index`, if the file has it.
+    /// The values of column `index` of the format, if the file has it.
     pub(crate) fn get(&self, index: usize) -> Option<&[f64]> {
         self.values.get(index)?.as_deref()
     }
@@ -132,12 +132,12 @@ impl Columns {
         self.places.len()
     }
 
-    /// Where row number `row` is, counted from 0.
+    /// The place of row `row`, counted from 0.
     pub(crate) fn place(&self, row: usize) -> Range<usize> {
         self.places.get(row).cloned().unwrap_or_default()
     }
 
-    /// Adds a column that follows from another one: its values (SI), and how that one is shown, whose unit is `scale` here.
+    /// Adds the column `index` computed from column `from`: its values (SI). It is shown with the header of `from`, in a unit of the size `scale`.
     pub(crate) fn derive(&mut self, index: usize, (from, scale): (usize, f64), values: Vec<f64>) {
         let header = self
             .headers
@@ -150,7 +150,7 @@ impl Columns {
         }
     }
 
-    /// A value with the unit of its column.
+    /// A value in the unit of its column.
     pub(crate) fn shown(&self, index: usize, value: f64) -> String {
         let Some((header, scale)) = self.headers.get(index) else {
             return figure(value);
@@ -171,7 +171,7 @@ impl Columns {
             .at(self.place(row), "this row")
     }
 
-    /// Checks that the values of a column rise from row to row.
+    /// Checks that the values of a column increase from row to row.
     pub(crate) fn check_rising(&self, index: usize, what: &str, help: &str) -> problem::Result<()> {
         let values = self.get(index).unwrap_or_default();
         let Some(row) = values.windows(2).position(|pair| pair[1] <= pair[0]) else {
@@ -188,7 +188,7 @@ impl Columns {
     }
 }
 
-/// Reads header and rows of a file with this layout.
+/// Reads the header and the rows of a file with this layout.
 pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Columns, Fault> {
     let whole = text;
     let text = &*layout.without_skipped(text);
@@ -292,7 +292,7 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     })
 }
 
-/// Whether a file has a column that this is: by its name; by its unit as well where the name is also that of another one.
+/// Whether a file has the column `known`: by its name, or by name and unit if `other` can have the same name.
 pub(crate) fn has(
     text: &str,
     layout: &Layout,
@@ -320,7 +320,7 @@ pub(crate) fn has(
         .any(|(name, title)| known.is(name) && (!other.is(name) || measured(title))))
 }
 
-/// The titles with the units of a line below them, as `s;deg` or `[s],[deg]`, if the line is one.
+/// The titles with units from the line below them, for example `s;deg` or `[s],[deg]`; `None` if it is not a line of units.
 fn units_below(titles: &[Title], row: &StringRecord) -> Option<Vec<Title>> {
     let unit = |field: &str| -> String {
         unquoted(field)
@@ -344,7 +344,7 @@ fn units_below(titles: &[Title], row: &StringRecord) -> Option<Vec<Title>> {
     Some(titles.iter().zip(units).map(with_unit).collect())
 }
 
-/// A field without the quotes that a blank before them made a part of it.
+/// A field without its quotes, which a blank before them made part of it.
 fn unquoted(field: &str) -> &str {
     let inner = field
         .strip_prefix('"')
@@ -352,7 +352,7 @@ fn unquoted(field: &str) -> &str {
     inner.map_or(field, str::trim)
 }
 
-/// A number, with a decimal comma where no comma separates.
+/// A number; its decimal sign can be a comma if cells are not separated by commas.
 fn number_of(field: &str, separator: char) -> Option<f64> {
     let number = if separator != ',' && field.contains(',') && !field.contains('.') {
         field.replacen(',', ".", 1).parse()

@@ -1,6 +1,6 @@
-//! CSV tables with places: a header, and rows of as many cells.
+//! CSV tables with places: a header, and rows with the same number of cells.
 //!
-//! Commas, semicolons or tabs between the cells, a byte order mark, comments (`#`), quotes.
+//! Cells are separated by commas, semicolons or tabs. A byte order mark, comments (`#`) and quotes are allowed.
 
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ impl<'t> Table<'t> {
         Ok(table)
     }
 
-    /// Rows below no header, with these titles.
+    /// A table without a header line, with these titles.
     pub fn titled(text: &'t str, titles: &[String]) -> Self {
         let mut table = Self::new(
             text,
@@ -78,7 +78,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// What separates the cells: a tab or a semicolon, if the header contains one, otherwise the comma.
+    /// The separator of the cells: a tab or a semicolon if the header contains one, otherwise the comma.
     pub const fn separator(&self) -> char {
         self.separator
     }
@@ -88,12 +88,12 @@ impl<'t> Table<'t> {
         &self.header
     }
 
-    /// The cells of this row.
+    /// The cells of the current row.
     pub const fn row(&self) -> &StringRecord {
         &self.record
     }
 
-    /// Goes on to the next row; `None` at the end.
+    /// Advances to the next row; `None` at the end.
     pub fn advance(&mut self) -> Option<Result<()>> {
         if self.over {
             return None;
@@ -116,7 +116,7 @@ impl<'t> Table<'t> {
                 .help(plain::CURE)),
             }),
             Err(error) => {
-                // Only a row of the wrong length leaves the reader where it can go on.
+                // The reader can continue only after a row of the wrong length.
                 self.over = !matches!(error.kind(), ErrorKind::UnequalLengths { .. });
                 Some(Err(self.broken(&error)))
             }
@@ -154,17 +154,17 @@ impl<'t> Table<'t> {
             .help(help)
     }
 
-    /// Number of this row's line in the text.
+    /// Line number of the current row in the text.
     pub fn line(&self) -> usize {
         self.record.position().map_or(0, Position::line) as usize
     }
 
-    /// The place of this row.
+    /// The place of the current row.
     pub fn row_place(&self) -> Range<usize> {
         line_from(self.text, self.start())
     }
 
-    /// The place of a cell of this row.
+    /// The place of a cell of the current row.
     pub fn place(&self, index: usize) -> Range<usize> {
         self.find(self.start(), index, self.record.get(index))
     }
@@ -177,7 +177,7 @@ impl<'t> Table<'t> {
     /// Reads the unit of a column, one of the `kinds`, from its title.
     ///
     /// # Errors
-    /// What `read` says of it.
+    /// Errors of `read`.
     pub fn unit<U>(
         &self,
         index: usize,
@@ -208,7 +208,7 @@ impl<'t> Table<'t> {
         self.record.position().map_or(0, |p| p.byte() as usize)
     }
 
-    /// Where `cell`, number `index` of the row that follows byte `from`, is: past as many separators outside quotes.
+    /// The place of `cell`, number `index` in the row after byte `from`; separators in quotes do not count.
     fn find(&self, from: usize, index: usize, cell: Option<&str>) -> Range<usize> {
         let row = row_start(self.text, from);
         let rest = self.text.get(row..).unwrap_or_default();
@@ -238,7 +238,7 @@ fn hidden(row: &StringRecord) -> Option<(usize, char)> {
         .find_map(|(index, cell)| Some((index, plain::hidden(cell)?)))
 }
 
-/// Where the row begins that follows byte `from`: past a byte order mark, comments and blank lines.
+/// Start of the row after byte `from`: after a byte order mark, comments and blank lines.
 fn row_start(text: &str, from: usize) -> usize {
     let mut start = from.min(text.len());
     if start == 0 && text.starts_with('\u{feff}') {
@@ -253,24 +253,24 @@ fn row_start(text: &str, from: usize) -> usize {
     start
 }
 
-/// Where the header is: the first line that is no comment.
+/// The place of the header: the first line that is not a comment.
 pub fn header_place(text: &str) -> Range<usize> {
     line_from(text, 0)
 }
 
-/// The header as it is written.
+/// The header as written.
 pub fn header_of(text: &str) -> &str {
     text.get(header_place(text)).unwrap_or_default()
 }
 
-/// The line of the row that follows byte `from`.
+/// The place of the row after byte `from`.
 fn line_from(text: &str, from: usize) -> Range<usize> {
     let start = row_start(text, from);
     let line = text.get(start..).and_then(|rest| rest.lines().next());
     start..start + line.map_or(0, str::len)
 }
 
-/// Name and unit of a title, `name [unit]`; no unit: `None`.
+/// Name and unit of a title `name [unit]`; `None` without a unit.
 pub fn name_and_unit(title: &str) -> (&str, Option<&str>) {
     let split = title.strip_suffix(']').and_then(|t| t.rsplit_once('['));
     split.map_or((title, None), |(name, unit)| {

@@ -1,7 +1,7 @@
-//! Files of a disk: the one place of the tool that reads any.
+//! Files on disk: the only module of the tool that reads them.
 //!
-//! Every reader has a limit in bytes, and a limit in time for what is no regular file: a pipe that nobody writes, a terminal, a
-//! device without an end. Which files were read is kept, so that no output is written over one of them.
+//! Every read is limited in bytes. Reading from anything but a regular file (a pipe without a writer, a terminal, an endless device) is limited in
+//! time too. The files read are recorded, so that no output overwrites one of them.
 
 use std::collections::HashMap;
 use std::fs::{File, Metadata};
@@ -14,10 +14,10 @@ use super::file::{Files, LARGE, size, too_large};
 use crate::plain;
 use crate::units::Fault;
 
-/// How long is waited for the end of a pipe or a device.
+/// Longest wait for the end of a pipe or a device.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// A folder, in which files are looked for by their names.
+/// A folder; names of files are relative to it.
 impl Files for Path {
     fn shown(&self, file: &str) -> String {
         plain::path(self.join(file))
@@ -38,7 +38,7 @@ impl Files for PathBuf {
     }
 }
 
-/// The text of the file at `path`, which may have up to `limit` bytes.
+/// The text of the file at `path`, of at most `limit` bytes.
 pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault> {
     let bytes = bytes(path, limit).map_err(|error| match error.kind() {
         ErrorKind::NotFound => Fault::new(
@@ -60,14 +60,14 @@ pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault
     utf8(bytes)
 }
 
-/// Cure for a pipe or a device without an end.
+/// Cure for an endless pipe or device.
 pub const SLOW: &str = "name a regular file, or write the data to one first";
 
-/// The content of the file at `path`, which may have up to `limit` bytes, and is remembered as read.
+/// The content of the file at `path`, of at most `limit` bytes; a regular file is recorded as read.
 ///
 /// # Errors
-/// Those of the system; [`ErrorKind::FileTooLarge`] above the limit; [`ErrorKind::TimedOut`] for what is no regular file and
-/// does not end within some seconds.
+/// Errors of the system; [`ErrorKind::FileTooLarge`] above the limit; [`ErrorKind::TimedOut`] if `path` is not a regular file and does not end within
+/// 5 s.
 pub fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     let metadata = path.metadata()?;
     if metadata.is_dir() {
@@ -83,11 +83,10 @@ pub fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     limited(File::open(path)?, limit)
 }
 
-/// Opens a regular file that is read piece by piece, and remembers it; gives the content of anything else, of at most `limit`
-/// bytes.
+/// Opens a regular file for reading piece by piece, without a limit, and records it as read. Anything else is read as a whole, up to `limit` bytes.
 ///
 /// # Errors
-/// Those of [`bytes`].
+/// Errors of [`bytes`].
 pub fn open(path: &Path, limit: u64) -> Result<Box<dyn Read>> {
     let metadata = path.metadata()?;
     if !metadata.is_file() {
@@ -97,8 +96,7 @@ pub fn open(path: &Path, limit: u64) -> Result<Box<dyn Read>> {
     Ok(Box::new(File::open(path)?))
 }
 
-/// The content of a pipe or a device. Opening a pipe waits for its writer; so a thread opens and reads, which ends with the
-/// program at the latest.
+/// The content of a pipe or a device. Opening a pipe waits for its writer; so a thread opens and reads it, which lives no longer than the program.
 fn stream(path: &Path, limit: u64, patience: Duration) -> Result<Vec<u8>> {
     let (sender, receiver) = mpsc::channel();
     let path = path.to_owned();
@@ -127,7 +125,7 @@ fn above(size: &str, limit: u64) -> Error {
     Error::new(ErrorKind::FileTooLarge, too_large(size, limit))
 }
 
-/// What tells a file from others, whatever it is called: device and inode, so that links count.
+/// Identifies a file independently of its name, and thus links to it: device and inode.
 #[cfg(unix)]
 type Identity = (u64, u64);
 
@@ -141,7 +139,7 @@ fn identity(_: &Path, metadata: &Metadata) -> Option<Identity> {
     Some((metadata.dev(), metadata.ino()))
 }
 
-/// What tells a file from others: its canonical path.
+/// Identifies a file: its canonical path.
 #[cfg(not(unix))]
 type Identity = PathBuf;
 
@@ -150,7 +148,7 @@ fn identity(path: &Path, _: &Metadata) -> Option<Identity> {
     path.canonicalize().ok()
 }
 
-/// The regular files that this process has read, each with the path it was first read by.
+/// The regular files that this process has read, with the path at the first read.
 static FILES: LazyLock<Mutex<HashMap<Identity, PathBuf>>> = LazyLock::new(Mutex::default);
 
 fn remember(path: &Path, metadata: &Metadata) {
@@ -165,7 +163,7 @@ pub fn read_as(path: &Path) -> Option<PathBuf> {
     known(&identity(path, &path.metadata().ok()?)?)
 }
 
-/// The same of a file that is open: by what tells it from others, where the system says it.
+/// [`read_as`] for an open file, by its device and inode; always `None` on systems without them.
 pub fn read_under(metadata: &Metadata) -> Option<PathBuf> {
     known(&identity(Path::new(""), metadata)?)
 }
@@ -178,7 +176,7 @@ fn known(identity: &Identity) -> Option<PathBuf> {
 /// The text of a file.
 ///
 /// # Errors
-/// It is not UTF-8, with the line where that shows.
+/// It is not UTF-8; the message gives the line of the first invalid byte.
 pub fn utf8(bytes: Vec<u8>) -> std::result::Result<String, Fault> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();

@@ -1,4 +1,4 @@
-//! Where the files come from that a text names, and the limit on their size.
+//! Sources of the files that a text names, and the limit on their size.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -6,15 +6,15 @@ use std::fmt::Debug;
 use crate::number::rounding::figure;
 use crate::units::Fault;
 
-/// Where the files come from that a machine file names: a folder (feature `fs`), or texts at hand, by their names.
+/// Source of the files that a machine file names: a folder (feature `fs`), or texts in memory, by their names.
 pub trait Files: Debug {
-    /// What a file is called in messages.
+    /// The name of a file in messages.
     fn shown(&self, file: &str) -> String;
 
     /// Its text, of at most `limit` bytes.
     ///
     /// # Errors
-    /// There is no such file, or it cannot be read.
+    /// The file does not exist or cannot be read.
     fn text(&self, file: &str, limit: u64) -> Result<String, Fault>;
 }
 
@@ -48,7 +48,7 @@ impl Files for BTreeMap<String, String> {
     }
 }
 
-/// What is wrong with a file of `size`.
+/// The message about a file of `size` above the `limit`.
 pub(crate) fn too_large(size: &str, limit: u64) -> String {
     format!("it has {size}; the maximum is {}", self::size(limit))
 }

@@ -20,12 +20,12 @@ pub struct Item<'a> {
     /// "`length` in [mechanism.crank]"
     name: String,
     key: &'static str,
-    /// The key in the text; the value for the elements of a list.
+    /// The key in the text; for the elements of a list, the value.
     key_span: Range<usize>,
     value: &'a Spanned<DeValue<'a>>,
 }
 
-/// A quantity in SI with the place it was read from.
+/// A quantity in SI with its place in the file.
 pub(crate) struct Value {
     /// The value in SI.
     pub(crate) si: f64,
@@ -60,12 +60,12 @@ impl<'a> Item<'a> {
         self.key_span.clone()
     }
 
-    /// A problem with this value: "`length` in [mechanism.crank] " and `what`.
+    /// A problem with this value: "`length` in [mechanism.crank] " followed by `what`.
     pub fn problem(&self, what: &str, label: &str) -> Problem {
         Problem::new(format!("{} {what}", self.name)).at(self.span(), label)
     }
 
-    /// The problem of a fault of this value.
+    /// The problem for a fault of this value.
     pub fn fault(&self, fault: Fault) -> Problem {
         self.problem(&fault.message, &fault.label).help(fault.help)
     }
@@ -186,10 +186,10 @@ impl<'a> Item<'a> {
         Ok(text.trim())
     }
 
-    /// What is written in a plain value: a text, a number, "yes" or "no", the texts of a list with semicolons between them.
+    /// The plain value as text: a text, a number, "yes" or "no", or the texts of a list separated by semicolons.
     ///
     /// # Errors
-    /// The value is none of these.
+    /// The value is anything else.
     pub fn words(&self) -> Result<Cow<'a, str>> {
         let words = match self.value.get_ref() {
             DeValue::String(text) => Cow::Borrowed(text.trim()),
@@ -258,7 +258,7 @@ impl<'a> Item<'a> {
         matches!(self.value.get_ref(), DeValue::Table(_))
     }
 
-    /// The elements of a list, each called `word` and its number in messages.
+    /// The elements of a list; in messages each is called `word` with its number.
     pub(crate) fn list(&self, word: &str, example: &str) -> Result<Vec<Self>> {
         let DeValue::Array(array) = self.value.get_ref() else {
             return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
@@ -273,7 +273,7 @@ impl<'a> Item<'a> {
     /// Two quantities.
     pub(crate) fn pair(&self, kinds: [&'static Kind; 2]) -> Result<[Value; 2]> {
         let [first, second] = kinds;
-        // Coordinates, or the ends of a range, which rises.
+        // Coordinates, or the ends of a range, of which the second is larger.
         let example = if std::ptr::eq(first, second) {
             format!("[\"0 {}\", \"{}\"]", first.unit, second.example)
         } else {
@@ -298,10 +298,10 @@ impl<'a> Item<'a> {
         Ok(Section::new(title, self.span(), table))
     }
 
-    /// An array of tables, called `title` and their number in messages.
+    /// An array of tables; in messages each is called `title` with its number.
     ///
     /// # Errors
-    /// The value is something else.
+    /// The value is not an array of tables.
     pub fn sections(&self, title: &str) -> Result<Vec<Section<'a>>> {
         let DeValue::Array(array) = self.value.get_ref() else {
             let example = format!("the header in double brackets: {title}, once for each");
@@ -328,12 +328,12 @@ impl Value {
         self.span.clone()
     }
 
-    /// As the file gives it, the number shortened.
+    /// The value in the file's unit, with a shortened number.
     pub(crate) fn shown(&self) -> String {
         self.show(self.si)
     }
 
-    /// Another value in SI, in the unit of this one.
+    /// Another SI value in the unit of this one.
     pub(crate) fn show(&self, si: f64) -> String {
         self.quantity.in_its_unit(si).trim_end().to_owned()
     }

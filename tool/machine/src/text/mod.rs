@@ -1,4 +1,4 @@
-//! Texts with places: what stands where in TOML and CSV, and what is wrong with it.
+//! Texts with places: reading TOML and CSV, and showing their faults.
 
 pub mod columns;
 pub mod csv;

@@ -12,7 +12,7 @@ use crate::plain;
 /// Result of reading a part of a text.
 pub type Result<T> = std::result::Result<T, Problem>;
 
-/// A fault at places in a text, which is attached last.
+/// A fault at places in a text; the text is attached last.
 #[derive(Debug, Error, Diagnostic)]
 #[error(transparent)]
 #[diagnostic(transparent)]
@@ -55,7 +55,7 @@ impl Problem {
         self
     }
 
-    /// The places are in this text, called `name`, unless they are already in another one.
+    /// Attaches the text of the places, called `name`, unless a text is attached already.
     #[must_use]
     pub fn in_file(mut self, name: &str, text: &Arc<String>) -> Self {
         if self.0.file.is_none() {
@@ -77,19 +77,19 @@ impl Problem {
     }
 }
 
-/// The longest line that is shown; longer ones are named by file and number.
+/// Longest line that is shown; a place in a longer line is given by file and line number.
 const MAX_LINE: usize = 400;
 
-/// The last character boundary up to `at`.
+/// The last character boundary at or before `at`.
 fn boundary(text: &str, at: usize) -> usize {
     let mut upto = (0..=at).rev();
     upto.find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
 impl Parts {
-    /// Moves the labels to where they can be seen in `text`.
+    /// Moves the labels to visible places in `text`.
     fn point(&mut self, name: &str, text: &str) {
-        // The end of the text has no line of its own: the last character stands for it.
+        // The end of the text has no line of its own: its label moves to the last character.
         let last = text
             .trim_end()
             .char_indices()
@@ -118,7 +118,7 @@ impl Parts {
 }
 
 impl Parts {
-    /// The text with long lines cut, which may be shown beside those of the labels; the labels move along.
+    /// The text with long lines cut, which may be near those of the labels; the labels move with their lines.
     fn narrow(&mut self, text: &str) -> String {
         let (mut narrow, mut read) = (String::with_capacity(text.len()), 0);
         for line in text.split_inclusive('\n') {
@@ -130,7 +130,7 @@ impl Parts {
                 }
             }
             read += line.len();
-            // It becomes shorter, so a label that has moved is not met again.
+            // The text only becomes shorter, so a moved label is not moved again.
             if line.len() > MAX_LINE + "…\n".len() {
                 narrow += line.get(..boundary(line, MAX_LINE)).unwrap_or_default();
                 narrow += "…\n";

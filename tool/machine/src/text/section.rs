@@ -14,7 +14,7 @@ use crate::plain;
 use crate::units::kind::Kind;
 use crate::units::{self, closest, meant};
 
-/// Where all keys are listed.
+/// Documents that list all keys.
 const KEYS: &str = "docs/machine-file.md or docs/catalogue.md";
 
 /// Most unknown keys that a message about a missing one names.
@@ -29,12 +29,12 @@ pub struct Section<'a> {
     header: Range<usize>,
     table: &'a DeTable<'a>,
     known: RefCell<Vec<&'static str>>,
-    /// Whether all its keys are known, so that any other is a mistake.
+    /// Whether the list of known keys is complete, so that any other key is a mistake.
     complete: Cell<bool>,
 }
 
 impl<'a> Section<'a> {
-    /// The `table`, whose header is at this place.
+    /// The `table` with the place of its header.
     pub fn new(title: String, header: Range<usize>, table: &'a DeTable<'a>) -> Self {
         Self {
             title,
@@ -69,15 +69,14 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Registers `keys` as valid so that they are not suggested as typos of one another.
+    /// Registers `keys` as valid, so that they are not reported as typos of one another.
     pub(crate) fn expects(&self, keys: &[&'static str]) {
         for key in keys {
             self.get(key);
         }
     }
 
-    /// Registers `keys` as all keys that the table can have besides those read so far: a message about a missing key then names
-    /// the keys that are unknown as well.
+    /// Registers `keys` as all further keys of the table: a message about a missing key then names the unknown keys too.
     pub(crate) fn expects_only(&self, keys: &[&'static str]) {
         self.expects(keys);
         self.complete.set(true);
@@ -94,7 +93,7 @@ impl<'a> Section<'a> {
         unread
     }
 
-    /// The value of `key`, if the table has it.
+    /// The value of `key`, if the table has it; marks the key as read.
     pub fn get(&self, key: &'static str) -> Option<Item<'a>> {
         let mut known = self.known.borrow_mut();
         if !known.contains(&key) {
@@ -103,18 +102,18 @@ impl<'a> Section<'a> {
         self.peek(key)
     }
 
-    /// The value of `key` without marking it as read; for messages.
+    /// The value of `key` for messages; does not mark the key as read.
     pub fn peek(&self, key: &'static str) -> Option<Item<'a>> {
         let (found, value) = self.table.get_key_value(key)?;
         Some(Item::new(self.name(key), key, found.span(), value))
     }
 
-    /// The value of `key`; `example` is the line to write if it is missing.
+    /// The value of `key`; `example` is the line to add if it is missing.
     pub(crate) fn require(&self, key: &'static str, example: &str) -> Result<Item<'a>> {
         self.get(key).ok_or_else(|| self.missing(key, example))
     }
 
-    /// The problem of a missing key; names a key that looks like a misspelling of it.
+    /// The problem of a missing key; names an unread key that looks like a misspelling of it.
     pub(crate) fn missing(&self, key: &'static str, example: &str) -> Problem {
         let unread = self.unread();
         for other in &unread {
@@ -146,18 +145,18 @@ impl<'a> Section<'a> {
         problem.help(help)
     }
 
-    /// A quantity that must be there.
+    /// A required quantity.
     pub(crate) fn quantity(&self, key: &'static str, kind: &'static Kind) -> Result<Value> {
         self.require(key, &format!("{key} = \"{}\"", kind.example))?
             .quantity(kind)
     }
 
-    /// A quantity that may be left out.
+    /// An optional quantity.
     pub(crate) fn optional(&self, key: &'static str, kind: &'static Kind) -> Result<Option<Value>> {
         self.get(key).map(|item| item.quantity(kind)).transpose()
     }
 
-    /// Two optional quantities; zero if missing.
+    /// Two optional quantities; zero if not given.
     pub(crate) fn point(&self, key: &'static str, kind: &'static Kind) -> Result<[f64; 2]> {
         let Some(item) = self.get(key) else {
             return Ok([0.0, 0.0]);
@@ -176,7 +175,7 @@ impl<'a> Section<'a> {
         entries.into_iter().map(entry).collect()
     }
 
-    /// A table that must be there.
+    /// A required table.
     pub(crate) fn section(&self, key: &'static str) -> Result<Self> {
         let title = self.child(key);
         self.require(key, &title)?.section(title)
@@ -191,15 +190,15 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Reports a key that was not read.
+    /// Reports the first key that was not read.
     pub(crate) fn finish(&self) -> Result<()> {
         self.finish_with(|_| None)
     }
 
-    /// Reports a key that was not read, with an explanation for keys that belong elsewhere.
+    /// Reports the first key that was not read, with an explanation for keys that belong elsewhere.
     ///
     /// # Errors
-    /// The first of them, with a word like it.
+    /// A key that was not read; the message names a similar valid key, if there is one.
     pub fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
         let unread = self.unread();
         let Some(key) = unread.first() else {

@@ -1,4 +1,4 @@
-//! A text as a tree of TOML tables, or what is wrong with its syntax.
+//! A text as a tree of TOML tables, and the message about faulty syntax.
 
 use std::ops::Range;
 
@@ -8,17 +8,17 @@ use toml::de::{DeTable, DeValue};
 use super::problem::{Problem, Result};
 use crate::plain;
 
-/// Reads a text.
+/// Parses a text.
 ///
 /// # Errors
-/// It is not TOML, or a key or a value holds a character that is not seen.
+/// It is not TOML, or a key or a value contains a hidden character.
 pub fn parse(text: &str) -> Result<Spanned<DeTable<'_>>> {
     let tree = DeTable::parse(text).map_err(|error| syntax(&error, text))?;
     seen(tree.get_ref())?;
     Ok(tree)
 }
 
-/// Checks that all of a table can be seen.
+/// Checks that a table contains no hidden characters.
 fn seen(table: &DeTable) -> Result<()> {
     for (key, value) in table {
         if let Some(c) = plain::hidden(key.get_ref()) {
@@ -65,7 +65,7 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
     let after = text.get(span.end..).unwrap_or_default().trim_start();
     let at_key = after.starts_with(['=', '.', ']']);
     let hidden = text.get(span.clone()).and_then(plain::hidden);
-    // What may end a line is not what is wrong with it.
+    // Hidden white space (a line end) is not the fault.
     let hidden = hidden.filter(|c| !c.is_whitespace());
     let help = if let Some(c) = hidden {
         format!("{} stands here; {}", plain::described(c), plain::CURE)
@@ -94,7 +94,7 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
     .help(help)
 }
 
-/// Whether a text that is not valid TOML has this key where it can be read; what is wrong is then that it stands there again.
+/// Whether the readable part of an invalid TOML text has this key: then the fault is that the key is repeated.
 fn is_twice(key: &str, text: &str) -> bool {
     fn has(value: &DeValue, key: &str) -> bool {
         match value {

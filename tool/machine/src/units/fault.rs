@@ -1,8 +1,8 @@
-//! What is wrong with a value as it was written, and what to do about it.
+//! Faults of written values, with their cures.
 
 use std::cmp::Reverse;
 
-/// The fault of a value, before its key is known.
+/// A fault of a value whose key is not known yet.
 #[derive(Debug)]
 pub struct Fault {
     /// Continues "`length` in [mechanism.crank] …".
@@ -31,7 +31,7 @@ impl Fault {
     }
 }
 
-/// The word that `wrong` is most likely a misspelling of; of equally near ones the one that begins like it for longest.
+/// The word that `wrong` is most likely a misspelling of; of equally near words the one with the longest common beginning.
 pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let lower = wrong.to_lowercase();
     let length = lower.chars().count();
@@ -47,14 +47,13 @@ pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
         .map(|(_, word)| word.to_owned())
 }
 
-/// Letters with which both begin.
+/// Number of letters with which both begin.
 fn common(one: &str, other: &str) -> usize {
     let pairs = one.chars().zip(other.chars());
     pairs.take_while(|(a, b)| a == b).count()
 }
 
-/// The word that is meant where one of `words` must stand: [`closest`], or else one that is a part of the other, such as "rack" and
-/// "rack-and-pinion".
+/// The word of `words` that is most likely meant: [`closest`], else a word that contains the other, for example "rack" and "rack-and-pinion".
 pub(crate) fn meant<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let plain = |word: &str| -> String {
         let letters = word.chars().filter(|c| c.is_alphanumeric());
@@ -73,13 +72,13 @@ pub(crate) fn meant<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     closest(wrong, words).or_else(part)
 }
 
-/// Letters of the shortest word that is looked for within another.
+/// Letters of the shortest word that is searched within another.
 const SHORTEST_PART: usize = 4;
 
-/// More words than a message lists.
+/// The most words that a message lists.
 const MANY: usize = 12;
 
-/// Words that are known instead of `wrong`: all of them, or the nearest three and where the others are found.
+/// The known words for a message about `wrong`: all of them, or the nearest three and the place where the others are listed.
 pub(crate) fn known<S: AsRef<str>>(wrong: &str, words: &[S], place: &str) -> String {
     let mut words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
     if words.len() <= MANY {
@@ -91,7 +90,7 @@ pub(crate) fn known<S: AsRef<str>>(wrong: &str, words: &[S], place: &str) -> Str
     format!("{nearest} and {} others: see {place}", words.len() - 3)
 }
 
-/// The beginning of a cure that names this word: `did you mean "…"? `; empty if there is none.
+/// The beginning of a cure that names the word: `did you mean "…"? `; empty if no word is near.
 pub fn did_you_mean<S: AsRef<str>>(wrong: &str, words: &[S]) -> String {
     meant(wrong, words).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "))
 }

@@ -13,16 +13,16 @@ pub struct Kind {
     pub unit: &'static str,
     /// Units to choose from, for messages.
     pub units: &'static str,
-    /// What its units must measure.
+    /// Dimension of its units.
     pub dimension: Dimension,
     /// Larger values (SI) are refused as mistakes.
     pub largest: f64,
-    /// If zero is not allowed, smaller values (SI) are not either.
+    /// Smaller values (SI) are refused if zero is not allowed.
     pub smallest: f64,
 }
 
 impl Kind {
-    /// Whether a unit of the dimension `found` measures it. An angle may be left out below the "/": "N m s" for "N m s/rad".
+    /// Whether a unit of the dimension `found` measures this kind. The angle below the "/" is optional: "N m s" for "N m s/rad".
     pub fn is_measured_by(&self, found: Dimension) -> bool {
         found == self.dimension
             || self.dimension.angle < 0
@@ -96,8 +96,8 @@ kinds! {
     GAIN "a gain (speed per distance)" "20 1/s" "1/s" "1/s" 1e-6 1e6;
 }
 
-// Over the angle of a cam, of a follower that slides or swings, and rates of a drive's torque; elsewhere such a quantity has another name,
-// or none.
+// Kinds for cams with a translating or an oscillating follower, and rates of a drive's torque. Elsewhere a quantity of the same dimension has another
+// name or none.
 kinds! {
     _:
     CAM_VELOCITY "a velocity per angular speed of the cam" "12 mm/rad" "mm/rad" "mm/rad, mm/deg" 1e-9 1e3;
@@ -107,7 +107,7 @@ kinds! {
     CAM_TURNING "an angular acceleration per squared angular speed of the cam" "-0.5 1/rad" "1/rad" "1/rad, 1/deg" 1e-9 1e6;
 }
 
-/// Names of quantities that nothing asks for but that users write.
+/// Names of quantities that users write but no key accepts.
 const OTHERS: [(&str, Dimension); 2] = [
     ("an area", dimension("m^2")),
     ("a mass times length", dimension("kg m")),

@@ -1,5 +1,4 @@
-//! A number with a unit of any kind, as in texts of a machine file, for code that changes quantities without knowing their
-//! meaning.
+//! A number with a unit of any kind, for code that changes quantities in a machine file without knowing their meaning.
 
 use super::kind::{Kind, SHARE};
 use super::quantity::split_number;
@@ -10,9 +9,9 @@ use super::unit;
 pub struct Literal {
     /// The number as written.
     pub number: f64,
-    /// The unit, tidied up; empty: a plain number.
+    /// The unit in its tidy form; empty for a plain number.
     pub unit: String,
-    /// One of the unit in SI.
+    /// SI value of one such unit.
     pub scale: f64,
     /// Powers of m, kg, s and of the angle.
     pub dimension: [i8; 4],
@@ -46,7 +45,7 @@ impl Literal {
     }
 }
 
-/// What messages ask for.
+/// The kind of quantity in messages.
 const ANY: Kind = Kind {
     name: "a quantity",
     example: "60 kg",
@@ -56,7 +55,7 @@ const ANY: Kind = Kind {
 /// Reads "1.2e-3 kg m^2", "12 %" or "0.8".
 ///
 /// # Errors
-/// A message that continues "\"…\" ".
+/// A message that follows "\"…\" ".
 pub fn read(text: &str) -> Result<Literal, String> {
     let tidy = unit::tidy(text);
     let words = |fault: super::fault::Fault| format!("{}; {}", fault.message, fault.help);

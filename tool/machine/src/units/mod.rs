@@ -1,8 +1,8 @@
-//! Quantities: the units they are written in, what each kind of them is called, and how a figure is named and shown.
+//! Quantities: their units, the names of their kinds, and the display of figures.
 //!
-//! A [`unit`](mod@unit) is made of words with powers; a [`quantity`] is a number with a unit, of the [`kind`] that is asked for; a
-//! [`literal`] is one of any kind. What cannot be read is a [`Fault`] with its cure. A [`Vocabulary`] says whether a figure is a torque or a
-//! force, an inertia or a mass. Nothing here knows files, machines or catalogues.
+//! A [`unit`](mod@unit) consists of words with powers. A [`quantity`] is a number with a unit of the required [`kind`]; a [`literal`] is one of any
+//! kind. A [`Fault`] tells why a text cannot be read, with a cure. A [`Vocabulary`] tells whether a figure is a torque or a force, an inertia or a
+//! mass. Nothing here depends on files, machines or catalogues.
 
 use std::f64::consts::PI;
 
@@ -19,11 +19,11 @@ pub(crate) use fault::{known, meant};
 pub use vocabulary::{Sentence, Term, Vocabulary};
 pub use word::Dimension;
 
-/// rad/s of one revolution per minute.
+/// One revolution per minute in rad/s.
 pub const RPM: f64 = PI / 30.0;
 
-/// rad of one degree.
+/// One degree in rad.
 pub const DEGREE: f64 = PI / 180.0;
 
-/// rad of one minute of arc.
+/// One minute of arc in rad.
 pub const ARCMIN: f64 = PI / 10_800.0;

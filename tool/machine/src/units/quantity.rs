@@ -1,4 +1,4 @@
-//! Quantities: a number and its unit, of a kind that the key asks for.
+//! Quantities: a number and its unit, of the kind that the key requires.
 
 use super::RPM;
 use super::fault::Fault;
@@ -11,12 +11,12 @@ use crate::number::rounding::figure;
 pub struct Quantity {
     /// The value in SI.
     pub si: f64,
-    /// The unit it was written in.
+    /// The unit in which it was written.
     pub unit: Unit,
 }
 
 impl Quantity {
-    /// `si` in the unit that the quantity was written in, for messages.
+    /// The value `si` in the unit in which the quantity was written, for messages.
     pub fn in_its_unit(&self, si: f64) -> String {
         format!("{} {}", figure(si / self.unit.scale), self.unit.text)
     }
@@ -25,7 +25,7 @@ impl Quantity {
 /// Reads `text` as a quantity of the `kind`.
 ///
 /// # Errors
-/// No number, no unit or another one, or a value that no machine has.
+/// A missing number, a missing or wrong unit, or a value outside the range of the kind.
 pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     let tidy = unit::tidy(text);
     if tidy.is_empty() {
@@ -53,7 +53,7 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     finish(number, unit, kind)
 }
 
-/// Reads a unit of one of the `kinds`, and says of which. None is the unit of a share.
+/// Reads a unit of one of the `kinds`, and returns the index of the kind. An empty text is the unit of a share.
 ///
 /// # Errors
 /// No unit, one that cannot be read, or one of another kind.
@@ -73,7 +73,7 @@ pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
     Ok((unit, kind))
 }
 
-/// "1/min" and "min^-1" count turns where an angular speed is asked for, as name plates do.
+/// "1/min" and "min^-1" count turns if an angular speed is expected, as on name plates.
 fn per_minute(unit: Unit, kinds: &[&Kind]) -> Unit {
     let asked = |of: &Kind| kinds.iter().any(|kind| kind.dimension == of.dimension);
     let counts = matches!(unit.text.as_str(), "1/min" | "min^-1" | "min⁻¹");
@@ -87,7 +87,7 @@ fn per_minute(unit: Unit, kinds: &[&Kind]) -> Unit {
     unit
 }
 
-/// The fault of a unit that is not read, with the quantity in one that is, if it can be converted.
+/// The fault of a unit that is not accepted; its cure gives the quantity in an accepted unit, if it can be converted.
 fn converted(fault: Fault, number: &str, text: &str, kind: &Kind) -> Fault {
     let given = unit::read_every(text).filter(|unit| kind.is_measured_by(unit.dimension));
     let Some((given, own)) = given.zip(unit::read(kind.unit).ok()) else {
@@ -97,7 +97,7 @@ fn converted(fault: Fault, number: &str, text: &str, kind: &Kind) -> Fault {
     if !value.is_finite() {
         return fault;
     }
-    // As many digits as a rounding to one in a thousand million has.
+    // Nine decimals of the mantissa remove rounding errors.
     let shown: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     Fault {
         help: format!("write \"{shown} {}\"; {}", kind.unit, fault.help),
@@ -158,7 +158,7 @@ fn finish(number: String, unit: Unit, kind: &Kind) -> Result<Quantity, Fault> {
     Ok(quantity)
 }
 
-/// The fault of infinity and not-a-number.
+/// The fault of infinity and NaN.
 pub fn not_finite(kind: &Kind) -> Fault {
     Fault::new(
         "is not a finite number",
@@ -169,8 +169,7 @@ pub fn not_finite(kind: &Kind) -> Fault {
     )
 }
 
-/// `number`·`scale`. A scale that is a power of ten is put into the number's exponent, so that "120 mm" is the double
-/// nearest to 0.12.
+/// `number`·`scale`. If the scale is a power of ten, it goes into the exponent of the number, so that "120 mm" is the double nearest to 0.12.
 fn scaled(number: &str, scale: f64) -> f64 {
     let power = scale.log10().round();
     if power.is_finite() && (10f64.powf(power) / scale - 1.0).abs() < 1e-12 {
@@ -188,7 +187,7 @@ fn scaled(number: &str, scale: f64) -> f64 {
 /// Splits "1.2e-3 kg m^2" into its number and its unit.
 ///
 /// # Errors
-/// No number, more than one, or one that is not written with digits and a decimal point.
+/// A missing number, more than one, or one that is not written with digits and a decimal point.
 pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
     unit::short_enough(text)?;
     let bytes = text.as_bytes();
@@ -232,7 +231,7 @@ pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str),
         ));
     }
     let mut number = part(0..end).to_owned();
-    // An exponent: e-3, E+3, or times ten to the power of.
+    // An exponent: `e-3`, `E+3` or `*10^-3`.
     let exponent = if is(end, b"eE") {
         Some(end + 1)
     } else if part(end..text.len()).starts_with("*10^") {
@@ -266,7 +265,7 @@ pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str),
     Ok((number, rest.trim_start_matches([' ', '*'])))
 }
 
-/// What is wrong with the unit of `text`, if it does not measure any of the `kinds`; `units` says which do.
+/// The fault of a `unit` that does not measure any of the `kinds`; `units` lists the possible ones.
 fn misfit(
     unit: &Unit,
     text: &str,

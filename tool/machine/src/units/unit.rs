@@ -1,4 +1,4 @@
-//! Units as they are written: words with powers, at most one "/"; and what to write instead of one that cannot be read.
+//! Units as written: words with powers and at most one "/"; and cures for those that cannot be read.
 
 use super::fault::{Fault, closest};
 use super::word::{Dimension, EVERY, LISTED, Product, WORDS, Word};
@@ -7,11 +7,11 @@ use crate::plain;
 /// A unit as read.
 #[derive(Clone, Debug)]
 pub struct Unit {
-    /// How it was written, tidied up.
+    /// The unit as written, in its tidy form.
     pub text: String,
     /// Its value in SI.
     pub scale: f64,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
 }
 
@@ -54,19 +54,19 @@ const FOREIGN: [(&[&str], &str); 17] = [
     ),
 ];
 
-/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`]. Words may run together, as in "kgcm2".
+/// Reads a unit, for example "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`]. Words need no blanks between them: "kgcm2".
 ///
 /// # Errors
-/// An unknown word, or powers and divisions that can be read in more than one way.
+/// An unknown word, or powers and divisions that are ambiguous.
 pub fn read(text: &str) -> Result<Unit, Fault> {
     short_enough(text)?;
     of_words(&spaced(text, WORDS), text, WORDS)
 }
 
-/// Reads a unit as data sheets write it: there are more words, such as "A peak".
+/// Reads a unit of a data sheet; it can have more words, for example "A peak".
 ///
 /// # Errors
-/// As [`read`].
+/// Errors of [`read`].
 pub fn read_listed(text: &str) -> Result<Unit, Fault> {
     short_enough(text)?;
     // An ampere of an alternating current is one word.
@@ -74,16 +74,15 @@ pub fn read_listed(text: &str) -> Result<Unit, Fault> {
     of_words(&spaced(&tidy, LISTED), text, LISTED)
 }
 
-/// Reads a unit that no file may have, such as "lb in^2": for a message that converts it.
+/// Reads a unit that no file can have, for example "lb in^2", to convert it in a message.
 pub(super) fn read_every(text: &str) -> Option<Unit> {
     of_words(&spaced(text, EVERY), text, EVERY).ok()
 }
 
-/// Turns per minute, as name plates write them: with "1/min" only where an angular speed is asked for, which
-/// [`quantity`](super::quantity) knows.
+/// Revolutions per minute, as on name plates. "1/min" is one only if an angular speed is expected, which [`quantity`](super::quantity) decides.
 const RPM: [&str; 5] = ["RPM", "Rpm", "U/min", "r/min", "turns/min"];
 
-/// A unit whose words run together, or have a bare power, with blanks and "^": "kgcm2" is "kg cm^2".
+/// A unit with blanks and "^" inserted if they are missing: "kgcm2" is "kg cm^2".
 fn spaced(text: &str, known: &'static [Word]) -> String {
     if RPM.contains(&text) {
         return "rpm".to_owned();
@@ -93,7 +92,7 @@ fn spaced(text: &str, known: &'static [Word]) -> String {
         let end = rest.find([' ', '*', '/', '(', ')']).unwrap_or(rest.len());
         let (token, after) = rest.split_at(end);
         let (word, exponent) = token.split_at(token.find('^').unwrap_or(end));
-        // What is a unit of its own elsewhere does not run together: "degF" is no angle.
+        // A foreign unit is not split: "degF" is not an angle times F.
         let is_foreign = FOREIGN.iter().any(|(words, _)| words.contains(&word));
         let together = !is_foreign && slip(word, known).is_none();
         let apart = apart(word, exponent, known).filter(|_| together);
@@ -105,7 +104,7 @@ fn spaced(text: &str, known: &'static [Word]) -> String {
     spaced
 }
 
-/// The one known word that differs from this one in capitals only: "Kg" is no kelvin times gram.
+/// The only known word that differs from this one in case only: "Kg" is a misspelt "kg", not kelvin times gram.
 fn slip(word: &str, known: &'static [Word]) -> Option<&'static str> {
     let mut same = (known.iter()).filter(|known| known.text.eq_ignore_ascii_case(word));
     match (same.next(), same.next()) {
@@ -126,10 +125,10 @@ fn of_words(text: &str, written: &str, words: &'static [Word]) -> Result<Unit, F
     })
 }
 
-/// Refuses a text that is longer than any quantity, so that messages can show what is refused later.
+/// Refuses a text that is too long for a quantity, so that messages can show later faults in full.
 ///
 /// # Errors
-/// It is.
+/// The text is too long.
 pub fn short_enough(text: &str) -> Result<(), Fault> {
     if plain::is_short(text) {
         return Ok(());
@@ -140,7 +139,7 @@ pub fn short_enough(text: &str) -> Result<(), Fault> {
     ))
 }
 
-/// How a unit is written.
+/// Cure for the form of a unit.
 const SHAPE: &str = "separate units by blanks, write powers with ^ and at most one \"/\": \"N m\", \"kg cm^2\", \
                      \"m/s^2\", \"N m s/rad\"";
 
@@ -231,7 +230,7 @@ fn factor(token: &str, words: &'static [Word]) -> Result<(&'static Word, i8), Fa
     Err(Fault::new(format!("has the unknown unit \"{word}\""), cure).label("unknown unit"))
 }
 
-/// What to write instead of an unknown unit.
+/// Cure for an unknown unit.
 fn cure(word: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");
@@ -246,7 +245,7 @@ fn cure(word: &str) -> String {
     )
 }
 
-/// Words that were written without blanks, and perhaps with a bare power, with them: "kgcm2" is "kg cm^2".
+/// Inserts the missing blanks, and "^" before a bare power: "kgcm2" is "kg cm^2".
 fn apart(word: &str, exponent: &str, known: &'static [Word]) -> Option<String> {
     let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
     let words = split(letters, 4, known)?.join(" ");
@@ -257,7 +256,7 @@ fn apart(word: &str, exponent: &str, known: &'static [Word]) -> Option<String> {
     })
 }
 
-/// Splits words that were written without a blank: "kgcm" into "kg", "cm".
+/// Splits words written without a blank: "kgcm" into "kg" and "cm".
 fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'static str>> {
     if letters.is_empty() {
         return Some(Vec::new());
@@ -267,7 +266,7 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     words.sort_by_key(|word| std::cmp::Reverse(word.len()));
     words.into_iter().find_map(|word| {
         let rest = letters.strip_prefix(word)?;
-        // In "Nmm" the millimetre is one word.
+        // In "Nmm", the millimetre is one word.
         if word.ends_with("Nm") && rest.starts_with('m') {
             return None;
         }
@@ -276,7 +275,7 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     })
 }
 
-/// Brings signs that mean the same to one form: · and × to *, a point between letters too, superscripts to ^, − to -, µ to u, ° to deg.
+/// Unifies equivalent signs: · and × to *, also a point between letters, superscripts to ^, − to -, µ to u, ° to deg.
 pub fn tidy(text: &str) -> String {
     const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let mut tidy = String::with_capacity(text.len());
@@ -303,7 +302,7 @@ pub fn tidy(text: &str) -> String {
             c => tidy.extend(digit.map_or(Some(c), |d| char::from_digit(d as u32, 10))),
         }
     }
-    // Blanks around the signs that bind a unit together carry no meaning.
+    // Blanks around the operators of a unit have no meaning.
     let mut text = tidy.trim().to_owned();
     while text.contains("  ") {
         text = text.replace("  ", " ");

@@ -1,26 +1,25 @@
-//! What the figures of a motor are called and shown in: a linear motor has force for torque, m/s for speed, a mass for the
-//! inertia.
+//! Words and units for the figures of a motor: a linear motor has force for torque, m/s for speed, and a mass for the inertia.
 //!
-//! Words and units are values of the quantity, and a sentence is made with them: `format!("peak {}", words.torque)`.
+//! Messages insert the words: `format!("peak {}", words.torque)`.
 
 use std::borrow::Cow;
 use std::fmt;
 
 use super::RPM;
 
-/// A quantity as one kind of motor has it. It is displayed as its word.
+/// A quantity of one kind of motor; it is displayed as its word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
-    /// What it is called, such as `torque`.
+    /// Its name, for example `torque`.
     pub word: &'static str,
-    /// The unit that it is shown in.
+    /// The unit in which it is shown.
     pub unit: &'static str,
-    /// SI value of that unit; figures are divided by it to be shown.
+    /// SI value of that unit; shown figures are divided by it.
     pub scale: f64,
 }
 
 impl Term {
-    /// Heading of a column, such as `torque [N m]`.
+    /// Heading of a column, for example `torque [N m]`.
     pub fn label(&self) -> String {
         format!("{} [{}]", self.word, self.unit)
     }
@@ -41,22 +40,22 @@ impl fmt::Display for Term {
 /// Words and units of one kind of motor.
 #[derive(Debug, PartialEq)]
 pub struct Vocabulary {
-    /// What it makes: torque or force.
+    /// Its effort: torque or force.
     pub torque: Term,
     /// Its speed.
     pub speed: Term,
-    /// What is accelerated: inertia or mass.
+    /// Its inertia: inertia or mass.
     pub inertia: Term,
-    /// What moves: `rotor` or `moving part`.
+    /// The moving part: `rotor` or `moving part`.
     pub rotor: &'static str,
     /// SI unit of its speed.
     pub speed_si: &'static str,
-    /// Decimals of a speed that is shown.
+    /// Decimals of a speed in messages.
     decimals: usize,
     slides: bool,
 }
 
-/// A sentence that is made for a kind of motor.
+/// A sentence for a kind of motor.
 pub type Sentence = fn(&Vocabulary) -> String;
 
 const fn term(word: &'static str, unit: &'static str, scale: f64) -> Term {
@@ -73,7 +72,7 @@ impl Vocabulary {
         }
     }
 
-    /// Of motors that turn.
+    /// For motors that turn.
     pub const ROTARY: Self = Self {
         torque: term("torque", "N m", 1.0),
         speed: term("speed", "rpm", RPM),
@@ -84,7 +83,7 @@ impl Vocabulary {
         slides: false,
     };
 
-    /// Of motors that slide.
+    /// For motors that slide.
     pub const LINEAR: Self = Self {
         torque: term("force", "N", 1.0),
         speed: term("speed", "m/s", 1.0),
@@ -95,12 +94,12 @@ impl Vocabulary {
         slides: true,
     };
 
-    /// Whether these are the words of a motor that slides.
+    /// Whether these words are for motors that slide.
     pub const fn slides(&self) -> bool {
         self.slides
     }
 
-    /// The magnitude of a speed (rad/s or m/s) with its unit: whole revolutions per minute, three decimals of metres per second.
+    /// The magnitude of a speed (rad/s or m/s) with its unit: whole revolutions per minute, or three decimals of metres per second.
     pub fn speed(&self, speed: f64) -> String {
         let (places, shown) = (self.decimals, speed.abs() / self.speed.scale);
         format!("{shown:.places$} {}", self.speed.unit)

@@ -1,6 +1,6 @@
-//! The words that units are made of, and what one of each is in SI.
+//! The words of units, and their SI values.
 //!
-//! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
+//! Here an angle has a dimension of its own, so that "rad" differs from a plain number and "rpm" from "Hz".
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -24,7 +24,7 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// Multiplied by a power of another one.
+    /// This dimension times a power of another one.
     const fn times(self, other: Self, power: i8) -> Self {
         const fn sum(one: i8, other: i8, power: i8) -> i8 {
             one.saturating_add(other.saturating_mul(power))
@@ -40,7 +40,7 @@ impl Dimension {
     }
 }
 
-/// A unit word: one of it is 10^`tens` · `size` in SI.
+/// A unit word: its SI value is 10^`tens` · `size`.
 pub(super) struct Word {
     pub(super) text: &'static str,
     tens: i32,
@@ -97,9 +97,9 @@ const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
 const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
 const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
 
-/// Every unit word, behind those of machine files those of data sheets only, at the end those that are only converted. A degree Celsius is
-/// as large as a kelvin; where it begins to count is the affair of who asks for a temperature. An alternating current is stated by its RMS
-/// value or by its peak. A horsepower "hp" is the mechanical one, 550 ft·lbf/s; "PS" is the metric one, 75 kgf·m/s.
+/// All unit words: those of machine files, then those of data sheets only, then those that are only converted. A degree Celsius is as large as a
+/// kelvin; the zero of the scale is left to the reader of a temperature. An alternating current is given as its RMS value or its peak. A horsepower
+/// "hp" is the mechanical one, 550 ft·lbf/s; "PS" is the metric one, 75 kgf·m/s.
 pub(super) const EVERY: &[Word] = &[
     ten("mm", -3, LENGTH),
     ten("m", 0, LENGTH),
@@ -156,7 +156,7 @@ pub(super) const EVERY: &[Word] = &[
     sized("rev", TAU, ANGLE),
     sized("hp", HORSEPOWER, POWER),
     sized("PS", 735.498_75, POWER),
-    // Of data sheets.
+    // Of data sheets only.
     ten("J", 0, TORQUE),
     ten("kJ", 3, TORQUE),
     ten("sec", 0, TIME),
@@ -164,7 +164,7 @@ pub(super) const EVERY: &[Word] = &[
     ten("ohm", 0, RESISTANCE),
     ten("Arms", 0, CURRENT),
     sized("Apeak", 1.0 / SQRT_2, CURRENT),
-    // Converted in messages.
+    // Only converted in messages.
     sized("h", 3600.0, TIME),
     sized("in", INCH, LENGTH),
     sized("inch", INCH, LENGTH),
@@ -181,7 +181,7 @@ pub(super) const EVERY: &[Word] = &[
     sized("gon", 0.9 * DEGREE, ANGLE),
 ];
 
-/// The words that are only converted, and those of data sheets.
+/// Number of words at the end of the list that are only converted, and of those for data sheets only before them.
 const CONVERTED: usize = 14;
 const OF_DATA_SHEETS: usize = 7;
 
@@ -191,15 +191,15 @@ pub(super) const LISTED: &[Word] = EVERY.split_at(EVERY.len() - CONVERTED).0;
 /// The words of machine files.
 pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - OF_DATA_SHEETS).0;
 
-/// m, kg and m/s² of the inch, the pound and the standard acceleration of gravity, all exact.
+/// The inch (m), the pound (kg) and the standard gravity (m/s²); all exact.
 const INCH: f64 = 0.0254;
 const POUND: f64 = 0.453_592_37;
 const GRAVITY: f64 = 9.80665;
 
-/// W of 550 ft·lbf/s.
+/// 550 ft·lbf/s in W.
 const HORSEPOWER: f64 = 745.699_871_582_270_2;
 
-/// Words multiplied. Powers of ten are added up as exponents: "g mm^2" is exactly 1e-9.
+/// A product of words. Powers of ten add up as exponents: "g mm^2" is exactly 1e-9.
 pub(super) struct Product {
     tens: i32,
     size: f64,
@@ -213,7 +213,7 @@ impl Product {
         dimension: NUMBER,
     };
 
-    /// Multiplied by a power of a word.
+    /// This product times a power of a word.
     pub(super) const fn times(self, word: &Word, power: i8) -> Self {
         Self {
             tens: self.tens + word.tens * power as i32,
@@ -238,7 +238,7 @@ const fn raised(x: f64, power: i32) -> f64 {
     if power < 0 { 1.0 / product } else { product }
 }
 
-/// What a unit measures that stands in the source. A word that there is not does not compile.
+/// The dimension of a unit in the source code. An unknown word is a compile error.
 pub(super) const fn dimension(unit: &str) -> Dimension {
     product(unit).dimension
 }
@@ -267,7 +267,7 @@ const fn product(unit: &str) -> Product {
     product
 }
 
-/// The word that stands in a text.
+/// The word between two indices of a text.
 const fn find(text: &[u8], from: usize, to: usize) -> &'static Word {
     let mut at = 0;
     while at < WORDS.len() {
@@ -280,7 +280,7 @@ const fn find(text: &[u8], from: usize, to: usize) -> &'static Word {
     panic!("a unit word that is in no list")
 }
 
-/// Whether a word is what stands in a text.
+/// Whether a text has this word between two indices.
 const fn stands(word: &[u8], text: &[u8], from: usize, to: usize) -> bool {
     let mut at = 0;
     while at < word.len() && from + at < to && word[at] == text[from + at] {

@@ -1,25 +1,25 @@
-//! A convex problem in a few unknowns, by the barrier method: at the end of it no point is better by more than the gap.
+//! A convex problem in a few unknowns, by the barrier method. The result is within a stated gap of the optimum.
 //!
 //! ```text
 //! minimise f(x) = ½·xᵀH·x + g·x   where b − a·x > 0 and x_m·x_θ − x_u² − x_v² > 0
 //! ```
 //!
-//! For a growing s the minimum of s·f(x) − Σ ln(bounds) is found by Newton's method; there f is at most ν/s above the least, ν being the
-//! number of bounds, a cone counted twice (S. Boyd, L. Vandenberghe, *Convex Optimization*, 11.3 and 11.6).
+//! For growing s, Newton's method finds the minimum of s·f(x) − Σ ln(bounds). There f is at most ν/s above its least value, where ν is the number of
+//! bounds and a cone counts twice (S. Boyd, L. Vandenberghe, *Convex Optimization*, 11.3 and 11.6).
 
 use crate::skyline::Skyline;
 
-/// By how much s grows from one minimum to the next.
+/// Factor by which s grows from one minimum to the next.
 const GROWTH: f64 = 10.0;
 /// Most steps of Newton's method to one minimum.
 const MOST_STEPS: usize = 200;
-/// Half the square of Newton's decrement at which a minimum is reached.
+/// Half the square of Newton's decrement at which a minimum counts as reached.
 const REACHED: f64 = 1e-6;
 
-/// The same where no step lowers the height any more, which is large against it: the gap is hardly larger.
+/// The same where rounding stops the descent. It is large against rounding, but hardly widens the gap.
 const LOST: f64 = 1e-2;
 
-/// What a point must satisfy.
+/// A constraint.
 #[derive(Clone, Debug)]
 pub(super) enum Bound {
     /// b − Σ a·x > 0: b, and the a with their unknowns.
@@ -39,7 +39,7 @@ pub(super) struct Problem {
 }
 
 impl Bound {
-    /// How far a point is from it.
+    /// Distance of a point from the bound.
     fn room(&self, x: &[f64]) -> f64 {
         match self {
             Self::Linear(b, a) => b - a.iter().map(|(k, a)| a * x[*k]).sum::<f64>(),
@@ -47,7 +47,7 @@ impl Bound {
         }
     }
 
-    /// The slope of that.
+    /// Gradient of [`Self::room`].
     fn slope(&self, x: &[f64]) -> Vec<(usize, f64)> {
         match self {
             Self::Linear(_, a) => a.iter().map(|(k, a)| (*k, -a)).collect(),
@@ -92,7 +92,7 @@ impl Problem {
         height.is_finite().then_some(height)
     }
 
-    /// Newton's step from a point, and by how much it should lower the height.
+    /// Newton's step from a point, and the expected decrease of the height.
     fn step(&self, s: f64, x: &[f64]) -> Option<(Vec<f64>, f64)> {
         let n = x.len();
         let mut matrix = Skyline::new(vec![0; n]);
@@ -125,8 +125,8 @@ impl Problem {
         (negative == 0 && decrement.is_finite()).then_some((right, 0.5 * decrement))
     }
 
-    /// The least point and how far at most f is above the least there, from a `start` within all bounds. The gap ends below `gap`,
-    /// or where rounding ends the search.
+    /// The minimum, and a bound of how far f is above the least value, from a `start` within all bounds. It ends when the gap is below `gap`, or
+    /// where rounding stops the search.
     pub(super) fn least(&self, start: Vec<f64>, gap: f64) -> (Vec<f64>, f64) {
         let count: f64 = self.bounds.iter().map(Bound::count).sum();
         let (mut x, mut s, mut reached) = (start, 1.0, f64::INFINITY);
@@ -140,7 +140,7 @@ impl Problem {
         (x, reached)
     }
 
-    /// The minimum for one s. `None`: not reached within rounding.
+    /// The minimum for one s; `None`: not reached within rounding.
     fn centre(&self, s: f64, mut x: Vec<f64>) -> Option<Vec<f64>> {
         let mut height = self.height(s, &x)?;
         for _ in 0..MOST_STEPS {
@@ -160,7 +160,7 @@ impl Problem {
                 }
                 share *= 0.5;
                 if share < 1e-12 {
-                    // What the step would gain is lost in the roundings of the height.
+                    // The gain of the step is lost in the rounding of the height.
                     return (falls < LOST).then_some(x);
                 }
             }
@@ -173,7 +173,7 @@ impl Problem {
 mod tests {
     use super::{Bound, Problem};
 
-    /// The point of a disc of radius 1 nearest to (3, 4): as a cone with two unknowns held at 1.
+    /// The point of a disc of radius 1 nearest to (3, 4): a cone with two unknowns fixed at 1.
     #[test]
     fn the_nearest_point_of_a_disc() {
         let mut curvature = vec![vec![0.0; 4]; 4];
@@ -195,11 +195,11 @@ mod tests {
             (x[1] - 0.6).abs() < 1e-6 && (x[2] - 0.8).abs() < 1e-6,
             "{x:?}"
         );
-        // |x − (3, 4)|² = 16, of which f lacks 25.
+        // |x − (3, 4)|² = 16; f omits the constant 25.
         assert!((problem.value(&x) + 9.0).abs() < 1e-9);
     }
 
-    /// The corner of a linear programme: x + y least where both are above lines.
+    /// The corner of a linear programme: least x + y above two lines.
     #[test]
     fn the_corner_of_a_linear_programme() {
         let bounds = vec![

@@ -1,4 +1,4 @@
-//! What is to be made small, place by place, as a sum that is linear in the unknowns.
+//! The quantity to minimise, at each sample, as a linear function of the unknowns.
 
 use jred::machine::{Element, Frames, MassProperties, Mechanism as _};
 use jred::{Error, Link, Reducible as _};
@@ -8,25 +8,25 @@ use jred_machine::model::machine::MachineFile;
 
 use super::{Counterweight, Fault, Goal, POSITIONS, ROUNDING, Request, largest};
 
-/// How much finer the steps of the motion are for the peak: with other bodies it lies elsewhere, between the instants too, and is then
-/// higher than at them by the square of a step.
+/// How much finer the motion is sampled for the peak. With other bodies the peak moves, also between the instants, where it is higher by the square
+/// of a step.
 const FINER: usize = 10;
 
-/// What is to be made small, place by place, as a sum of what is there and of the unknowns.
+/// The quantity to minimise, at each sample: a base and a column for each unknown.
 pub(super) struct Rows {
-    /// Shares of the mean.
+    /// Weights of the samples in the mean.
     pub(super) weights: Vec<f64>,
-    /// Without what is sought.
+    /// Without the unknowns.
     pub(super) base: Vec<f64>,
-    /// What one of each unknown adds: of each counterweight m, S_u, S_v, Θ; of each spring k and k·l₀.
+    /// Effect of one unit of each unknown: of each counterweight m, S_u, S_v, Θ; of each spring k and k·l₀.
     pub(super) columns: Vec<Vec<f64>>,
     /// Longest length of each spring.
     pub(super) longest: Vec<f64>,
-    /// Largest magnitude of what is there, springs included.
+    /// Largest magnitude of the existing torques, springs included.
     pub(super) largest: f64,
 }
 
-/// A place, and how the machine moves there.
+/// A sample: a position and the motion of the machine there.
 struct Place {
     weight: f64,
     phi: f64,
@@ -83,7 +83,7 @@ impl Rows {
         Ok(rows)
     }
 
-    /// What a counterweight at its most would change by roundings alone has no effect.
+    /// Clears columns in which even the largest counterweight changes nothing beyond rounding.
     fn forget_roundings(&mut self, request: &Request) {
         let units = request.counterweights.iter().flat_map(Counterweight::most);
         for (column, unit) in self.columns.iter_mut().zip(units) {
@@ -93,7 +93,7 @@ impl Rows {
         }
     }
 
-    /// Deviations from the mean instead of the values.
+    /// Replaces the values by their deviations from the mean.
     fn deviate(&mut self) {
         let Self {
             weights,
@@ -110,13 +110,13 @@ impl Rows {
     }
 }
 
-/// Mean of the products.
+/// Weighted mean of the products.
 pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
     let all = weights.iter().zip(a).zip(b);
     all.map(|((w, a), b)| w * a * b).sum()
 }
 
-/// Where the machine is looked at.
+/// The samples at which the machine is evaluated.
 fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
     if matches!(request.goal, Goal::Rms | Goal::Peak) {
         let motion = file.motion.as_ref().ok_or(Fault::NoMotion)?;
@@ -153,7 +153,7 @@ fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
     positions(domain, POSITIONS).map(place).collect()
 }
 
-/// What one of m, S_u, S_v and Θ of a body on a link adds.
+/// Effect of one unit of m, S_u, S_v and Θ of a body on a link.
 fn parts(
     file: &MachineFile,
     goal: Goal,

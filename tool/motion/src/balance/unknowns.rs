@@ -1,4 +1,4 @@
-//! The unknowns, their bounds, and the bodies and springs that they are.
+//! The unknowns, their bounds, and their conversion to bodies and springs.
 
 use jred::machine::Element;
 use jred_machine::model::laden::Attached;
@@ -8,25 +8,26 @@ use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};
 use super::{Counterweight, Fault, Goal, Request, largest};
 
-/// Largest torque of an unknown, in terms of the largest torque of the machine: a spring that does nothing has no bound of its own.
+/// Largest torque of an unknown, in terms of the machine's largest torque: it bounds springs, whose stiffness is otherwise unbounded where
+/// they have no effect.
 const MOST_TORQUE: f64 = 1e3;
 
 /// Largest free length of a spring, in terms of its longest length.
 const MOST_FREE: f64 = 3.0;
 
-/// What changes less than this share of what is to be made small is not worth having.
+/// Share of the goal below which a change is ignored.
 const NOTHING: f64 = 1e-5;
 
-/// Gap at which the search ends, as a share of the square, or of the peak, of what is without counterweights and springs.
+/// Gap at which the search ends, as a share of the square (or of the peak) without counterweights and springs.
 const GAP: f64 = 1e-13;
 
-/// By how much a peak may be above its bound, as a share of what is without counterweights and springs.
+/// Excess of a peak over its bound, as a share of the peak without counterweights and springs.
 const PEAK_GAP: f64 = 1e-7;
 
-/// Most rounds of a search for the least peak: each adds the places at which the last exceeds it.
+/// Most rounds of a search for the least peak: each adds the samples at which the last result exceeds it.
 const MOST_ROUNDS: usize = 100;
 
-/// What is to be made small in its own unit, for unknowns in theirs.
+/// The goal and the unknowns, each in its own unit.
 struct Scaled {
     base: Vec<f64>,
     columns: Vec<Vec<f64>>,
@@ -44,7 +45,7 @@ impl Scaled {
     }
 }
 
-/// Places above a bound at which the magnitude is not less than beside them.
+/// Samples above a bound at which the magnitude is a local maximum.
 fn highest(values: &[f64], bound: f64) -> Vec<usize> {
     let size = |k: usize| values.get(k).map_or(0.0, |v| v.abs());
     let above = (0..values.len()).filter(|&k| size(k) > bound);
@@ -52,23 +53,23 @@ fn highest(values: &[f64], bound: f64) -> Vec<usize> {
     tops.collect()
 }
 
-/// How much a body as large as it may be, or a spring as stiff, counts against what it relieves.
+/// Penalty for a body as large as allowed, or a spring as stiff as allowed, relative to the torque that it relieves.
 const DISLIKE: f64 = 1e-10;
 
-/// Below this share of the length that it is of, a length is what the search left of zero.
+/// A length below this share of its reference length is residue of the search and becomes zero.
 const ROUNDED: f64 = 1e-6;
 
-/// Bodies and springs, in the order of the request; `None`: none.
+/// Bodies and springs, in the order of the request; `None`: no body or spring.
 pub(super) struct Made {
     pub(super) masses: Vec<Option<Attached>>,
     pub(super) springs: Vec<Option<Element>>,
 }
 
-/// The unknowns and their units: x is p by its unit.
+/// The unknowns and their units: x is p divided by its unit.
 pub(super) struct Unknowns<'a> {
     request: &'a Request,
     units: Vec<f64>,
-    /// Largest free length or free angle of each spring; `None`: free in both directions.
+    /// Largest free length or free angle of each spring; `None`: unbounded in both directions.
     free: Vec<Option<f64>>,
     springs: Vec<Element>,
 }
@@ -105,7 +106,7 @@ impl<'a> Unknowns<'a> {
         })
     }
 
-    /// The best x, and a bound of what is least, in terms of `scale` or of its square, that no x is below.
+    /// The best x, and a lower bound of the minimum in terms of `scale` or its square.
     pub(super) fn least(&self, goal: Goal, rows: &Rows, scale: f64) -> (Vec<f64>, f64) {
         let scaled = Scaled {
             base: rows.base.iter().map(|v| v / scale).collect(),
@@ -119,8 +120,7 @@ impl<'a> Unknowns<'a> {
         }
     }
 
-    /// What the search adds to what is to be least for each unknown: of several that are as good it takes the lightest body and the softest
-    /// spring.
+    /// Penalty of each unknown. Of several equal optima it selects the lightest body and the softest spring.
     fn dislike(&self) -> impl Iterator<Item = f64> {
         let bodies = self.request.counterweights.iter();
         let bodies = bodies.flat_map(|_| [DISLIKE, 0.0, 0.0, DISLIKE]);
@@ -128,7 +128,7 @@ impl<'a> Unknowns<'a> {
         bodies.chain(springs.flat_map(|_| [DISLIKE / MOST_TORQUE, 0.0]))
     }
 
-    /// The most that this can be.
+    /// Largest possible penalty.
     fn most_disliked(&self) -> f64 {
         DISLIKE * (2 * self.request.counterweights.len() + self.springs.len()) as f64
     }
@@ -149,13 +149,13 @@ impl<'a> Unknowns<'a> {
             bounds,
         };
         let (x, gap) = problem.least(start, GAP);
-        // f lacks the mean square without anything.
+        // f omits the mean square of the base.
         let least = product(weights, base, base) + problem.value(&x) - gap - self.most_disliked();
         (x, least.max(0.0))
     }
 
-    /// The peak is one unknown more, which no torque exceeds: at first those of a few places, and then at every place at which one does.
-    /// What is least for some of the places is a bound for all.
+    /// The peak is one more unknown, which no torque may exceed. At first only a few samples are constrained; samples that exceed the peak are added
+    /// in rounds. The minimum over some samples is a lower bound for all.
     fn least_peak(&self, scaled: &Scaled) -> (Vec<f64>, f64) {
         let n = self.units.len();
         let (bounds, start) = self.bounds();
@@ -226,7 +226,7 @@ impl<'a> Unknowns<'a> {
         (bounds, start)
     }
 
-    /// Bodies and springs of a point.
+    /// Bodies and springs of a point x.
     pub(super) fn made(&self, x: &[f64], rows: &Rows) -> Result<Made, Fault> {
         let p: Vec<f64> = x
             .iter()
@@ -259,7 +259,7 @@ impl<'a> Unknowns<'a> {
             if !acts(columns, p) {
                 return Ok(None);
             }
-            // Of a free length that is small against the spring, what the search left.
+            // A free length that is small against the spring is residue of the search.
             let free = preload / k;
             let free = if free.abs() < ROUNDED * longest {
                 0.0
@@ -288,8 +288,8 @@ impl<'a> Unknowns<'a> {
     }
 }
 
-/// The body with these moments and this inertia. Where mass, moments or inertia have no effect, as the mass on a link that turns about the origin of
-/// its frame, or all but the mass on one that slides, the lightest that has the others.
+/// The body with these moments and this inertia. Mass, moments or inertia may have no effect: only the inertia acts on a link that turns about the
+/// origin of its frame, only the mass on one that slides. Then it is the lightest body with the other values.
 fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attached> {
     let &[mass, along, across, inertia] = p else {
         return None;
@@ -314,7 +314,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
         return None;
     }
     let own = inertia - moment * moment / mass;
-    // Of a coordinate that is small against the reach, what the search left.
+    // A coordinate that is small against the reach is residue of the search.
     let coordinate = |moment: f64| {
         let at = moment / mass;
         if at.abs() < ROUNDED * bound.reach {
@@ -327,7 +327,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
         link: bound.link,
         at: [coordinate(along), coordinate(across)],
         mass,
-        // What is left of the cone's edge by the search.
+        // The residue of the search at the edge of the cone.
         inertia: if own > 1e-4 * inertia { own } else { 0.0 },
     })
 }

@@ -10,7 +10,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// With these unknowns.
+    /// The value for these unknowns.
     pub(crate) fn of(self, x: &[f64]) -> f64 {
         match self {
             Self::Free(index) => x[index],
@@ -26,7 +26,7 @@ impl Value {
     }
 }
 
-/// The column in which each row of a matrix of so many unknowns begins, where those of one element meet each other.
+/// First nonzero column of each row of a matrix over n unknowns, where the unknowns of one element are coupled.
 pub(crate) fn first_columns<'v>(
     unknowns: usize,
     elements: impl Iterator<Item = &'v [Value]>,
@@ -42,7 +42,7 @@ pub(crate) fn first_columns<'v>(
     first
 }
 
-/// What the four values of an element of length h give to w, w′ and w″ at the share z of it.
+/// Coefficients of an element's four values (length h) in w, w′ and w″ at its share z.
 pub(crate) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
     let z2 = z * z;
     let z3 = z2 * z;

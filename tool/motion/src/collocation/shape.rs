@@ -1,29 +1,30 @@
-//! The path over a parameter u from 0 to 1 that has the form of a motion's ends: the pace du/dt is then smooth up to rest.
+//! The path over a parameter u from 0 to 1, shaped at its ends so that the pace du/dt is smooth up to rest.
 //!
-//! Near rest the speed is no smooth function of the position: v² ∝ φ where the acceleration begins with a jump, v² ∝ φ^(4/3) where it
-//! begins with a constant jerk. Along g(u) with g ∝ u² or u³ there, the square of the pace is smooth and greater than zero.
+//! Near rest the speed is not a smooth function of the position: v² ∝ φ where the acceleration begins with a jump, v² ∝ φ^(4/3) where it begins with
+//! a constant jerk. Along g(u) with g ∝ u² or u³ there, the square of the pace is smooth and greater than zero.
 
 /// g(u) with g(0) = 0 and g(1) = 1, in cubic pieces.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
-    /// Where each piece begins, and its Taylor series there.
+    /// Start of each piece, and its Taylor series there.
     pieces: Vec<(f64, [f64; 4])>,
 }
 
 impl Shape {
-    /// For ends at rest (or not), with ramps of the acceleration over a share of u (or none).
+    /// A path whose ends are at rest or not, with ramps of the acceleration over a share of u (0: no ramp).
     pub(crate) fn new(rest: [bool; 2], ramp: f64) -> Self {
         Self::with_ramps(rest, [ramp; 2], &[])
     }
 
-    /// The same with a ramp for each end, or none at both, which passes these shares of its height at these shares of its length: a straight one passes none.
+    /// The same with a ramp for each end, or no ramp at both. The ramp passes through these points, given as [share of its length, share of its
+    /// height]; a straight ramp has no points.
     pub(crate) fn with_ramps(
         [starts, stops]: [bool; 2],
         [first_ramp, last_ramp]: [f64; 2],
         passes: &[[f64; 2]],
     ) -> Self {
         let ramp = first_ramp.max(last_ramp);
-        // The second derivative is a straight line between these.
+        // Knots of the second derivative, which is linear between them.
         let mut knots: Vec<[f64; 2]> = Vec::new();
         if ramp > 0.0 && starts {
             knots.push([0.0, 0.0]);
@@ -54,7 +55,7 @@ impl Shape {
             .windows(2)
             .map(|k| 0.5 * (k[0][1] + k[1][1]) * (k[1][0] - k[0][0]))
             .sum();
-        // The slope at the start: what is left at the end is zero at rest.
+        // The slope at the start makes the slope at an end at rest zero.
         let mut state = [0.0, 0.0];
         if !starts {
             state[1] = if stops { -change } else { 1.0 };
@@ -85,7 +86,7 @@ impl Shape {
         [g, slope, bend]
     }
 
-    /// [g, g′, g″, g‴] at u in the piece in which `within` lies: g‴ jumps where two meet.
+    /// [g, g′, g″, g‴] at u in the piece that contains `within`: g‴ jumps between pieces.
     pub(crate) fn series(&self, u: f64, within: f64) -> [f64; 4] {
         let index = self
             .pieces
@@ -102,12 +103,12 @@ impl Shape {
         ]
     }
 
-    /// Where its pieces meet, between 0 and 1.
+    /// Borders of the pieces, between 0 and 1.
     pub(crate) fn knots(&self) -> impl Iterator<Item = f64> + '_ {
         self.pieces.iter().skip(1).map(|(from, _)| *from)
     }
 
-    /// Where g has a value between 0 and 1.
+    /// The u at which g has a value between 0 and 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..60 {
@@ -122,7 +123,7 @@ impl Shape {
     }
 }
 
-/// The area under a ramp of length and height one that passes these places.
+/// Area under a ramp of length and height one through these points.
 fn rise(passes: &[[f64; 2]]) -> f64 {
     let mut area = 0.0;
     let mut before = [0.0, 0.0];
@@ -137,7 +138,7 @@ fn rise(passes: &[[f64; 2]]) -> f64 {
 mod tests {
     use super::Shape;
 
-    /// Every form goes from 0 to 1, rises, has no slope at rest, and with ramps no bend there.
+    /// Every path goes from 0 to 1, rises, has no slope at rest, and with ramps no second derivative there.
     #[test]
     fn ends_are_as_asked() {
         for rest in [[true, true], [true, false], [false, true], [false, false]] {

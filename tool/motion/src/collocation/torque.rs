@@ -1,11 +1,11 @@
-//! The motor torque with its derivatives, its bends rounded over a narrow range of the load.
+//! The motor torque with its derivatives, with rounded bends.
 //!
-//! The torque rises with the load R at the drive link in straight lines that meet where the power at a stage changes its direction.
-//! Newton's method needs a second derivative there: the torque is averaged over R ± r, which makes each bend a parabola.
+//! The torque is piecewise linear in the load R at the drive link. It bends where the power at a stage changes direction. Newton's method needs a
+//! second derivative there, so the torque is averaged over R ± r, which makes each bend a parabola.
 
 use crate::way::{Demand, Place, Way};
 
-/// The torque at a place, a speed and an acceleration.
+/// The torque for a place, a speed and an acceleration.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Torque {
     /// T (N·m).
@@ -16,14 +16,14 @@ pub(crate) struct Torque {
     pub(crate) by_acceleration: f64,
     /// ∂²T/∂R², not negative.
     pub(crate) bend: f64,
-    /// What moves a bend: it stays at R + lean·a.
+    /// A bend moves with the acceleration: it stays at R + lean·a.
     pub(crate) lean: f64,
 }
 
-/// Shares of the slopes that differ by less are one.
+/// Relative difference below which two slopes count as equal.
 pub(crate) const STRAIGHT: f64 = 1e-9;
 
-/// Most bends in one range: of loads so large that their last digits are more than the range there would be any number.
+/// Most bends in one range. Without it, loads so large that their last digits exceed the range would show any number.
 const MOST_BENDS: u32 = 8;
 
 impl Torque {
@@ -34,14 +34,14 @@ impl Torque {
         })
     }
 
-    /// Without rounding, of what a state asks for at any shaft.
+    /// Without rounding, for the demand of a state at any shaft.
     pub(crate) fn of(
         place: &Place,
         acceleration: f64,
         demand_of: impl Fn(&Place) -> Demand,
     ) -> Self {
         let demand = demand_of(place);
-        // The same state with another share of the torque in the inertia: what the slope differs by is the load's.
+        // The same state with another share of the torque in the inertia: the change of the slope comes from the load.
         let bare = Place {
             inertia: 0.0,
             load: place.load + place.inertia * acceleration,
@@ -73,7 +73,7 @@ impl Torque {
         })
     }
 
-    /// The same of what a state asks for at any shaft.
+    /// [`Self::rounded`] for the demand of a state at any shaft.
     pub(crate) fn rounded_of(
         place: &Place,
         acceleration: f64,
@@ -109,8 +109,8 @@ impl Torque {
     }
 }
 
-/// The means of the torque and of its slope by the acceleration over loads from one to another, where it is `ends`: straight lines, in each of
-/// which power flows one way. A machine with two lossy stages has two bends, which may lie in the same range.
+/// Means of the torque and of its slope by the acceleration over a range of loads, where it is `ends` at the two borders. The torque is linear while
+/// the power flows one way. A machine with two lossy stages has two bends, which may lie in the same range.
 fn mean(
     [from, to]: [f64; 2],
     ends: [Torque; 2],
@@ -123,7 +123,7 @@ fn mean(
     if rise <= STRAIGHT * high.by_load {
         return [0.5 * (low.value + high.value), low.by_acceleration];
     }
-    // Where the two lines meet.
+    // Intersection of the two lines.
     let left = ((low.value - high.value + high.by_load * width) / rise).clamp(0.0, width);
     let right = width - left;
     let corner = low.value + low.by_load * left;
@@ -147,7 +147,7 @@ mod tests {
     use super::Torque;
     use crate::way::{Demand, Place};
 
-    /// Slopes by the load with what is added: two bends, at loads of 0 and 1, as of a motor behind two lossy stages.
+    /// Slopes by the load, with their offsets: two bends, at loads of 0 and 1, as of a motor behind two lossy stages.
     const LINES: [[f64; 2]; 3] = [[0.6, 0.0], [1.0, 0.0], [1.5, -0.5]];
 
     fn demand(place: &Place) -> Demand {
@@ -172,7 +172,7 @@ mod tests {
         Torque::rounded_of(&place, 0.0, range, demand)
     }
 
-    /// Over a range with none, one and both of the bends it is the mean of the torque, and its slope is that of the mean.
+    /// The result is the mean of the torque over ranges with no, one and two bends, and its slope is the slope of the mean.
     #[test]
     fn a_range_may_contain_two_bends() {
         for range in [0.3, 0.7, 2.0] {

@@ -1,4 +1,4 @@
-//! Whether a motion keeps its limits where it was not made: between its nodes.
+//! Checks whether a motion satisfies its limits between its nodes.
 
 use jred::machine::motion::State;
 
@@ -11,37 +11,38 @@ use crate::trace::{Node, Trace};
 /// Most parts of a cell in the next round.
 const MOST_PARTS: f64 = 8.0;
 
-/// Places between two nodes at which limits are looked at.
+/// Shares of the step between two nodes at which limits are checked.
 pub(super) const BETWEEN_NODES: [f64; 3] = [0.21, 0.5, 0.79];
 
-/// Those of a motion that was made by sweeps: with the nodes, where it leaves a limit of the speed by what is known of the machine there; what an excess does between
-/// them, with its slopes at the ends, rises less than a third above what it is at the nearest of them.
+/// The same for a motion made by sweeps, with the nodes: there it leaves a speed limit by the interpolated values of the machine. Between these
+/// shares an excess, with its slopes at the ends, is less than a third above the nearest checked value.
 const BETWEEN_SWEPT_NODES: [f64; 7] = [0.0, 0.21, 0.35, 0.5, 0.65, 0.79, 1.0];
 
-/// Parts of a cell at whose borders a motion is looked at, at those that are next to the places above: there the machine is known from the round before.
+/// Parts of a cell. A motion is checked at their borders next to the shares above, because the machine is known there from the previous round.
 const GRID: f64 = 1024.0;
 
-/// A step with fewer positions of the grid is checked at positions of its own.
+/// A step that covers fewer parts of the grid is checked at its own positions.
 const FEWEST_IN_STEP: f64 = 16.0;
 
-/// Share of a cell within which two places are one.
+/// Share of a cell within which two places count as one.
 const SAME: f64 = 1e-12;
 
-/// Newton's steps to a place.
+/// Most Newton steps to a place.
 const MOST_TRIALS: u32 = 6;
 
-/// Share of what a limit may be exceeded by that is kept to at these places.
+/// Share of the allowed excess that is used at the checked places.
 const KEPT: f64 = 0.75;
 
-/// Roundings of a speed by which the sweep may miss it.
+/// Rounding errors of a speed, in units of the last place, by which the sweep may miss it.
 const ROUNDINGS: f64 = 1e4;
 
-/// The state at a share of a step. Of a step so short that rounding of the speeds makes another acceleration, that of the nodes counts.
+/// The state at a share of a step. In a step so short that rounding of the speeds changes the acceleration, it interpolates the accelerations of the
+/// nodes.
 pub(super) fn within_step(a: &Node, b: &Node, share: f64) -> State<f64> {
     felt(a, b, share, ROUNDINGS)
 }
 
-/// The same with so many roundings of the speeds.
+/// The same with n rounding errors of the speeds.
 fn felt(a: &Node, b: &Node, share: f64, roundings: f64) -> State<f64> {
     let state = b.after(a, share);
     let rounding = f64::EPSILON * (a.omega.abs() + b.omega.abs()) / b.step;
@@ -52,18 +53,18 @@ fn felt(a: &Node, b: &Node, share: f64, roundings: f64) -> State<f64> {
     state
 }
 
-/// The same within a sweep: of a step that was made, and not cut where two curves meet.
+/// Rounding errors of a speed within a sweep: of a step that was integrated, not cut where two curves meet.
 const MADE: f64 = 64.0;
 
 /// Where the limits leave no acceleration on a motion.
 pub(super) struct Closed {
-    /// The first such place, in words.
+    /// The first such place, as an error.
     pub(super) why: NoMotion,
-    /// Distances at which cells must meet so that the machine is better known there.
+    /// Distances at which cells must be split so that the machine is known better there.
     pub(super) places: Vec<f64>,
 }
 
-/// The share of a step, next to one, at which a function of it, with its slope, vanishes; the end of the step where it does beyond.
+/// The share of a step near `near` at which a function vanishes, by Newton's method on [value, slope]; the end of the step if it vanishes beyond.
 fn passes(near: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut share = near;
     for _ in 0..MOST_TRIALS {
@@ -84,10 +85,10 @@ fn is_near(x: f64, other: f64, length: f64) -> bool {
     (x - other).abs() <= SAME * length
 }
 
-/// Limits must leave an acceleration all along: below the speeds where they do, the motion may have come from above.
+/// Limits must leave an acceleration everywhere on the path: below the speeds where they do, the motion may have come from above.
 ///
-/// At the largest speed that forces in joints leave, one acceleration is left. Between the places of a cell it is known about as well as the
-/// forces, whose own limits are looked at in the end.
+/// At the largest speed that joint forces allow, one acceleration is left. Between the places of a cell it is known about as well as the forces,
+/// whose own limits are checked at the end.
 pub(super) fn check(
     field: &Field,
     ends: &Ends,
@@ -129,8 +130,8 @@ pub(super) fn check(
     }
 }
 
-/// The largest share by which a limit is exceeded between the nodes, with the machine itself at each place, and where; and the distances at
-/// which cells must meet so that it is no more than `within`. Each step is looked at in its own time, however short it is.
+/// The largest share by which a limit is exceeded between the nodes and its position, and the distances at which cells must be split to keep it
+/// within `within`. The machine itself is evaluated at each place, and each step in its own time, however short.
 pub(super) fn largest_excess(
     survey: &Survey,
     ends: &Ends,
@@ -152,7 +153,7 @@ pub(super) fn largest_excess(
         let inside = ends.inside(cell.length);
         let within_cell = |x: f64| x.clamp(cell.x + inside, cell.x + cell.length - inside);
         let distance = |state: &State<f64>| (state.phi - ends.from) * direction;
-        // What is exceeded, and what finer cells can do about it.
+        // The excess, and the part of it that finer cells can reduce.
         let (mut most, mut curable) = (0.0_f64, 0.0_f64);
         let passed = (b.phi - a.phi) * direction;
         let has_grid = passed * GRID > FEWEST_IN_STEP * cell.length;
@@ -161,7 +162,7 @@ pub(super) fn largest_excess(
             if has_grid {
                 let grid = ((x - cell.x) / cell.length * GRID).round() / GRID;
                 let on_grid = within_cell(cell.x + grid * cell.length);
-                // The share of the step at which it passes that position; if the step does not reach it, the end of the step.
+                // The share of the step at which it passes that position; the end of the step if it does not reach it.
                 share = passes(share, |share| {
                     let state = b.after(a, share);
                     [distance(&state) - on_grid, state.omega * direction * b.step]

@@ -1,4 +1,4 @@
-//! Where the machine is not smooth along its way.
+//! Where the machine is not smooth along its path.
 
 use std::f64::consts::TAU;
 
@@ -9,26 +9,28 @@ use jred_machine::number::numerics::{edge, least};
 use super::field::Field;
 use super::joint_force::JointForce;
 
-/// Places in a turn, or on the whole way where that is less, between which friction vanishes at most once.
+/// Places per turn, or over a shorter path, between which friction vanishes at most once.
 const PLACES: f64 = 360.0;
 
 /// Share of its largest value below which the friction of a load vanishes.
 const NOTHING: f64 = 1e-6;
 
-/// Share of the largest force by the acceleration below which a limited force is not smooth enough for cells across it.
+/// Share of its largest value: if the slope of a limited force by the acceleration falls below it, cells may not cross that place.
 const SINKS: f64 = 0.3;
 
-/// Places of a turn, no divisor of which is a number of teeth, at which it is looked whether the machine changes.
+/// Places per turn at which the machine is tested for change. The number shares no divisor with numbers of teeth.
 const CHANGES: u32 = 61;
 
-/// Share of its largest value by which a quantity must change to be called changing.
+/// Share of its largest value by which a quantity must change to count as changing.
 const SAME: f64 = 1e-12;
 
-/// Distances from the start, inside the way, at which the machine is not smooth: its own edges, and where what a load rubs on comes to
-/// rest and turns back, as a slider does at its dead centres. On a way of several turns those of one are repeated.
+/// Distances from the start, inside the path, at which the machine is not smooth.
+///
+/// They are its own edges, and places where the sliding partner of a friction load comes to rest and turns back, as a slider does at its dead
+/// centres. On a path of several turns those of one turn are repeated.
 ///
 /// # Errors
-/// The mechanism cannot be placed somewhere on the way.
+/// The mechanism cannot be placed somewhere on the path.
 pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let turns = field.way.file.machine.domain() == Domain::Turn;
     let mut found: Vec<f64> = edges(field, from);
@@ -51,13 +53,13 @@ pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error>
     Ok(found)
 }
 
-/// Corners of one turn, or of a stroke, that the machine itself names.
+/// Number of corners of one turn, or of a stroke, that the machine itself names.
 pub fn count(field: &Field) -> usize {
     let machine = &field.way.file.machine;
     (0..).map_while(|k| machine.edge(k)).count()
 }
 
-/// Whether the machine is another one at other places of a turn; of a stroke always.
+/// Whether the machine changes within a turn; always true for a stroke.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -94,13 +96,13 @@ fn edges(field: &Field, from: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The ends of the parts in which the tool's speed is limited, and where another limit of the drive link's speed begins to rule.
+/// Ends of the parts in which the tool's speed is limited, and places where the active limit of the drive link's speed changes.
 fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
     let machine = &field.way.file.machine;
     let mechanism = machine.mechanism();
     let (top, _) = field.top();
     let tools = &field.limits.tool;
-    // Which limit rules at a position: the tool's, by its number, or another one.
+    // The active limit at a position: the index of the tool's limit, or `None` for another one.
     let ruling = |phi: f64| -> Result<Option<usize>, Error> {
         let mut least = (top, None);
         for (k, tool) in tools.iter().enumerate() {
@@ -129,7 +131,7 @@ fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
         .collect())
 }
 
-/// Distances from the start, in the way or in the first turn of a longer one, at which a quantity of the position is least among its neighbours, and no more than
+/// Distances from the start, in the path or in the first turn of a longer one, at which a quantity of the position has a local minimum of at most
 /// this share of its largest value.
 fn lows(
     field: &Field,
@@ -140,7 +142,7 @@ fn lows(
     let whole = field.way.file.machine.domain() == Domain::Turn && length > TAU;
     let length = if whole { TAU } else { length };
     let count = PLACES as usize;
-    // A whole turn has no ends: it is looked at one place before and after it as well.
+    // A whole turn has no ends, so one place before and one after it is evaluated too.
     let outside = usize::from(whole);
     let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
     let at = |x: f64| quantity(from + field.way.direction * x);
@@ -160,7 +162,7 @@ fn lows(
     Ok(found)
 }
 
-/// Where the acceleration changes a limited force least: there the limit is one of the speed alone, or nearly so.
+/// Places where the acceleration changes a limited force least: there the limit is (nearly) one of the speed alone.
 fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let mut found = Vec::new();
     for k in 0..field.limits.forces.count() {
@@ -173,7 +175,7 @@ fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     Ok(found)
 }
 
-/// Where friction of a load vanishes.
+/// Places where the friction of a load vanishes.
 fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
     let file = field.way.file;
     let machine = &file.machine;

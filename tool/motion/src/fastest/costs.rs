@@ -1,4 +1,4 @@
-//! What the limits that a motion reaches cost: the time without them, or with more of the motor's own.
+//! The cost of each active limit: the time without it, or with more of the motor's own.
 
 use jred_machine::model::machine::MachineFile;
 
@@ -8,20 +8,20 @@ use super::tool_speed::ToolSpeeds;
 use super::{Task, time};
 use crate::way::Actuator;
 
-/// Share by which torque and speed of the motor are raised to see what they are worth.
+/// Share by which torque and speed of the motor are raised to measure their cost.
 pub const MORE: f64 = 0.1;
 
-/// What a limit costs.
+/// The cost of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// The limit.
     pub limit: Binding,
-    /// The time (s) without it; of the motor's own limits, with a tenth more torque (driving and braking), or with a torque-speed curve
-    /// that reaches to a tenth more speed.
+    /// Time (s) without it. For the motor's own limits: with a tenth more torque (driving and braking), or with a torque-speed curve stretched to a
+    /// tenth more speed.
     pub time: f64,
 }
 
-/// What each limit that a move reaches costs; where the RMS torque has a `price`, that alone.
+/// The cost of each limit that a move reaches; where the RMS torque has a `price`, the RMS torque only.
 pub(super) fn costs(
     file: &MachineFile,
     actuator: &Actuator,
@@ -30,7 +30,7 @@ pub(super) fn costs(
 ) -> Vec<Cost> {
     let mut met: Vec<Binding> = Vec::new();
     for phase in &made.fastest.phases {
-        // Driving and braking are one motor.
+        // Driving and braking belong to one motor.
         let limit = match phase.limit {
             Binding::Braking => Binding::Driving,
             other => other,
@@ -40,7 +40,7 @@ pub(super) fn costs(
         }
     }
     if priced {
-        // The price of the torque is that of the whole cycle: what another limit costs is not known without it.
+        // The price of the torque applies to the whole cycle: without it the cost of another limit is unknown.
         met.retain(|limit| *limit == Binding::RmsTorque);
     }
     let cost = |limit: Binding| {
@@ -49,25 +49,25 @@ pub(super) fn costs(
             limits,
             ..made.task
         };
-        // Where no motion is found the limit is not what it costs time.
+        // Without a motion the limit has no cost in time.
         let time = time(file, &actuator, &eased).ok()?;
         Some(Cost { limit, time })
     };
     met.into_iter().filter_map(cost).collect()
 }
 
-/// The same without a limit, or with more of the motor's own.
+/// Motor and limits without a limit, or with more of the motor's own.
 fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, Limits) {
     let mut actuator = actuator.clone();
     let mut limits = *limits;
     match limit {
         Binding::Driving | Binding::Braking => {
-            // A tenth more torque moves a machine that asks for a tenth less.
+            // A tenth more torque is the same as a machine that needs a tenth less.
             for c in &mut actuator.coefficients.0 {
                 *c /= 1.0 + MORE;
             }
         }
-        // The envelope alone: the gearbox turns no faster.
+        // The envelope only: the gearbox turns no faster.
         Binding::MotorSpeed => actuator.envelope = actuator.envelope.stretched(1.0 + MORE),
         Binding::GearboxTorque => limits.gearbox_torque = None,
         Binding::GearboxSpeed => limits.gearbox_speed = None,
@@ -78,7 +78,7 @@ fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, L
         Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
         Binding::Jerk => limits.jerk = None,
         Binding::TorqueRate => limits.torque_rate = None,
-        // Those of the whole cycle, which no move keeps alone.
+        // Limits of the whole cycle, not of a move.
         Binding::RmsTorque | Binding::WindingTemperature => {}
     }
     limits.level_ends &= limits.has_rates();

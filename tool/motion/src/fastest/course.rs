@@ -1,4 +1,4 @@
-//! A way cut into cells, finer and finer until the time of the fastest motion is settled and its limits hold between the nodes.
+//! A path cut into cells, refined until the time of the fastest motion has converged and its limits are satisfied between the nodes.
 
 use std::cell::Cell;
 
@@ -13,44 +13,43 @@ use super::{
     Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, slivers, slowed,
 };
 
-/// Cells of the first try, and the most.
+/// First and largest number of cells.
 pub(super) const CELLS: [usize; 2] = [128, 131_072];
 
-/// Change of the time from one number of cells to twice as many, as a share, at which it is taken: with a method of order 4 a fifteenth
-/// of it is left.
+/// Relative change of the time on doubling the cells at which it counts as converged. With a method of order 4, a fifteenth of it is left.
 const SETTLED: f64 = 1e-9;
 
 /// Share by which a torque, speed or acceleration may exceed its limit between the nodes of the motion.
 pub(super) const SWEEP_EXCESS: f64 = 1e-9;
 
-/// Rounds of finer cells.
+/// Most rounds of refinement.
 const ROUNDS: u32 = 24;
 
-/// Rounds in a row in which what is exceeded most does not fall below this share of the least so far: it is rounding of the machine's terms, of which finer
-/// cells have as much or more. The motion of the round that exceeds least is taken.
+/// Most rounds in a row without the excess falling below this share of the least so far. The rest is rounding of the machine's terms, which finer
+/// cells do not reduce. The round with the least excess is used.
 const IDLE: u32 = 12;
 const FALLS: f64 = 0.5;
 
-/// Share by which they may after all rounds, and that of the time by which it may change with the last number of cells: a motion that is
-/// less accurate is none.
+/// Largest relative excess after all rounds, and largest relative change of the time with the last number of cells. A less accurate motion is
+/// rejected.
 pub(super) const MOST_EXCESS: f64 = 1e-6;
 const MOST_CHANGE: f64 = 1e-6;
 
-/// Cells with which limits that contradict each other are taken as such.
+/// Cells from which contradicting limits count as proven.
 const ENOUGH: usize = 4096;
 
-/// A way with its limits, along which motions with other speeds at their ends are made.
+/// A path with its limits, for motions with different end speeds.
 pub(super) struct Course<'f, 'w, 'a> {
     survey: Survey<'f, 'w, 'a>,
     from: f64,
     length: f64,
     corners: Vec<f64>,
-    /// Cells with which the next motion is tried first: half of those with which the one before was settled.
+    /// First number of cells for the next motion: half of the number with which the last one converged.
     first: Cell<usize>,
 }
 
 impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
-    /// The way of a task.
+    /// The path of a task.
     ///
     /// # Errors
     /// It is too long, or the mechanism cannot be placed somewhere.
@@ -66,7 +65,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
         })
     }
 
-    /// Halves the cells until the time is settled, then makes those finer in which limits are exceeded by more than `within`.
+    /// Doubles the number of cells until the time has converged, then refines the cells in which limits are exceeded by more than `within`.
     pub(super) fn fastest(&self, speeds: [f64; 2], within: f64) -> Result<Fastest, NoMotion> {
         let field = self.survey.field;
         let (way, limits, file) = (field.way, &field.limits, field.way.file);
@@ -100,7 +99,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                             .replace(most)
                             .is_none_or(|end| (most - end).abs() > SETTLED * most) =>
                 {
-                    // How fast an end may be is known as well as the cells show the machine.
+                    // The largest end speed is only as accurate as the cells.
                     count *= 2;
                     continue;
                 }
@@ -113,7 +112,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                 }
             };
             if let Err(closed) = between::check(field, &ends, &track, &pieces) {
-                // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or just at a dead centre.
+                // Between the places of a cell two limits that meet at the largest speed may cross: everywhere, or only at a dead centre.
                 if !(limits.forces.is_some() && may_go_on) {
                     return Err(closed.why);
                 }
@@ -171,16 +170,16 @@ struct Round {
     phi: f64,
 }
 
-/// The round whose motion exceeds its limits least.
+/// The round with the least excess.
 #[derive(Default)]
 struct Best {
     round: Option<Round>,
-    /// Rounds since what is exceeded fell notably.
+    /// Rounds since the excess last fell notably.
     idle: u32,
 }
 
 impl Best {
-    /// Takes the motion of a round; the rounds since what is exceeded fell.
+    /// Takes the motion of a round; returns the rounds since the excess fell.
     fn take(&mut self, next: Round) -> u32 {
         let least = self
             .round
@@ -223,7 +222,7 @@ impl Round {
     }
 }
 
-/// The motion over the time.
+/// The motion over time.
 fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
     let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
     let mut t = 0.0;

@@ -1,4 +1,4 @@
-//! All moves of a motion made as fast as possible, its pauses kept.
+//! Makes all moves of a motion as fast as possible and keeps its pauses.
 
 use jred_machine::model::machine::MachineFile;
 
@@ -18,13 +18,13 @@ use crate::way::{Actuator, Way};
 /// A move made as fast as possible.
 #[derive(Clone, Debug)]
 pub struct Made {
-    /// What was asked.
+    /// The task.
     pub task: Task,
-    /// How long the move takes in the motion that was given (s); `None`: it was not part of one.
+    /// Time of the move in the given motion (s); `None`: it was not part of one.
     pub before: Option<f64>,
     /// The fastest motion.
     pub fastest: Fastest,
-    /// What each limit that it reaches costs.
+    /// The cost of each limit that it reaches.
     pub costs: Vec<Cost>,
 }
 
@@ -33,22 +33,22 @@ pub struct Made {
 pub struct Cycle {
     /// The moves.
     pub moves: Vec<Made>,
-    /// All of it.
+    /// The whole motion.
     pub trace: Trace,
-    /// Length of the motion that was given (s).
+    /// Duration of the given motion (s).
     pub before: Option<f64>,
     /// Time at rest (s).
     pub dwells: f64,
     /// The parts that were kept.
     pub kept: Vec<KeptPart>,
-    /// What the motor does.
+    /// The load of the motor.
     pub load: MotorLoad,
     /// Whether a limit of the RMS torque takes time.
     pub priced: bool,
 }
 
 impl Cycle {
-    /// With what the limits cost each move.
+    /// With the cost of the limits for each move.
     #[must_use]
     pub fn with_costs(mut self, file: &MachineFile, actuator: &Actuator) -> Self {
         for made in &mut self.moves {
@@ -59,16 +59,16 @@ impl Cycle {
         self
     }
 
-    /// The same, and whether a limit of the RMS torque takes time.
+    /// The same cycle, with the flag whether a limit of the RMS torque takes time.
     fn priced((cycle, priced): (Self, bool)) -> Self {
         Self { priced, ..cycle }
     }
 }
 
-/// Makes every move of a motion as fast as possible; what its limits cost is not known yet.
+/// Makes every move of a motion as fast as possible, without the cost of its limits.
 ///
 /// # Errors
-/// A move, counted from 0, that cannot be made.
+/// The index of a move that cannot be made, counted from 0.
 pub fn cycle(
     file: &MachineFile,
     actuator: &Actuator,
@@ -150,7 +150,7 @@ fn at_price(
 /// One move, which need not begin or end at rest.
 ///
 /// # Errors
-/// It cannot be made.
+/// The move cannot be made.
 pub fn single(
     file: &MachineFile,
     actuator: &Actuator,
@@ -177,10 +177,10 @@ pub fn single(
     found.map(Cycle::priced)
 }
 
-/// A motion that turns for ever, of the given period, as fast as possible; without limits of rates and of the RMS torque.
+/// An endlessly turning motion of the given period, made as fast as possible, without limits of rates and of the RMS torque.
 ///
 /// # Errors
-/// It cannot be made.
+/// The motion cannot be made.
 pub fn endless(
     file: &MachineFile,
     actuator: &Actuator,
@@ -216,7 +216,7 @@ pub fn endless(
     })
 }
 
-/// The move of this number; what its limits cost is not known yet.
+/// The move with this index, without the cost of its limits.
 fn make(
     file: &MachineFile,
     actuator: &Actuator,

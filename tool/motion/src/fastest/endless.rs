@@ -1,8 +1,7 @@
-//! The fastest motion that goes on for ever: the same speed at its end as at its start.
+//! The fastest motion that repeats endlessly: its speed at the end equals its speed at the start.
 //!
-//! From a larger speed at the start the fastest motion reaches a larger speed at the end, or the same. So from the largest speed of all
-//! the speed with which the limits let it come round falls, turn by turn, to the largest one that comes round to itself; no motion that
-//! repeats itself is anywhere faster than the one with that speed.
+//! A larger start speed never gives a smaller end speed. Iterating from the largest possible speed therefore descends, turn by turn, to the largest
+//! speed that repeats itself. No repeating motion is faster anywhere than the motion with this speed.
 
 use jred_machine::model::machine::MachineFile;
 
@@ -12,21 +11,20 @@ use super::{Fastest, NoMotion, Task, way};
 use crate::trace::Trace;
 use crate::way::Actuator;
 
-/// Most turns until the speed repeats itself: first those that the machine makes one after another, then halvings between speeds that are too fast and
-/// not.
+/// Most turns until the speed repeats: first successive turns, then bisection between speeds that are too fast and speeds that are not.
 const TURNS: u32 = 200;
 const FALLS: u32 = 12;
 
-/// Share of the speed that is left between two turns at the end.
+/// Relative difference of the speeds at the two ends at which the search stops.
 const SAME: f64 = 1e-10;
 
-/// Shares of the speed by which finer cells may make the turn slower.
+/// Shares of the speed by which finer cells may slow the turn.
 const FINER: [f64; 4] = [1e-10, 1e-9, 1e-8, 1e-7];
 
-/// The fastest motion of a task whose end is its start, looked at between its nodes where `within` is finite.
+/// The fastest motion of a task whose end is its start, checked between its nodes where `within` is finite.
 ///
 /// # Errors
-/// There is none: nothing limits its speed, or it comes to rest; see [`NoMotion`].
+/// No motion exists: nothing limits its speed, or it comes to rest; see [`NoMotion`].
 pub(super) fn solve(
     file: &MachineFile,
     actuator: &Actuator,
@@ -42,7 +40,7 @@ pub(super) fn solve(
     }
     let course = Course::new(&field, task)?;
     let at = |speed: f64, within: f64| course.fastest([speed; 2], within);
-    // A speed at which it cannot come round, above the one sought, and one at which it does, or cannot go on.
+    // Bracket: at `high` the speed is too fast to repeat; at `low` it repeats, or the machine stops.
     let (mut high, mut low) = (top, 0.0);
     let mut stopped = None;
     for turn in 0..TURNS {
@@ -57,7 +55,7 @@ pub(super) fn solve(
         match at(speed, f64::INFINITY) {
             Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => {
                 high = most.min(speed);
-                // The next turn is the same but for rounding.
+                // The next turn is the same except for rounding.
                 if speed - high <= SAME * speed && turn < FALLS {
                     (low, stopped) = (high * (1.0 - SAME), None);
                 }
@@ -70,7 +68,7 @@ pub(super) fn solve(
     if let Some(why) = stopped {
         return Err(why);
     }
-    // With finer cells it may come round a little more slowly.
+    // With finer cells the repeating speed may be slightly lower.
     let mut speed = low;
     let mut found = at(speed, within);
     for share in FINER {

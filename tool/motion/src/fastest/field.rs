@@ -1,4 +1,4 @@
-//! Which accelerations every limit leaves at a place and speed, and which limit is the nearest.
+//! The accelerations that all limits allow at a place and speed, and the active limit.
 
 use std::borrow::Cow;
 
@@ -13,16 +13,16 @@ use super::tool_speed::ToolSpeeds;
 use super::track::Seen;
 use crate::way::{Place, Way};
 
-/// What a motion keeps besides the torque-speed limits of the motor (SI, at the drive link unless said otherwise); `None`: no limit.
+/// Limits in addition to the motor's torque-speed curve (SI, at the drive link unless noted); `None`: no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Largest speed (rad/s, or m/s).
     pub speed: Option<f64>,
-    /// Largest speeds of the tool in parts of the way.
+    /// Largest speeds of the tool in parts of the path.
     pub tool: ToolSpeeds,
     /// Largest acceleration while the speed grows (rad/s², or m/s²).
     pub acceleration: Option<f64>,
-    /// Largest while it falls.
+    /// Largest deceleration.
     pub deceleration: Option<f64>,
     /// Largest torque of the gearbox output, in both directions (N·m).
     pub gearbox_torque: Option<f64>,
@@ -32,21 +32,21 @@ pub struct Limits {
     pub forces: JointForces,
     /// Largest rate of the acceleration (rad/s³, or m/s³).
     pub jerk: Option<f64>,
-    /// Largest rate of the motor's torque (N·m/s).
+    /// Largest rate of the motor torque (N·m/s).
     pub torque_rate: Option<f64>,
     /// Whether the acceleration is zero at both ends; only where jerk or torque rate is limited.
     pub level_ends: bool,
-    /// What is left unused of motor and gearbox.
+    /// Reserve of motor and gearbox that stays unused.
     pub reserve: Reserve,
 }
 
 impl Limits {
-    /// Whether how fast acceleration or torque change is limited.
+    /// Whether jerk or torque rate is limited.
     pub const fn has_rates(&self) -> bool {
         self.jerk.is_some() || self.torque_rate.is_some()
     }
 
-    /// The same without a limit of how fast acceleration or torque change.
+    /// The same without limits of jerk and torque rate.
     #[must_use]
     pub const fn without_rates(self) -> Self {
         Self {
@@ -75,13 +75,13 @@ impl Limits {
 pub enum Binding {
     /// The motor's largest driving torque at its speed.
     Driving,
-    /// Its largest braking torque.
+    /// The motor's largest braking torque.
     Braking,
-    /// Its largest speed.
+    /// The motor's largest speed.
     MotorSpeed,
-    /// The largest torque of the gearbox.
+    /// The largest torque of the gearbox output.
     GearboxTorque,
-    /// The largest speed of its input.
+    /// The largest speed of the gearbox input.
     GearboxSpeed,
     /// The largest speed of the drive link.
     Speed,
@@ -95,16 +95,16 @@ pub enum Binding {
     JointForce(usize),
     /// The largest rate of the acceleration.
     Jerk,
-    /// The largest rate of the motor's torque.
+    /// The largest rate of the motor torque.
     TorqueRate,
     /// The RMS torque of the motor.
     RmsTorque,
-    /// The temperature of its winding.
+    /// The temperature of the motor's winding.
     WindingTemperature,
 }
 
 impl Binding {
-    /// Its name.
+    /// Name of the limit.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Driving => "motor torque (driving)",
@@ -124,14 +124,14 @@ impl Binding {
         }
     }
 
-    /// Its name in a machine: with that of the joint, and with the force of a motor that slides.
+    /// Name in a machine: with the name of the joint, and with force instead of torque for a linear motor.
     pub fn name_in(self, file: &MachineFile) -> Cow<'static, str> {
         let names = file.machine.mechanism().joint_names();
         match self {
             Self::JointForce(joint) if joint < names.len() => {
                 Cow::Owned(format!("force in {}", names[joint]))
             }
-            // A gearbox turns.
+            // A gearbox always turns.
             Self::GearboxTorque => Cow::Borrowed(self.name()),
             _ => input_kind(file).vocabulary().effort_in(self.name()),
         }
@@ -143,7 +143,7 @@ impl Binding {
 pub struct Field<'w, 'a> {
     /// Machine and drive.
     pub way: &'w Way<'a>,
-    /// What else is kept.
+    /// The other limits.
     pub limits: Limits,
 }
 
@@ -153,7 +153,7 @@ pub fn speed(z: f64) -> f64 {
 }
 
 impl Field<'_, '_> {
-    /// Whether a place and a speed may leave no acceleration: two limits of different kinds.
+    /// Whether limits may leave no acceleration at a place and speed: limits of different kinds can conflict.
     pub fn may_be_empty(&self) -> bool {
         let Limits {
             acceleration,
@@ -168,7 +168,7 @@ impl Field<'_, '_> {
             || forces.is_some()
     }
 
-    /// The speeds that are not exceeded, in the order in which they are named where two are the same.
+    /// The speed limits. Where two are equal, the first one is reported.
     pub fn speeds(&self) -> impl Iterator<Item = (f64, Binding)> {
         let per_speed = self.way.motor_speed(1.0);
         let limits = &self.limits;
@@ -184,7 +184,7 @@ impl Field<'_, '_> {
         .filter_map(|(speed, which)| Some((speed?, which)))
     }
 
-    /// The largest speed that the tool leaves the drive link at a position; infinite where it is not limited.
+    /// The speed of the drive link at the tool's speed limit at a position; infinite where the tool is not limited.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
@@ -192,7 +192,7 @@ impl Field<'_, '_> {
         self.limits.tool.at(self.way.file.machine.mechanism(), phi)
     }
 
-    /// The least of them, and which it is.
+    /// The lowest speed limit, and which one it is.
     pub fn top(&self) -> (f64, Binding) {
         let first = (f64::INFINITY, Binding::MotorSpeed);
         self.speeds().fold(
@@ -209,7 +209,7 @@ impl Field<'_, '_> {
         most.min(ends[0]).min(ends[1])
     }
 
-    /// The motor's torque at a speed of the drive link; at its largest speed rounding must not step beyond.
+    /// The motor's torque at a speed of the drive link. The speed is clamped, so that rounding does not step beyond the largest one.
     fn motor_torque(&self, v: f64, braking: bool) -> f64 {
         let limit = self.way.actuator.envelope.limit(braking);
         let reserve = &self.limits.reserve;
@@ -223,7 +223,7 @@ impl Field<'_, '_> {
         [true, false].map(|braking| self.motor_torque(v, braking))
     }
 
-    /// At rest, in a motion that begins: the torque that keeps the machine moving, and what the limit gives, both at the shaft of the
+    /// For the start of a motion at rest: the torque that keeps the machine moving, and the torque that the limit gives, both at the shaft of the
     /// limit.
     pub fn needed_and_given(&self, place: &Place, limit: Binding, braking: bool) -> [f64; 2] {
         if limit == Binding::GearboxTorque {
@@ -240,7 +240,7 @@ impl Field<'_, '_> {
         self.side_by(side, place, z).0
     }
 
-    /// The same, with the limit that it is.
+    /// The same, with the active limit.
     pub fn side_by(&self, side: Side, place: &Spot, z: f64) -> (f64, Binding) {
         match side {
             Side::Most => self.most_by(place, z),
@@ -248,8 +248,8 @@ impl Field<'_, '_> {
         }
     }
 
-    /// The same, with the smooth part of it in which a place and z lie: the limit, the piece of the torque-speed limit, and which way
-    /// power flows through the drive train.
+    /// The same, with an identifier of the smooth part at a place and z: the active limit, the piece of the torque-speed limit, and the direction of
+    /// power through the drive train.
     pub fn side_part(&self, side: Side, place: &Spot, z: f64) -> (f64, u32) {
         let (a, limit) = self.side_by(side, place, z);
         (a, self.part(place, z, a, limit))
@@ -260,7 +260,7 @@ impl Field<'_, '_> {
         self.least_by(place, z).0 <= self.most_by(place, z).0
     }
 
-    /// The largest acceleration at a place and z, with the limit that it is.
+    /// The largest acceleration at a place and z, with the active limit.
     pub fn most_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, false);
@@ -278,7 +278,7 @@ impl Field<'_, '_> {
         most
     }
 
-    /// The least acceleration, with the limit that it is.
+    /// The least acceleration at a place and z, with the active limit.
     pub fn least_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, true);
@@ -296,8 +296,8 @@ impl Field<'_, '_> {
         least
     }
 
-    /// The largest share by which a state (speed and acceleration along the way) exceeds a limit, and which; negative: none. A torque at its
-    /// limit is measured by that of the motor at rest: the limit itself may be nothing.
+    /// The largest share by which a state (speed and acceleration along the path) exceeds a limit, and which limit; negative if it exceeds none.
+    /// Torques are measured by the motor's torque at rest, because the limit itself may be zero.
     pub fn excess_by(&self, seen: &Seen, v: f64, acceleration: f64) -> (f64, Binding) {
         let way = self.way;
         let place = &seen.place;

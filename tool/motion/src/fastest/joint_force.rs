@@ -1,16 +1,16 @@
 //! The force in a joint as a limit.
 //!
-//! At a place the reaction is a sum of what does not depend on the motion (weight, loads, springs), of inertia forces by the squared speed
-//! and by the acceleration, and of viscous friction:
+//! At a place the reaction is the sum of a part independent of the motion (weight, loads, springs), inertia forces by the squared speed and by the
+//! acceleration, and viscous friction:
 //!
 //! ```text
 //! R = r₀ + r₁·v + r₂·v² + r₃·a = c + r₃·a,   |R| ≤ F
 //! ```
 //!
-//! Friction that opposes the motion is in r₀ with the sign that it has in the motion, also where that begins and ends.
+//! Motion-opposing friction is part of r₀ with the sign that it has during the motion, also at its start and end.
 //!
-//! With e = r₃/|r₃| it leaves at each speed one interval of accelerations, a = (−c·e ± √(F² − (c×e)²))/|r₃|, or none where |c×e| > F.
-//! Where r₃ vanishes, as at the dead centre of a slider whose mass is all that is moved, the limit is one of the speed: |c| ≤ F.
+//! With e = r₃/|r₃| the limit leaves one interval of accelerations at each speed, a = (−c·e ± √(F² − (c×e)²))/|r₃|, or no acceleration where |c×e| >
+//! F. Where r₃ vanishes, it limits the speed only: |c| ≤ F. An example is the dead centre of a slider that is the only moving mass.
 
 use std::ops::Deref;
 
@@ -26,13 +26,13 @@ use super::track::Track;
 use crate::trace::Trace;
 use crate::way::Place;
 
-/// Share of the largest speed at which forces are those without a speed, but with the friction of the motion.
+/// Share of the largest speed that counts as speed zero but keeps the friction of the motion.
 const CREEP: f64 = 1e-100;
 
 /// Kinds of terms of a reaction: without motion, by v, by v², by a.
 const TERMS: usize = 4;
 
-/// The largest force in each joint of a mechanism (N), in the order of its joints; none at first.
+/// The largest force in each joint of a mechanism (N), in the order of its joints; initially unlimited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointForces([f64; MAX_JOINTS]);
 
@@ -43,7 +43,7 @@ impl Default for JointForces {
 }
 
 impl JointForces {
-    /// With a largest force (N) of a joint, the smaller one of two.
+    /// With a limit (N) for a joint; of two limits the smaller one applies.
     #[must_use]
     pub fn with(mut self, joint: usize, force: f64) -> Self {
         if let Some(own) = self.0.get_mut(joint) {
@@ -52,7 +52,7 @@ impl JointForces {
         self
     }
 
-    /// Without a limit of a joint.
+    /// Without the limit of a joint.
     #[must_use]
     pub fn without(mut self, joint: usize) -> Self {
         if let Some(own) = self.0.get_mut(joint) {
@@ -66,12 +66,12 @@ impl JointForces {
         self.limits().next().is_some()
     }
 
-    /// How many joints have one.
+    /// Number of limited joints.
     pub fn count(&self) -> usize {
         self.limits().count()
     }
 
-    /// The joints that have one, with it.
+    /// The limited joints, with their limits.
     fn limits(&self) -> impl Iterator<Item = (usize, f64)> {
         let all = self.0.iter().copied().enumerate();
         all.filter(|(_, force)| force.is_finite())
@@ -83,9 +83,9 @@ impl JointForces {
 pub struct JointForce {
     /// Index of the joint.
     pub joint: usize,
-    /// Its largest force (N).
+    /// Its limit (N).
     pub limit: f64,
-    /// r₀ to r₃ (N, N·s/rad, N·s²/rad², N·s²/rad), along the way.
+    /// r₀ to r₃ (N, N·s/rad, N·s²/rad², N·s²/rad), along the path.
     terms: [[f64; 2]; TERMS],
 }
 
@@ -96,19 +96,19 @@ fn sum<const N: usize>(factors: [f64; N], vectors: [[f64; 2]; N]) -> [f64; 2] {
 }
 
 impl JointForce {
-    /// Force (N) at a speed and an acceleration along the way.
+    /// Force (N) at a speed and an acceleration along the path.
     pub fn at(&self, v: f64, acceleration: f64) -> f64 {
         let [x, y] = sum([1.0, v, v * v, acceleration], self.terms);
         x.hypot(y)
     }
 
-    /// How much the acceleration changes it (N·s²/rad, or N·s²/m): |r₃|.
+    /// Change of the force by the acceleration (N·s²/rad, or N·s²/m): |r₃|.
     pub fn by_acceleration(&self) -> f64 {
         let [.., [x, y]] = self.terms;
         x.hypot(y)
     }
 
-    /// Least and largest acceleration at a speed; the least is the larger one where none is left.
+    /// Least and largest acceleration at a speed; the least is the larger one if the interval is empty.
     fn accelerations(&self, v: f64) -> [f64; 2] {
         let [.., along] = self.terms;
         let [x, y] = sum([1.0, v, v * v, 0.0], self.terms);
@@ -132,20 +132,20 @@ impl JointForce {
     }
 }
 
-/// The largest force that a motion reaches in a joint whose force is limited.
+/// The largest force that a motion reaches in a limited joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
     /// Index of the joint.
     pub joint: usize,
-    /// Its largest force (N).
+    /// Its limit (N).
     pub limit: f64,
     /// The force (N).
     pub force: f64,
-    /// Where (rad, or m).
+    /// Position (rad, or m).
     pub phi: f64,
-    /// When (s).
+    /// Time (s).
     pub t: f64,
-    /// Whether the machine stands there.
+    /// Whether the machine is at rest there.
     pub stands: bool,
 }
 
@@ -153,7 +153,7 @@ impl Reached {
     /// Refuses a pause in which the force exceeds its limit.
     ///
     /// # Errors
-    /// It does.
+    /// The force exceeds its limit during a pause.
     pub fn kept_at_rest(&self, file: &MachineFile) -> Result<(), NoMotion> {
         if !self.stands || self.force <= self.limit * (1.0 + ROUNDED) {
             return Ok(());
@@ -177,14 +177,15 @@ impl Reached {
 /// Share of a limit that is rounding.
 const ROUNDED: f64 = 1e-9;
 
-/// Parts of a step of a motion at whose ends its forces are looked at.
+/// Parts of a step of a motion at whose ends its forces are evaluated.
 const PARTS: u32 = 4;
 
-/// Share of a step by which its own ends are looked at inside: friction turns round at a dead centre, where the acceleration of the step has the force of its own side.
+/// Share of a step by which its ends are moved inwards: at a dead centre friction reverses, and the step's acceleration belongs to the force of its
+/// own side.
 const INSIDE: f64 = 1e-6;
 
-/// The largest forces that a motion reaches, its pauses included, in the joints whose force is limited: each at the nodes of the motion
-/// and at places between. In a pause nothing opposes a motion, and forces are those of weight, loads and springs.
+/// The largest forces that a motion reaches in the limited joints, pauses included: each at the nodes and between them. In a pause there is no
+/// motion-opposing friction; the forces are those of weight, loads and springs.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere, or its forces are not determined.
@@ -222,7 +223,7 @@ pub fn reached(
             let omega = if stands {
                 0.0
             } else {
-                // At rest friction is that of the motion.
+                // At rest friction has the sign of the motion.
                 state.omega.abs().max(CREEP) * heading.signum()
             };
             let machine = file.machine_at(&now, state.phi)?;
@@ -245,7 +246,7 @@ pub fn reached(
     Ok(all)
 }
 
-/// A place of the way with the forces that are limited there. Between three places every quantity is the parabola through them.
+/// A place of the path with its limited forces. Between three places every quantity is the parabola through them.
 #[derive(Clone, Copy, Debug)]
 pub struct Spot<'c> {
     place: Place,
@@ -262,7 +263,7 @@ impl Deref for Spot<'_> {
 }
 
 impl<'c> Spot<'c> {
-    /// A place, and the forces at three places with the weights that they have at this one.
+    /// A place, and the forces at three places with their weights here.
     pub const fn new(place: Place, forces: &'c [[JointForce; 3]], weights: [f64; 3]) -> Self {
         Self {
             place,
@@ -280,7 +281,7 @@ impl<'c> Spot<'c> {
         })
     }
 
-    /// The joints with the accelerations that their forces leave at z = ½·v².
+    /// The joints with the accelerations that their limits allow at z = ½·v².
     pub fn intervals(&self, z: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
         let v = if self.forces.is_empty() {
             0.0
@@ -293,7 +294,7 @@ impl<'c> Spot<'c> {
 }
 
 impl Field<'_, '_> {
-    /// The forces that are limited, at a position.
+    /// The limited forces at a position.
     ///
     /// # Errors
     /// The mechanism cannot be placed there, or its forces are not determined.
@@ -308,7 +309,7 @@ impl Field<'_, '_> {
             let found = machine.forces(phi, v * way.direction, a * way.direction)?;
             Ok::<_, Error>(found.reactions)
         };
-        // Each term is the largest where it is taken from, so that none is lost in another one.
+        // Each term is evaluated where it dominates, so that it is not lost in another term.
         let (top, _) = self.top();
         let unit = if top.is_finite() { top } else { 1.0 };
         let square = unit * unit;
@@ -337,7 +338,7 @@ impl Field<'_, '_> {
     }
 }
 
-/// The place of the way at which a force exceeds its limit most in a motion without speed and acceleration: the position, and the force.
+/// The place of the path at which a force most exceeds its limit without speed and acceleration: position and force.
 pub fn without_motion(track: &Track) -> Option<(f64, JointForce)> {
     let share = |force: &JointForce| force.at(0.0, 0.0) / force.limit;
     let at = |u: f64| track.cells.iter().map(move |cell| cell.spot(u));

@@ -1,4 +1,4 @@
-//! Parts of the motion that are kept as they are, beside the limits.
+//! Parts of the motion that are kept unchanged.
 
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -8,23 +8,24 @@ use super::track::Seen;
 use crate::moves::Kept;
 use crate::way::{Actuator, Way};
 
-/// Share by which a kept part may exceed a limit: rounding.
+/// Share by which a kept part may exceed a limit (rounding).
 const ROUNDING: f64 = 1e-6;
 
-/// Shares of a step at which limits are looked at.
+/// Shares of a step at which limits are checked.
 const STEP_SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// A part of the motion that was kept as it is.
+/// A part of the motion that is kept unchanged.
 #[derive(Clone, Debug)]
 pub struct KeptPart {
     /// The part.
     pub kept: Kept,
-    /// The largest share by which it exceeds a limit, and which; negative: none. Of a torque, as a share of the motor's at rest.
+    /// The largest share by which it exceeds a limit, and which limit; negative if it exceeds none. For a torque the share is of the motor's torque
+    /// at rest.
     pub excess: (f64, Binding),
 }
 
 impl KeptPart {
-    /// A part that is kept, looked at with the machine itself.
+    /// A kept part, checked with the machine itself.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.

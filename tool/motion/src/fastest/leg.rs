@@ -1,4 +1,4 @@
-//! One field of accelerations followed through a cell.
+//! Integrates one field of accelerations through a cell.
 
 use jred_machine::number::quadrature::GAUSS_3;
 
@@ -6,48 +6,48 @@ use super::field::{Field, speed};
 use super::sweep::Side;
 use super::track::Cell;
 
-/// Error of a step as a share of z, by the difference of orders 4 and 3; what is left after it is much smaller.
+/// Error of a step as a share of z, from the difference of orders 4 and 3; the real error is much smaller.
 const TOLERANCE: f64 = 1e-10;
 
-/// Largest change of z in a step over the way, as a share; a larger one is made over the time, which is smooth at rest.
+/// Largest relative change of z in a step over the position. A larger change is integrated over time, which is smooth at rest.
 const STEEP: f64 = 0.05;
 
-/// Halvings after which a step is taken as it is: the field jumps there.
+/// Halvings after which a step is accepted anyway: the field jumps there.
 const DEEPEST: u32 = 14;
 
-/// Halvings after which a motion that does not come on has stopped.
+/// Halvings after which a motion that does not advance has stopped.
 const STOPPED: u32 = 48;
 
-/// Halvings that find where a part of the field ends.
+/// Halvings to find where a smooth part of the field ends.
 const PART_HALVINGS: u32 = 44;
 
-/// Newton's steps for the time of a step.
+/// Newton steps for the duration of a step.
 const MOST_TRIALS: u32 = 12;
 
-/// Share of the way by which they may miss its end.
+/// Relative error of a step's end with which they stop.
 const CLOSE: f64 = 1e-14;
 
 /// A step, in the direction of the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// Shares of the cell at which it begins and ends, rising.
+    /// Shares of the cell at its start and end, rising.
     pub u: [f64; 2],
     /// z = ½·v² there.
     pub z: [f64; 2],
-    /// Its slopes, the accelerations.
+    /// Slopes of z there: the accelerations.
     pub a: [f64; 2],
-    /// How long it takes (s), where it was made over the time.
+    /// Duration (s), where it was integrated over time.
     pub time: Option<f64>,
 }
 
 impl Step {
-    /// How long it takes (s) in a cell of this length.
+    /// Duration (s) in a cell of this length.
     pub fn time(&self, length: f64) -> f64 {
         self.time.unwrap_or_else(|| {
             let [v0, v1] = self.z.map(speed);
             let way = (self.u[1] - self.u[0]) * length;
             let (sum, rise) = (v0 + v1, v1 - v0);
-            // Over the places of constant acceleration, where dx/v is constant.
+            // At the places of constant acceleration, where dx/v is constant.
             let part = |[s, weight]: [f64; 2]| {
                 let place = s * (2.0 * v0 + rise * s) / sum;
                 weight * (v0 + rise * s) / speed(self.hermite(place, way))
@@ -70,11 +70,11 @@ impl Step {
 pub enum Stalled {
     /// The motion comes to rest.
     AtRest(f64),
-    /// It takes more steps than are made.
+    /// It needs too many steps.
     Stiff(f64),
 }
 
-/// The most steps of a motion, some seconds: more are those of a machine that follows its friction at once.
+/// Most steps of a motion, some seconds. A machine that follows its friction at once would need more.
 pub const MOST_STEPS: usize = 1_500_000;
 
 /// A point of a leg: share of the cell, z, slope.
@@ -84,13 +84,13 @@ pub struct Point {
     pub u: f64,
     /// z = ½·v².
     pub z: f64,
-    /// Its slope.
+    /// Slope of z: the acceleration.
     pub a: f64,
-    /// Which smooth part of the field it lies in.
+    /// The smooth part of the field that contains it.
     pub part: u32,
 }
 
-/// What a step arrives at: z, its slope with the part of the field, the error, and the time where that was found.
+/// Result of a step: z, its slope with the part of the field, the error, and the duration where it was integrated over time.
 type Made = (f64, (f64, u32), f64, Option<f64>);
 
 /// A step from a point.
@@ -113,7 +113,7 @@ impl One {
         }
     }
 
-    /// In the direction of the motion.
+    /// As a step in the direction of the motion.
     fn step(&self, from: Point) -> Step {
         let end = self.end(self.to);
         let [first, last] = if end.u > from.u {
@@ -135,9 +135,9 @@ impl One {
 pub struct Leg<'c> {
     /// The accelerations that limits leave.
     pub field: &'c Field<'c, 'c>,
-    /// Which of them.
+    /// The largest or the least.
     pub side: Side,
-    /// Where.
+    /// The cell.
     pub cell: &'c Cell,
 }
 
@@ -153,10 +153,10 @@ impl Leg<'_> {
         Point { u, z, a, part }
     }
 
-    /// From a point to a share of the cell, forwards or backwards; the steps are added to `steps` in the order in which they are made.
+    /// Integrates from a point to a share of the cell, forwards or backwards; adds the steps to `steps` in the order of integration.
     ///
     /// # Errors
-    /// The motion comes to rest before, or takes too many steps.
+    /// The motion comes to rest before, or needs too many steps.
     pub fn go(&self, from: Point, to: f64, steps: &mut Vec<Step>) -> Result<Point, Stalled> {
         self.halved(from, to, 0, steps)
     }
@@ -192,7 +192,7 @@ impl Leg<'_> {
         self.halved(between, to, depth + 1, steps)
     }
 
-    /// One step, over the way where z changes little, else over the time; with its error.
+    /// One step with its error: over the position where z changes little, else over time.
     fn one(&self, from: Point, to: f64) -> Option<(One, f64)> {
         let (z, (a, part), error, time) = self
             .over_way(from, to)
@@ -207,7 +207,7 @@ impl Leg<'_> {
         Some((one, error))
     }
 
-    /// The step to the nearest place found in another part of the field: where the field bends, a step ends.
+    /// The step to the nearest place in another part of the field, so that steps end where the field bends.
     fn other_part(&self, from: Point, to: f64) -> Option<One> {
         let (mut near, mut far) = (from.u, to);
         let mut found = None;
@@ -224,7 +224,7 @@ impl Leg<'_> {
         found
     }
 
-    /// The classical Runge-Kutta step with the way as the variable; none where z changes much.
+    /// The classical Runge-Kutta step over the position; `None` where z changes much.
     fn over_way(&self, from: Point, to: f64) -> Option<Made> {
         let h = (to - from.u) * self.cell.length;
         if (from.a * h).abs() > STEEP * from.z {
@@ -244,7 +244,7 @@ impl Leg<'_> {
         Some((z, (a, part), (h / 6.0 * (k4 - a)).abs(), None))
     }
 
-    /// The same with the time as the variable: how long it takes is sought as well. None where the motion stops before.
+    /// The same over time, with the duration found by Newton's method; `None` where the motion stops before.
     fn over_time(&self, from: Point, to: f64) -> Option<Made> {
         let length = self.cell.length;
         let heading = (to - from.u).signum();

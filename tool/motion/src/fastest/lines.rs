@@ -1,15 +1,15 @@
-//! A torque-speed curve as the lowest of straight lines, each of which is then a smooth limit.
+//! A torque-speed curve as the lower envelope of straight lines, each a smooth limit.
 
 use jred_sizing::motor::envelope::{Curve, Piece};
 
 use super::field::Field;
 
-/// Share of the torque at rest by which straight lines may miss a torque-speed curve.
+/// Share of the torque at rest by which straight lines may differ from a torque-speed curve.
 const CONCAVE: f64 = 1e-12;
 
 impl Field<'_, '_> {
-    /// The motor's torque as straight lines of which the lowest holds, each its torque at rest and its slope by the speed of the drive link;
-    /// `None`: it is no such curve.
+    /// The motor's torque as the lowest of straight lines, each given by its torque at rest and its slope by the drive link's speed; `None` if the
+    /// curve has no such form.
     pub fn torque_lines(&self, braking: bool) -> Option<Vec<[f64; 2]>> {
         let pieces = self.way.actuator.envelope.limit(braking).pieces();
         let reserve = &self.limits.reserve;

@@ -1,4 +1,4 @@
-//! What the motor does in a motion: its RMS torque with the pauses, its peaks, and the pause that its S1 torque asks for.
+//! The load of the motor in a motion: RMS torque with the pauses, peaks, and the pause that its S1 torque requires.
 
 use std::convert::Infallible;
 
@@ -12,26 +12,26 @@ use super::field::Reserve;
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, BothWays};
 
-/// What a motor does in a motion.
+/// The load of a motor in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorLoad {
-    /// RMS torque (N·m) over the motion, pauses with the torque that holds the machine.
+    /// RMS torque (N·m) over the motion; pauses count with the holding torque.
     pub rms: f64,
     /// Largest torque (N·m) and speed (rad/s), as magnitudes.
     pub peaks: [f64; 2],
-    /// Mean of the speed's magnitude (rad/s).
+    /// Mean of the absolute speed (rad/s).
     pub mean_speed: f64,
-    /// Torque at rest at the end (N·m), or where the motion rests last, as a magnitude.
+    /// Magnitude of the holding torque (N·m) at the end, or at the last rest of the motion.
     pub holding: f64,
-    /// S1 torque (N·m) at the mean speed; infinite: not known.
+    /// S1 torque (N·m) at the mean speed; infinite: no data.
     pub continuous: f64,
-    /// What the RMS torque may be (N·m): that S1 torque without what a reserve leaves unused.
+    /// Limit of the RMS torque (N·m): that S1 torque less the reserve.
     pub allowed: f64,
-    /// Pause (s) that must be added for the RMS torque to be no larger than that; `None`: not even holding is possible.
+    /// Pause (s) to be added so that the RMS torque keeps that limit; `None`: even holding exceeds it.
     pub pause: Option<f64>,
 }
 
-/// What the motor does in a motion, with what a reserve leaves of its S1 torque.
+/// The load of the motor in a motion, with the reserve of its S1 torque.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -64,18 +64,18 @@ pub(super) fn load(
         }
     }
     let duration = trace.duration();
-    // Of a motion that does not end at rest, where it rests before.
+    // In a motion that does not end at rest, the last rest before.
     let mut backwards = trace.nodes().iter().rev();
     let rest = backwards.find(|node| node.omega == 0.0);
     let end = rest.or(trace.nodes().last()).map_or(0.0, |node| node.phi);
     let holding = forwards.holding(&forwards.place_at_rest(end)?).abs();
     let mean_speed = forwards.motor_speed(turns) / duration;
-    // At the largest speed all the time rounding must not step beyond.
+    // At constant largest speed, rounding must not step beyond the curve.
     let s1 =
         |mean: f64| (actuator.envelope).continuous_torque(mean.min(actuator.envelope.max_speed()));
     let leaves = reserve.leaves(reserve.rms);
     let continuous = s1(mean_speed);
-    // A pause lowers the mean speed as well, and with it the S1 torque rises.
+    // A pause also lowers the mean speed, and the S1 torque rises with it.
     let suffices = |pause: f64| {
         let time = duration + pause;
         let allowed = leaves * s1(mean_speed * duration / time);
@@ -93,10 +93,10 @@ pub(super) fn load(
     })
 }
 
-/// The longest pause that is tried, in durations of the motion.
+/// The longest pause to try, in durations of the motion.
 const LONGEST: f64 = 1e6;
 
-/// The shortest pause that suffices; `None`: not even a long one does.
+/// The shortest sufficient pause; `None` if even the longest one is too short.
 fn least_pause(suffices: impl Fn(f64) -> bool, duration: f64) -> Option<f64> {
     if suffices(0.0) {
         return Some(0.0);

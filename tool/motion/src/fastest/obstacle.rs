@@ -1,4 +1,4 @@
-//! Why there is no motion, and where.
+//! Why no motion exists, and where.
 
 mod cure;
 mod words;
@@ -18,45 +18,45 @@ use super::slowed::Slowing;
 use super::sweep::Obstacle;
 use super::track::Track;
 
-/// Why there is no motion.
+/// Why no motion exists or none was computed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoMotion {
     /// The mechanism cannot be placed somewhere.
     Machine(Error),
-    /// The duty of a motion is not known.
+    /// The duty of a motion cannot be computed.
     Duty(Box<duty::Fault>),
-    /// Start and end are one, or not numbers.
+    /// Start and end are equal, or not finite.
     NoWay,
-    /// The motor's peak torque is not known; its unit is N of a motor that slides.
+    /// The motor's peak torque is missing; a linear motor has a force (N).
     NoTorqueLimit(Coordinate),
-    /// Nothing limits the speed of a motion that goes on for ever.
+    /// Nothing limits the speed of a motion that repeats endlessly.
     NoSpeedLimit,
-    /// The gearbox does not turn when its output drives.
+    /// The gearbox is self-locking.
     SelfLocking,
-    /// Even with the largest acceleration the machine stops on the way, or does not start.
+    /// Even with the largest acceleration the machine stops on the path, or does not start.
     Stops {
         /// Position (rad, or m).
         phi: f64,
         /// Whether it is the start.
         at_start: bool,
-        /// What limits the acceleration there.
+        /// The limit of the acceleration there.
         limit: Binding,
-        /// In words, with the joint whose force it is.
+        /// Its name, with the joint of a force.
         name: Box<str>,
-        /// A limit of speed or acceleration that keeps the machine from taking the kinetic energy that would carry it on.
+        /// A limit of speed or acceleration that denies the machine the kinetic energy to go on.
         eased: Option<Slowing>,
-        /// Torque that keeps the machine moving there (N·m), and that the limit gives.
+        /// Torque that keeps the machine moving there (N·m), and the torque that the limit gives.
         torques: [f64; 2],
-        /// Their unit: N of a motor that slides.
+        /// Their unit: N for a linear motor.
         unit: Coordinate,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// The machine follows its friction, or the motor's curve, so closely that too many steps would be needed.
+    /// The machine follows its friction, or the motor's curve, so closely that too many steps are needed.
     Stiff {
         /// Position up to which the motion was followed (rad, or m).
         phi: f64,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
     /// Even with the largest deceleration the machine is too fast.
@@ -65,106 +65,106 @@ pub enum NoMotion {
         phi: f64,
         /// Whether it is the end.
         at_end: bool,
-        /// What limits the deceleration there.
+        /// The limit of the deceleration there.
         limit: Binding,
-        /// In words, with the joint whose force it is.
+        /// Its name, with the joint of a force.
         name: Box<str>,
-        /// Torque that would hold the speed there (N·m), and that the limit gives; both negative: they brake.
+        /// Torque that holds the speed there (N·m), and the torque that the limit gives; both negative: they brake.
         torques: [f64; 2],
-        /// Their unit: N of a motor that slides.
+        /// Their unit: N for a linear motor.
         unit: Coordinate,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// The start is faster than the way allows: the speed, and the largest one (rad/s, or m/s).
+    /// The start is faster than the path allows: the speed, and the largest one (rad/s, or m/s).
     StartTooFast {
         /// Largest speed at the start.
         most: f64,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
     /// The end is faster than can be reached.
     EndTooFast {
         /// Largest speed at the end.
         most: f64,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// The way has more turns than can be computed of a machine that changes within a turn.
+    /// The path has too many turns for a machine that changes within a turn.
     TooLong {
         /// Turns.
         turns: f64,
-        /// The most.
+        /// Largest number of turns.
         most: f64,
     },
-    /// With the most cells limits are exceeded, or the time is not settled.
+    /// Even with the most cells, limits are exceeded or the time has not converged.
     NotAccurate {
         /// Share by which a limit is exceeded.
         excess: f64,
         /// Position where it is exceeded most (rad, or m).
         phi: f64,
-        /// Share by which the time changed with the last number of cells.
+        /// Relative change of the time with the last number of cells.
         change: f64,
-        /// Whether the motion goes on for ever.
+        /// Whether the motion repeats endlessly.
         endless: bool,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// A load jumps, where the rate of the torque is limited.
+    /// A load jumps while the torque rate is limited.
     LoadJumps {
         /// Position (rad, or m).
         phi: f64,
         /// Torque of the motor before and after (N·m, or N).
         torques: [f64; 2],
-        /// Their unit: N of a motor that slides.
+        /// Their unit: N for a linear motor.
         unit: Coordinate,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// Even slow motions take more RMS torque than allowed.
+    /// Even slow motions exceed the RMS torque.
     RmsTooLarge {
-        /// Least RMS torque (N·m, or N) that was found.
+        /// Least RMS torque found (N·m, or N).
         rms: f64,
-        /// What it may be.
+        /// Its limit.
         allowed: f64,
-        /// Least torque (N·m, or N) of the machine when it moves slowly, anywhere on the way.
+        /// Least torque (N·m, or N) of the slowly moving machine, anywhere on the path.
         slow: f64,
-        /// Whether the search for motions with less did not come to its end.
+        /// Whether the search for less stopped before it converged.
         stopped: bool,
-        /// Their unit: N of a motor that slides.
+        /// Their unit: N for a linear motor.
         unit: Coordinate,
     },
-    /// The winding gets warmer than allowed in every motion that was found.
+    /// The winding exceeds its temperature limit in every motion found.
     TooWarm {
-        /// The greatest temperature (°C) of the coolest one; infinite: without bound.
+        /// Largest temperature (°C) of the coolest motion; infinite: unbounded.
         greatest: f64,
-        /// What it may be.
+        /// Its limit.
         limit: f64,
-        /// That of the surroundings.
+        /// Temperature of the surroundings.
         ambient: f64,
-        /// Whether the motion turns for ever, without a pause.
+        /// Whether the motion turns endlessly, without a pause.
         endless: bool,
     },
-    /// The temperature of the motor's winding is not known.
+    /// The winding's temperature cannot be computed: data missing.
     WindingUnknown,
-    /// No motion within limits of jerk, torque rate or RMS torque was found.
+    /// The search found no motion within the limits of jerk, torque rate or RMS torque.
     NotFound {
         /// Time (s) of the fastest motion without these limits.
         bound: f64,
-        /// The limit at which the search ended, if it is one.
+        /// The limit at which the search ended, if any.
         limit: Option<Binding>,
-        /// Where (rad, or m).
+        /// Position (rad, or m).
         phi: f64,
         /// Share of the limit by which it is exceeded there.
         missed: f64,
         /// Whether jerk and torque rate are limited.
         rates: [bool; 2],
-        /// Unit of the torque: N of a motor that slides.
+        /// Unit of the torque: N for a linear motor.
         unit: Coordinate,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// The force in a joint exceeds its limit in a machine that moves slowly.
+    /// The force in a joint exceeds its limit even in a slowly moving machine.
     JointForce {
         /// Name of the joint.
         joint: String,
@@ -172,18 +172,18 @@ pub enum NoMotion {
         phi: f64,
         /// Force (N), and its limit.
         forces: [f64; 2],
-        /// Whether it stands there for a while.
+        /// Whether the machine rests there for a while.
         stands: bool,
-        /// In whose words it is said.
+        /// Axis in which the message gives positions and speeds.
         axis: Axis,
     },
-    /// Forces in joints are limited beside jerk, torque rate or RMS torque.
+    /// Limits of joint forces are combined with limits of jerk, torque rate or RMS torque.
     JointForceAlone,
-    /// No acceleration is left.
+    /// The limits leave no acceleration.
     Empty(Box<Empty>),
 }
 
-/// Where limits leave no acceleration.
+/// A place and speed at which limits leave no acceleration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Empty {
     /// Position (rad, or m).
@@ -194,9 +194,9 @@ pub struct Empty {
     pub least: (f64, Binding),
     /// The largest acceleration, which is smaller, and its limit.
     pub most: (f64, Binding),
-    /// Both limits in words, with the joint whose force it is.
+    /// Names of both limits, with the joint of a force.
     names: [Box<str>; 2],
-    /// In whose words it is said.
+    /// Axis in which the message gives positions and speeds.
     axis: Axis,
 }
 
@@ -215,7 +215,7 @@ impl From<duty::Fault> for NoMotion {
     }
 }
 
-/// Whether the motor of a machine turns or slides.
+/// Whether the motor of a machine is rotary or linear.
 pub(super) fn input(file: &MachineFile) -> Coordinate {
     match input_kind(file) {
         MotorKind::Rotary => Coordinate::Angle,
@@ -223,7 +223,7 @@ pub(super) fn input(file: &MachineFile) -> Coordinate {
     }
 }
 
-/// A limit in words; that of a force with its joint.
+/// Name of a limit; for a force with its joint.
 fn in_words(limit: Binding, field: &Field) -> Box<str> {
     let name = limit.name_in(field.way.file);
     if let Binding::JointForce(_) = limit {
@@ -245,7 +245,7 @@ impl NoMotion {
         }
     }
 
-    /// At a place and speed that leave no acceleration.
+    /// The error for a place and speed without an allowed acceleration.
     pub(super) fn empty(field: &Field, place: &Spot, z: f64) -> Self {
         let [least, most] = [field.least_by(place, z), field.most_by(place, z)];
         Self::Empty(Box::new(Empty {
@@ -258,7 +258,7 @@ impl NoMotion {
         }))
     }
 
-    /// `eased`: a limit without which the machine does not stop.
+    /// `eased`: a limit without which the machine would not stop.
     pub(super) fn at(
         field: &Field,
         track: &Track,

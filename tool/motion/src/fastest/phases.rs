@@ -1,4 +1,4 @@
-//! Which limit a motion follows, from where to where.
+//! The active limit of each part of a motion.
 
 use std::convert::Infallible;
 
@@ -13,21 +13,21 @@ use super::track::{Ends, Track};
 pub struct Phase {
     /// The limit.
     pub limit: Binding,
-    /// Positions of its beginning and end (rad, or m).
+    /// Positions of its start and end (rad, or m).
     pub phi: [f64; 2],
-    /// Times (s).
+    /// Times of its start and end (s).
     pub t: [f64; 2],
-    /// Speeds along the way (rad/s, or m/s).
+    /// Speeds along the path (rad/s, or m/s).
     pub speed: [f64; 2],
 }
 
-/// Share of the whole time below which a phase between two of one limit is none.
+/// Share of the total time below which a phase between two phases of one limit is dropped.
 const BLINK: f64 = 1e-6;
 
 /// Share of z within which a motion is at a limit of its speed.
 const AT: f64 = 1e-6;
 
-/// Whether z is that of the tool's largest speed.
+/// Whether z is at the tool's speed limit.
 fn tool_limits(field: &Field, phi: f64, z: f64) -> bool {
     let tool = field.tool_speed(phi).unwrap_or(f64::INFINITY);
     z >= 0.5 * tool.powi(2) * (1.0 - AT)
@@ -60,7 +60,7 @@ pub(super) fn phases(
                 Along::Cap => top,
             }
         };
-        // Inside its ends, where two limits may be the same.
+        // Inside the step, because two limits may be equal at its ends.
         let [first, last] = [binding(0.01), binding(0.99)];
         let mut add = |limit: Binding, from: f64, to: f64| {
             let phi = |s: f64| {
@@ -91,7 +91,7 @@ pub(super) fn phases(
     without_blinks(phases, t)
 }
 
-/// Without what is no phase: at a corner the roundings of the limits on its two sides.
+/// Drops phases that are only rounding, as at a corner where the limits of the two sides differ in the last digits.
 fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
     let mut kept: Vec<Phase> = Vec::with_capacity(phases.len());
     for mut phase in phases {
@@ -104,7 +104,7 @@ fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
                 kept.pop();
                 continue;
             }
-            // At a dead centre the force in a joint changes from the one side of its interval to the other.
+            // At a dead centre the force in a joint changes from one side of its interval to the other.
             if matches!(phase.limit, Binding::JointForce(_)) {
                 (phase.phi[0], phase.t[0], phase.speed[0]) =
                     (blink.phi[0], blink.t[0], blink.speed[0]);

@@ -1,4 +1,4 @@
-//! The phase plane of a move: speed over position, with the limit that binds on each stretch, and the speeds that the machine cannot pass.
+//! The phase plane of a move: speed over position, with the active limit of each stretch and the speeds that the machine cannot pass.
 
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -10,28 +10,28 @@ use super::joint_force::Spot;
 use super::sweep::Side;
 use crate::way::{Actuator, Way};
 
-/// Positions at which the limits are looked at.
+/// Positions at which the limits are evaluated.
 const POSITIONS: usize = 361;
 
-/// Speeds at each of them, from rest to the largest.
+/// Speeds at each position, from rest to the largest.
 const SPEEDS: u32 = 96;
 
 /// Most points of the motion.
 const POINTS: usize = 3000;
 
-/// The phase plane: positions (rad, or m) and speeds along the way (rad/s, or m/s).
+/// The phase plane: positions (rad, or m) and speeds along the path (rad/s, or m/s).
 #[derive(Clone, Debug, Default)]
 pub struct Plane {
-    /// Stretches of the motion, one after another, each with the limit that it is at.
+    /// Successive stretches of the motion, each with its active limit.
     pub stretches: Vec<(Binding, Vec<[f64; 2]>)>,
-    /// The largest speed, lower where limits of acceleration contradict each other; empty: there is none.
+    /// The largest speed, lower where limits of acceleration contradict each other; empty without a limit.
     pub ceiling: Vec<[f64; 2]>,
-    /// Speeds above which the limits let the machine only slow down, where these are below the largest.
+    /// Speeds above which the limits only allow slowing down, where they are below the largest speed.
     pub holding: Vec<[f64; 2]>,
 }
 
 impl Plane {
-    /// Of a move.
+    /// The phase plane of a move.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -49,7 +49,7 @@ impl Plane {
         };
         let (top, _) = field.top();
         let fastest = plane.fastest();
-        // Without a limit of the speed: beyond the motion's own.
+        // Without a speed limit: above the motion's own speed.
         let highest = if top.is_finite() { top } else { 1.5 * fastest };
         for k in 0..POSITIONS {
             let phi = from + (to - from) * k as f64 / (POSITIONS - 1) as f64;
@@ -85,7 +85,7 @@ impl Plane {
     }
 }
 
-/// The first speed up to the highest from which on something holds, to a millionth of it.
+/// The first speed up to `highest` from which a condition is true, to a millionth of `highest`.
 fn first(highest: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
     let speed = |k: u32| highest * f64::from(k) / f64::from(SPEEDS);
     let k = (0..=SPEEDS).find(|k| holds(speed(*k)))?;
@@ -101,7 +101,7 @@ fn first(highest: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
     Some(above)
 }
 
-/// The nodes of each phase, with its ends.
+/// The nodes of each phase, including its ends.
 fn stretches(made: &Made, direction: f64) -> Vec<(Binding, Vec<[f64; 2]>)> {
     let nodes = made.fastest.trace.nodes();
     let stride = nodes.len().div_ceil(POINTS).max(1);

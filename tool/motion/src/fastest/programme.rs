@@ -1,19 +1,19 @@
 //! The fastest motion under limits of jerk or torque rate, or at a price of the motor's heat.
 //!
-//! Two sweeps do not find it: with a limit of a rate, the accelerations that are possible depend on the one before. Here the motion is written
-//! as w(u), the square of the pace du/dt along a path ([`mesh`]). Its time is a convex integral of w. The [`limits`] must hold at seven
-//! stations of every piece.
+//! Two sweeps do not find it: with a rate limit, the possible accelerations depend on the previous one. Here the motion is written as w(u), the
+//! square of the pace du/dt along a path ([`mesh`]). Its time is a convex integral of w. The [`limits`] must be satisfied at seven stations of every
+//! piece.
 //!
-//! 1. An interior-point method ([`interior`]) finds a motion than which none nearby is faster.
-//! 2. Pieces are halved where the active limit changes, until the time does not change any more.
-//! 3. The motion over the time is checked between the stations with the machine itself. Where it exceeds a limit, the limit of that piece gets a
-//!    margin, and the motion is sought again.
+//! 1. An interior-point method ([`interior`]) finds a locally fastest motion.
+//! 2. Pieces are halved where the active limit changes, until the time no longer changes.
+//! 3. The motion over time is checked between the stations with the machine itself. Where it exceeds a limit, that limit gets a margin in its piece,
+//!    and the search is repeated.
 //!
-//! Without limits of jerk and torque rate the motion can only be faster: the time of the sweeps is the lower bound.
+//! Without limits of jerk and torque rate the motion can only be faster: the time of the sweeps is a lower bound.
 //!
-//! Words: a *bend* of the torque is where power changes its direction in a stage with losses, so that the torque's slope by the load jumps.
-//! The method needs smooth functions, so a bend is *rounded* over a *range* of the load. μ is the weight of the barrier that keeps the motion
-//! away from its limits; it falls to almost zero. The limits are *eased* when those of jerk and torque rate are multiplied by a factor.
+//! Terms: a *bend* of the torque is where power changes direction in a stage with losses, so that the torque's slope by the load jumps. The method
+//! needs smooth functions, so a bend is *rounded* over a *range* of the load. μ is the weight of the barrier that keeps the motion away from its
+//! limits; it falls to almost zero. The limits are *eased* when those of jerk and torque rate are multiplied by a factor.
 
 mod borders;
 mod effort;
@@ -39,58 +39,57 @@ use limits::{Margins, Problem};
 use mesh::{Border, Form, Mesh};
 use outcome::{Worst, widen};
 
-/// Pieces of the first mesh, and the most.
+/// Number of pieces of the first mesh, and the largest number.
 const PIECES: [usize; 2] = [24, 1500];
 
-/// Least and largest share of u at each end along which the path has the form of a constant jerk.
+/// Least and largest share of u at each end along which the path has constant jerk.
 const RAMP: [f64; 2] = [1e-6, 0.25];
 
-/// Even paces from which the search starts, as shares: of the pace of the fastest motion without limits of rates, and of the pace that just
-/// meets these limits.
+/// Constant paces as starts of the search, as shares of the pace of the fastest motion without rate limits, and of the pace that just meets these
+/// limits.
 const STARTS: [f64; 3] = [0.25, 0.05, 0.7];
 
-/// Slowest pace, as a share of that of the fastest motion, at which the limits of rates may be met, and how closely that pace is found, as a
-/// difference of logarithms.
+/// Slowest pace, as a share of the fastest motion's pace, at which rate limits may be met, and the accuracy of that pace as a difference of
+/// logarithms.
 const SLOWEST: f64 = 1e-12;
 const CLOSELY: f64 = 0.01;
 
-/// Factor from one even pace to the next in the search for the one of least cost, where heat has a price.
+/// Factor from one constant pace to the next in the search for the cheapest one, where heat has a price.
 const SLOWER: f64 = 0.8;
 
-/// μ at the start and at the end: on the first mesh, on those that follow, and on the last. The time is too long by a share of about 10·μ.
+/// μ at the start and at the end: on the first mesh, on later meshes, and on the last. The relative error of the time is about 10·μ (too long).
 const ROUGH: [f64; 2] = [0.1, 1e-5];
 const FINER: [f64; 2] = [1e-2, 1e-8];
 const LAST: [f64; 2] = [1e-3, 1e-10];
 
-/// Share of a limit by which it must be exceeded to be named as the one that no motion satisfies.
+/// Relative excess from which a limit is reported as the one that no motion satisfies.
 const FEASIBLE: f64 = 1e-6;
 
 /// Range over which bends of the torque are rounded, as a share of the largest load of the motion: at the start of the search, and at its end.
 const RANGES: [f64; 2] = [1e-1, 4e-3];
 
-/// Factors by which the range is widened in the last search, one after another, until a motion is found.
+/// Factors by which the range is widened in the last search, in order, until a motion is found.
 const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 
-/// Share by which a limit may be exceeded between the nodes of the motion, and how often margins may be widened to achieve it.
+/// Share by which a limit may be exceeded between the nodes, and how often margins may be widened to achieve it.
 const PROGRAMME_EXCESS: f64 = 2e-7;
 const WIDENED: u32 = 24;
 
-/// What is asked.
+/// The request.
 pub(super) struct Asked<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) ends: &'a Ends,
-    /// Time (s) of the fastest motion without limits of rates and without a price of heat.
+    /// Time (s) of the fastest motion without rate limits and without a price of heat.
     pub(super) bound: f64,
-    /// Unit of the time (s) in which the motion is sought.
+    /// Unit of time (s) of the search.
     pub(super) unit: f64,
-    /// How long the accelerations at the ends of that motion would take to rise under the limits of rates, as a share of `bound`; 0: no such
-    /// limits.
+    /// Time in which the accelerations at the ends of that motion would rise under the rate limits, as a share of `bound`; 0: no such limits.
     pub(super) rise: f64,
-    /// What is least.
+    /// The objective.
     pub(super) price: Price,
 }
 
-/// The motion on a mesh.
+/// A motion on a mesh.
 #[derive(Clone, Debug)]
 struct Found {
     mesh: Mesh,
@@ -101,24 +100,24 @@ struct Found {
     share: f64,
 }
 
-/// A motion as a start for the search for one of another price.
+/// A motion as the start of a search with another price.
 #[derive(Clone, Debug)]
 pub struct Warm {
     borders: Vec<Border>,
     found: Found,
     margins: Vec<Margins>,
-    /// Share by which the time changed when the pieces were last made finer.
+    /// Relative change of the time at the last refinement.
     change: f64,
 }
 
-/// Where the search starts.
+/// Start of the search.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'w> {
-    /// From even paces.
+    /// Constant paces.
     Nothing,
-    /// From another motion, with pieces of its own.
+    /// Another motion, with new pieces.
     Near(&'w Warm),
-    /// On the pieces of another motion, so that a small change of the price makes a small one of the motion.
+    /// Another motion on its own pieces, so that a small change of the price changes the motion little.
     Beside(&'w Warm),
 }
 
@@ -130,7 +129,7 @@ impl Asked<'_> {
     pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
         self.refuse_jumps()?;
         let found = self.solve_from(start, true);
-        // On coarse pieces eased limits may lead to a fast motion that does not exist on finer ones.
+        // On coarse pieces, eased limits may lead to a fast motion that does not exist on finer ones.
         match (start, &found) {
             (Start::Nothing, Err(NoMotion::NotFound { .. })) if self.limits().has_rates() => {
                 self.solve_from(start, false).or(found)
@@ -139,7 +138,7 @@ impl Asked<'_> {
         }
     }
 
-    /// The same; `eased`: whether motions under eased limits are starts as well.
+    /// The same; `eased`: whether motions under eased limits are starts too.
     fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
         let shape = self.shape();
         let beside = match start {
@@ -156,7 +155,7 @@ impl Asked<'_> {
         let mut trace = self.trace(&shape, &warm.found);
         let mut worst = Worst::NONE;
         for round in 0..WIDENED {
-            // With margins the motion needs other loads than without: a range that suited it may be too narrow.
+            // With margins the loads of the motion change, so its previous range may be too narrow.
             let mut next = None;
             for factor in WIDER {
                 let range = [warm.found.range, warm.found.share].map(|range| factor * range);
@@ -167,7 +166,7 @@ impl Asked<'_> {
                     break;
                 }
             }
-            // In the first round there are no margins yet: the motion that was found before is still valid.
+            // In the first round there are no margins, so the previous motion is still valid.
             match next {
                 Some(next) => warm.found = next,
                 None if round > 0 => break,
@@ -228,7 +227,7 @@ impl Asked<'_> {
         self.ends.speeds.map(|speed| speed == 0.0)
     }
 
-    /// The path, whose form is that of the ends.
+    /// The path, shaped for its ends.
     fn shape(&self) -> Shape {
         let ramp = if self.limits().level_ends {
             self.ramp()
@@ -238,7 +237,7 @@ impl Asked<'_> {
         Shape::new(self.rest(), ramp)
     }
 
-    /// Start and length of the way with its sign.
+    /// Start and signed length of the path.
     fn course(&self) -> [f64; 2] {
         [self.ends.from, self.ends.length * self.field.way.direction]
     }
@@ -279,8 +278,8 @@ impl Asked<'_> {
         }
     }
 
-    /// The same with the unit of the time set so that an even pace of 1 just meets the limits of rates, or costs least. The motion may take many
-    /// times as long as without these limits, and numbers near 1 suit the method best.
+    /// The same with a unit of time in which a constant pace of 1 just meets the rate limits, or costs least. The motion may be many times slower
+    /// than without these limits, and the method works best with numbers near 1.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -331,7 +330,7 @@ impl Asked<'_> {
         }
     }
 
-    /// The motion on these borders, from one on other borders; an empty slice of margins stands for none.
+    /// The motion on these borders, started from a motion on other borders; an empty slice of margins means no margins.
     fn next(
         &self,
         shape: &Shape,
@@ -354,7 +353,7 @@ impl Asked<'_> {
         Ok(point.map(|point| self.found(mesh, (point, range), share)))
     }
 
-    /// The time (s).
+    /// Duration (s).
     fn time(&self, mesh: &Mesh, x: &[f64]) -> f64 {
         let each = mesh.stations.iter().map(|station| {
             let values = mesh.values(x, station.element);
@@ -363,7 +362,7 @@ impl Asked<'_> {
         self.unit * each.sum::<f64>()
     }
 
-    /// Refuses a load that jumps under a limit of the torque rate: there the torque jumps, or the acceleration.
+    /// Refuses a load that jumps while the torque rate is limited: there the torque or the acceleration would jump.
     fn refuse_jumps(&self) -> Result<(), NoMotion> {
         if self.limits().torque_rate.is_none() {
             return Ok(());

@@ -1,24 +1,24 @@
-//! What a motion leaves unused of motor and gearbox.
+//! Reserves of motor and gearbox.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 
-/// Share of a limit by which a motion with a reserve stays below what the reserve leaves, so that a rule that asks for the same
-/// reserve is satisfied whatever the last digits: they are known to 1e-9 between the nodes.
+/// Share by which a motion with a reserve stays below the reduced limit, so that a rule with the same reserve is satisfied whatever the last digits:
+/// limits are accurate to 1e-9 between the nodes.
 const ROUNDING_MARGIN: f64 = 1e-6;
 
-/// What a motion leaves unused, as shares of torque and speed of motor and gearbox; 0: nothing.
+/// Unused shares of torque and speed of motor and gearbox; 0: no reserve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reserve {
-    /// Of the motor's torque, driving and braking.
+    /// Share of the motor's torque, driving and braking.
     pub torque: f64,
-    /// Of its largest speed.
+    /// Share of the motor's largest speed.
     pub speed: f64,
-    /// Of the gearbox's torque.
+    /// Share of the gearbox's torque.
     pub gearbox_torque: f64,
-    /// Of its largest input speed.
+    /// Share of the gearbox's largest input speed.
     pub gearbox_speed: f64,
-    /// Of the motor's S1 torque, by the RMS torque.
+    /// Share of the motor's S1 torque, which limits the RMS torque.
     pub rms: f64,
 }
 
@@ -34,7 +34,7 @@ impl Reserve {
         }
     }
 
-    /// What rules for a motion of a given drive ask for.
+    /// The reserve that a rule set requires of a motion of a given drive.
     pub fn of(rules: &RuleSet) -> Self {
         let share = |rule: Rule| {
             let limit = rules.limit(rule);
@@ -49,12 +49,12 @@ impl Reserve {
         }
     }
 
-    /// Whether there is one.
+    /// Whether any share is not zero.
     pub fn is_some(&self) -> bool {
         *self != Self::default()
     }
 
-    /// What it leaves of a limit.
+    /// Factor of a limit after the reserve.
     pub(super) fn leaves(&self, share: f64) -> f64 {
         if self.is_some() {
             (1.0 - share) * (1.0 - ROUNDING_MARGIN)

@@ -1,16 +1,17 @@
 //! The fastest motion whose RMS torque, over all moves and pauses, is within a limit R.
 //!
-//! Of all motions it is the one with the least
+//! It minimises
 //!
 //! ```text
 //! (1 − β)·t + β·∫T² dt/R²
 //! ```
 //!
-//! for one β in all moves, which is sought. With β = 0 the time alone counts. A standing or crawling machine whose torque there is C adds
-//! 1 − β·(1 − C²/R²) each second; where that is less than nothing waiting on the way would be best, so β stays below 1/(1 − C²/R²) with the
-//! least C of the way. Without a torque at rest that is 1: a second never counts less than nothing. Where a weight is held all along the way
-//! it may: J constant against a weight G asks for β = R²/(4·(R² − G²)), more than 1 for a limit below 1.155·G. So β grows with a share s from
-//! 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with it.
+//! with one β for all moves, which is found by a search. With β = 0 only the time counts.
+//!
+//! A standing or crawling machine whose torque there is C adds 1 − β·(1 − C²/R²) each second. If that were negative, waiting on the path would be
+//! best, so β stays below 1/(1 − C²/R²) with the least C of the path. Without a torque at rest this bound is 1: a second never counts less than zero.
+//! Where a weight acts all along the path, β may exceed 1: a constant J against a weight G needs β = R²/(4·(R² − G²)), more than 1 for a limit below
+//! 1.155·G. Therefore β grows with a share s from 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with s.
 
 use jred::Error;
 use jred_machine::model::coordinate::Coordinate;
@@ -24,11 +25,11 @@ use crate::way::{Actuator, Way};
 /// A limit of the RMS torque over a motion with its pauses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rms {
-    /// The S1 torque of the motor at the mean speed, without what the reserve leaves unused.
+    /// The S1 torque of the motor at the mean speed, less the reserve.
     Continuous,
     /// A torque (N·m).
     Torque(f64),
-    /// The lower one of both.
+    /// The smaller of both.
     Both(f64),
 }
 
@@ -41,7 +42,7 @@ impl Rms {
         }
     }
 
-    /// A limit, if there is one, and a torque (N·m) besides.
+    /// Combines a limit, if there is one, with a torque (N·m).
     #[must_use]
     pub fn and(limit: Option<Self>, torque: f64) -> Self {
         match limit {
@@ -53,34 +54,34 @@ impl Rms {
     }
 }
 
-/// Shares s that are tried until the RMS torque is small enough. Of a constant inertia alone s is 1/4.
+/// Shares s that are tried until the RMS torque is small enough. For a constant inertia alone s is 1/4.
 const SHARES: [f64; 10] = [
     0.25, 0.4, 0.6, 0.8, 0.9, 0.96, 0.99, 0.997, 0.9997, 0.999_99,
 ];
 
-/// Steps between two shares, and the share of the RMS torque at which the pieces of the motions stay what they are.
+/// Most steps between two shares, and the share of the RMS torque below which the motions keep their pieces.
 const STEPS: u32 = 40;
 const NEAR: f64 = 0.02;
 
-/// Share by which the RMS torque may lie below its limit at the end, and at the most.
+/// Share by which the RMS torque may lie below its limit at the end: the target, and the most.
 const UNUSED: [f64; 2] = [1e-8, 1e-6];
 
-/// Places of a move at which the torque of a slow motion is looked at.
+/// Places of a move at which the torque of a slow motion is evaluated.
 const PLACES: u32 = 360;
 
-/// The motions that are asked for, and what is known of the ones before.
+/// The next motions, and results of the previous ones.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
-    /// What is least; `None`: the time, with the limits alone.
+    /// The objective; `None`: the time, with the limits only.
     pub(super) price: Option<Price>,
     /// Of each move.
     warm: Vec<Warm>,
-    /// Whether the price changes so little that pieces stay what they are.
+    /// Whether the price changes so little that the pieces are kept.
     is_beside: bool,
 }
 
 impl Asked {
-    /// From where a move is sought.
+    /// Start of the search for a move.
     pub(super) fn start(&self, number: usize) -> Start<'_> {
         match self.warm.get(number) {
             None => Start::Nothing,
@@ -106,7 +107,7 @@ pub(super) enum Refused<E> {
     Limit(NoMotion),
 }
 
-/// The least torque (N·m) of the motor in a motion without speed and acceleration, on ways from one position to another.
+/// The least torque (N·m) of the motor in a motion without speed and acceleration, on paths from one position to another.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -167,7 +168,7 @@ pub(super) fn within<E>(
     for share in SHARES {
         let found = match try_at(share, false) {
             Ok(found) => found,
-            // Where the time hardly counts any more, or less than nothing, there may be no slowest motion.
+            // Where time has hardly any price, or a negative one, a slowest motion may not exist.
             Err(_) if cheap[0] > 0.0 => {
                 stopped = true;
                 break;
@@ -198,7 +199,7 @@ pub(super) fn within<E>(
             break;
         }
         let is_beside = last[1].abs() <= NEAR;
-        // The secant's place, a little on the dear side; where it leaves the shares between, or every fourth time, the middle.
+        // The secant's point, moved slightly to the expensive side; the midpoint where it leaves the interval, and every fourth time.
         let secant = last[0] - (last[1] + 0.5 * UNUSED[0]) / slope;
         let is_inside = secant > cheap[0] && secant < dear[0];
         let next = if is_inside && (is_beside || step % 4 != 3) {
@@ -211,12 +212,12 @@ pub(super) fn within<E>(
         }
         let found = match try_at(next, is_beside) {
             Ok(found) => found,
-            // What is within the limit and hardly below it is the answer.
+            // Within the limit and hardly below it: this is the result.
             Err(_) if dear[1] >= -UNUSED[1] => break,
             Err(why) => return Err(Refused::Move(why)),
         };
         let own = [next, over(&found)];
-        // The RMS torque falls with the share; what rises is rounding.
+        // The RMS torque falls with the share; a rise is rounding.
         let fall = (own[1] - last[1]) / (own[0] - last[0]);
         if fall < 0.0 {
             slope = fall;

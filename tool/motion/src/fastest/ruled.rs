@@ -1,12 +1,12 @@
 //! The fastest motion that the rules of sizing accept.
 //!
-//! Some limits of a drive depend on the motion itself: T2B on its cycles per hour, the cubic mean against T2N, the mean speed and the RMS current on all of it.
-//! The motion is made, and judged as `jred size` judges it ([`Judge`]). Where a rule is violated, a [`Cap`] that acts at every instant is lowered, until the rule is
-//! kept by no more than a thousandth: a faster motion uses more of every one of these limits, so there is one such cap. Of the cycles per hour that is the
-//! fixed point: the torque that is allowed at the rate that it makes.
+//! Some limits of a drive depend on the whole motion: T2B on its cycles per hour, T2N on the cubic mean, others on the mean speed and the RMS
+//! current. The motion is made, and judged as `jred size` judges it ([`Judge`]). Where a rule is violated, a [`Cap`] that acts at every instant is
+//! lowered, until the rule is satisfied by no more than a thousandth. A faster motion uses more of every one of these limits, so there is one such
+//! cap. For the cycles per hour it is a fixed point: the allowed torque at the resulting rate.
 //!
-//! With such a cap the motion is the fastest one within constant limits; for the cubic mean or the mean speed another one may be faster, which uses torque and
-//! speed unevenly over the way.
+//! With such a cap the motion is the fastest one within constant limits. For the cubic mean or the mean speed another motion may be faster that uses
+//! torque and speed unevenly over the path.
 
 use jred_machine::analysis::duty::{Duty, Fault, Sampling};
 use jred_machine::model::machine::MachineFile;
@@ -24,34 +24,34 @@ use super::field::Limits;
 use super::{NoMotion, Rms};
 use crate::trace::Trace;
 
-/// Share of a limit that a motion may use: a millionth less than all of it is what a reserve leaves, and a profile is read with other last digits.
+/// Share of a limit that a motion may use. A reserve leaves a millionth less than all of it, and a profile that is read back has other last digits.
 const ALLOWED: f64 = 1.0 - 5e-7;
 
-/// Share of a limit by which its use may stay below at the end.
+/// Share by which the final use of a limit may stay below it.
 const NEAR: f64 = 1e-3;
 
-/// Motions that are tried for one cap, and rounds over all of them.
+/// Most motions for one cap, and most rounds over all caps.
 const TRIES: u32 = 10;
 const ROUNDS: u32 = 4;
 
-/// A use that falls by a smaller share than this with a cap that falls by more does not follow it.
+/// If the use falls by a smaller share than this while the cap falls by more, the use does not depend on the cap.
 const FOLLOWS: f64 = 1e-3;
 
-/// What is lowered at every instant, so that a rule of the whole motion is kept.
+/// A quantity that is lowered at every instant to satisfy a rule of the whole motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cap {
-    /// The share of the motor's torque.
+    /// Share of the motor's torque.
     MotorTorque,
-    /// The torque at the gearbox output (N·m).
+    /// Torque at the gearbox output (N·m).
     GearboxTorque,
-    /// The speed of the motor (rad/s, or m/s).
+    /// Speed of the motor (rad/s, or m/s).
     Speed,
-    /// The RMS torque of the motor (N·m), which is one of the whole motion.
+    /// RMS torque of the motor (N·m), a limit of the whole motion.
     RmsTorque,
 }
 
 impl Cap {
-    /// All, in the order in which they are sought.
+    /// All caps, in the order of the search.
     pub const ALL: [Self; 4] = [
         Self::MotorTorque,
         Self::GearboxTorque,
@@ -59,7 +59,7 @@ impl Cap {
         Self::RmsTorque,
     ];
 
-    /// What is lowered for a rule that is kept. `heat`: the rules of the motor's heat are asked for.
+    /// The cap that is lowered to satisfy a rule. `heat`: the rules of the motor's heat are included.
     const fn of(rule: Rule, heat: bool) -> Option<Self> {
         match rule {
             Rule::PeakTorque | Rule::PeakCurrent => Some(Self::MotorTorque),
@@ -76,7 +76,7 @@ impl Cap {
     }
 }
 
-/// Caps by their order; infinite: none.
+/// Caps in the order of [`Cap::ALL`]; infinite: no cap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Caps([f64; Cap::ALL.len()]);
 
@@ -92,7 +92,7 @@ impl Caps {
         self
     }
 
-    /// The limits with them.
+    /// The limits with the caps applied.
     fn on(&self, limits: &Limits) -> Limits {
         let least = |limit: Option<f64>, cap: f64| {
             let both = limit.map_or(cap, |limit| limit.min(cap));
@@ -106,7 +106,7 @@ impl Caps {
         limits
     }
 
-    /// The limit of the RMS torque with them.
+    /// The limit of the RMS torque with the caps applied.
     fn rms(&self, rms: Option<Rms>) -> Option<Rms> {
         let torque = self.get(Cap::RmsTorque);
         if torque.is_finite() {
@@ -117,7 +117,7 @@ impl Caps {
     }
 }
 
-/// What judges motions of a drive: the rules of `jred size`.
+/// Judges motions of a drive by the rules of `jred size`.
 #[derive(Clone, Debug)]
 pub struct Judge<'a> {
     file: &'a MachineFile,
@@ -127,7 +127,7 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Of a drive in a machine; its duty is sampled like this.
+    /// A judge for a drive in a machine, with the sampling of its duty.
     pub fn new(file: &'a MachineFile, drive: Drive<'a>, sampling: Sampling) -> Self {
         Self {
             file,
@@ -138,7 +138,7 @@ impl<'a> Judge<'a> {
     }
 
     fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, Fault> {
-        // As a profile that is read back.
+        // Like a profile that is read back.
         let cyclic = self.file.motion.as_ref().is_none_or(|own| own.cyclic);
         let motion = Motion::nodes(trace.nodes(), cyclic);
         let file = MachineFile {
@@ -154,20 +154,20 @@ impl<'a> Judge<'a> {
     /// The findings of all rules in a motion.
     ///
     /// # Errors
-    /// Those of the duty.
+    /// The duty cannot be computed.
     pub fn findings(&self, trace: &Trace) -> Result<Findings, Fault> {
         self.with(trace, |context| context.findings(&self.file.rules))
     }
 
-    /// The same under the rules, with words.
+    /// The checks of the file's rules, with messages.
     ///
     /// # Errors
-    /// Those of the duty.
+    /// The duty cannot be computed.
     pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, Fault> {
         self.with(trace, |context| context.checks(&self.file.rules))
     }
 
-    /// The largest use of a limit that a cap keeps.
+    /// The largest use of a limit that a cap can lower.
     fn used(&self, findings: &Findings, cap: Cap, heat: bool) -> f64 {
         let own = findings
             .iter()
@@ -177,36 +177,36 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// How the rules judge a motion, and what was lowered for them.
+/// The judgement of a motion, and the lowered caps.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// Every rule.
+    /// All rules.
     pub checks: Vec<Check>,
-    /// The rules that are kept by the search, if they can be.
+    /// The rules that the search tries to satisfy.
     pub sought: Vec<Rule>,
-    /// What was lowered at every instant.
+    /// The values that were lowered at every instant.
     pub caps: Vec<(Cap, f64)>,
 }
 
 impl Judged {
-    /// The rules that were sought and are kept.
+    /// Rules of the search that are satisfied.
     pub fn kept(&self) -> impl Iterator<Item = &Check> {
         let sought = |check: &&Check| self.sought.contains(&check.id);
         let held = |check: &&Check| check.verdict == Verdict::Pass;
         self.checks.iter().filter(sought).filter(held)
     }
 
-    /// The rules that the motion violates, each a reason for `jred size` to refuse it.
+    /// Violated rules, each a reason for `jred size` to refuse the motion.
     pub fn violated(&self) -> impl Iterator<Item = &Check> {
         let all = self.checks.iter();
         all.filter(|check| check.verdict == Verdict::Fail)
     }
 }
 
-/// Why there is no motion, with the number of the move.
+/// Why there is no motion, with the index of the move.
 type Refused = (Option<usize>, NoMotion);
 
-/// A motion that was tried, with what goes with it.
+/// A motion that was tried, with its accompanying result.
 struct Tried<W> {
     caps: Caps,
     cycle: Cycle,
@@ -214,7 +214,7 @@ struct Tried<W> {
     findings: Findings,
 }
 
-/// What the motion has of a quantity that a cap limits: a higher cap does nothing.
+/// The value in the motion of a quantity that a cap limits: a higher cap has no effect.
 fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
     let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
     let own = match cap {
@@ -236,7 +236,7 @@ struct Search<'s, W> {
     make: &'s Make<'s, W>,
 }
 
-/// Makes the motion of some limits, with what goes with it.
+/// Makes the motion for some limits, with an accompanying result.
 type Make<'s, W> = dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused> + 's;
 
 impl<W> Search<'_, W> {
@@ -260,12 +260,12 @@ impl<W> Search<'_, W> {
         sought.into_iter().all(|cap| self.used(tried, *cap) <= 1.0)
     }
 
-    /// Lowers a cap until its rules are kept; `None`: they are not kept by lowering it.
+    /// Lowers a cap until its rules are satisfied; `None` if lowering it does not satisfy them.
     fn lowered(&self, cap: Cap, from: &Tried<W>) -> Option<Tried<W>> {
-        // Cap and use of it: too high, and low enough.
+        // Cap and its use: too high, and low enough.
         let mut high = [has(from, cap), self.used(from, cap)];
         let mut low: Option<([f64; 2], Tried<W>)> = None;
-        // Where no motion is left.
+        // Largest value without a motion.
         let mut least = 0.0_f64;
         for round in 0..TRIES {
             let next = match &low {
@@ -302,7 +302,7 @@ impl<W> Search<'_, W> {
         low.map(|(_, tried)| tried)
     }
 
-    /// Raises a cap that became too low when another one was lowered, as far as all rules stay kept.
+    /// Raises a cap that became too low when another one was lowered, as far as all rules stay satisfied.
     fn raised(&self, cap: Cap, from: Tried<W>, but: &[Cap]) -> Tried<W> {
         let mut best = from;
         for _ in 0..TRIES / 2 {
@@ -316,7 +316,7 @@ impl<W> Search<'_, W> {
             };
             let is_faster = tried.cycle.trace.duration() < best.cycle.trace.duration();
             if !is_faster || !self.keeps_all(&tried, but) {
-                // Half of it may do.
+                // Half of it may suffice.
                 let next = (best.caps.get(cap) * next).sqrt();
                 match self.at(best.caps.with(cap, next)) {
                     Ok(tried) if self.keeps_all(&tried, but) => best = tried,
@@ -329,7 +329,7 @@ impl<W> Search<'_, W> {
         best
     }
 
-    /// Lowers caps until all rules are kept that can be; those that cannot be are added to `lost`.
+    /// Lowers caps until all rules that can be satisfied are; caps that cannot are added to `lost`.
     fn settled(&self, from: Tried<W>, lost: &mut Vec<Cap>) -> Tried<W> {
         let mut now = from;
         for _ in 0..ROUNDS {
@@ -354,15 +354,17 @@ impl<W> Search<'_, W> {
     }
 }
 
-/// The cap at which the use would be a little below its limit, as a power of the cap between two.
+/// The cap at which the use would be slightly below its limit, by a power law through two points.
 fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
     let aim = 1.0 - 0.5 * NEAR;
     let share = (high[1] / aim).ln() / (high[1] / low[1]).ln();
     high[0] * (low[0] / high[0]).powf(share.clamp(0.02, 0.98))
 }
 
-/// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with what goes with it; `heat`: the rules of the motor's heat
-/// are kept as well. `make` makes the fastest motion within limits. Rules that no slower motion keeps are violated: see [`Judged::violated`].
+/// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with its accompanying result.
+///
+/// `heat`: the rules of the motor's heat must be satisfied too. `make` makes the fastest motion within limits. Rules that no slower motion satisfies
+/// stay violated: see [`Judged::violated`].
 ///
 /// # Errors
 /// Those of `make`.
@@ -379,7 +381,7 @@ pub fn ruled<W>(
         heat,
         make: &make,
     };
-    // A limit of the RMS torque takes many motions: first without it.
+    // A limit of the RMS torque needs many motions: first without it.
     let mut lost = vec![Cap::RmsTorque];
     let first = search(None, false);
     let mut caps = first.settled(first.at(Caps::NONE)?, &mut lost);

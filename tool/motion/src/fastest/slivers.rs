@@ -1,16 +1,16 @@
-//! Steps of a motion that are nothing but rounding.
+//! Removes steps of a motion that are only rounding.
 //!
-//! Where two limits meet, or at a corner of the machine, a sweep leaves a curve and is back on it within the last digits of the place. A step so
-//! short has no digits for its acceleration: whoever reads the motion as positions or speeds finds any.
+//! Where two limits meet, or at a corner of the machine, a sweep leaves a curve and returns to it within the last digits of the place. A step so
+//! short has no significant digits for its acceleration: a reader of the motion as positions or speeds could find any value.
 
 use super::sweep::Piece;
 use super::track::Track;
 
-/// Share of the whole time below which a step is none: some hundred roundings of a time near the end. What the speed gains in it goes into the step beside
-/// it, of which it changes the acceleration by the share that this is of that step.
+/// Share of the total time below which a step is removed: some hundred rounding errors of a time near the end. Its change of speed goes into the
+/// neighbouring step, whose acceleration changes in the ratio of the two durations.
 const SLIVER: f64 = 1e-13;
 
-/// The pieces of a motion with their times, each step that is too short as a part of the longer one of its neighbours.
+/// The pieces of a motion with their times, where each step that is too short is merged into the longer of its neighbours.
 pub(super) fn without(track: &Track, pieces: Vec<Piece>, times: &[f64]) -> (Vec<Piece>, Vec<f64>) {
     let short = SLIVER * times.iter().sum::<f64>();
     if times.iter().all(|time| *time > short) {
@@ -35,7 +35,7 @@ pub(super) fn without(track: &Track, pieces: Vec<Piece>, times: &[f64]) -> (Vec<
     kept.into_iter().unzip()
 }
 
-/// Takes a sliver into the piece beside it, which then begins (0) or ends (1) where the sliver does.
+/// Merges a sliver into the piece beside it, which then begins (0) or ends (1) where the sliver does.
 fn extend(
     track: &Track,
     (piece, time): &mut (Piece, f64),

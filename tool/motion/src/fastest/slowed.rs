@@ -1,4 +1,4 @@
-//! Which limit that was asked for keeps the machine from taking the kinetic energy that would carry it through its load.
+//! The given limit that denies the machine the kinetic energy to pass its load.
 
 use super::NoMotion;
 use super::field::{Binding, Field, Limits};
@@ -6,14 +6,14 @@ use super::sweep::{self, Obstacle};
 use super::tool_speed::ToolSpeeds;
 use super::track::{Ends, Survey, Track};
 
-/// A limit that an option asks for.
+/// A limit that an option sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slowing {
-    /// Of the speed of the drive link.
+    /// Speed of the drive link.
     Speed,
-    /// Of the tool's speed.
+    /// Speed of the tool.
     ToolSpeed,
-    /// Of the acceleration.
+    /// Acceleration.
     Acceleration,
 }
 
@@ -27,7 +27,7 @@ impl Slowing {
         }
     }
 
-    /// The option that asks for it.
+    /// The option that sets it.
     pub const fn option(self) -> &'static str {
         match self {
             Self::Speed => "--max-speed",
@@ -37,8 +37,8 @@ impl Slowing {
     }
 }
 
-/// The first limit of speed or acceleration without which the machine does not stop; the first one that was asked for where it takes all of
-/// them; `None`: it stops without them as well.
+/// The first limit of speed or acceleration without which the machine does not stop. If only removing all of them helps, the first given one; `None`
+/// if the machine stops even without them.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.

@@ -1,13 +1,13 @@
 //! The two sweeps: backwards for the speeds from which the end can still be met, forwards for the fastest motion below them.
 //!
-//! With z = ½·v² a motion is a curve z(x) whose slope is its acceleration, between the least and the largest one that the limits
-//! leave. Two curves of one field do not cross. So a motion that keeps the limits and meets the end stays below
+//! With z = ½·v² a motion is a curve z(x) whose slope is its acceleration, between the least and the largest value that the limits allow. Two curves
+//! of one field do not cross. A motion that satisfies the limits and meets the end therefore stays below
 //!
-//! - *upper*: the limit of the speed, and where that falls faster than the motor can brake, or at the end of the way, the curve of least
-//!   acceleration that leads there, followed backwards;
+//! - *upper*: the speed limit; where that falls faster than the motor can brake, or at the end of the path, the curve of least acceleration that
+//!   leads there, followed backwards;
 //! - the curve of largest acceleration from the start.
 //!
-//! The lower of both is itself such a motion, so it is the fastest. If it comes to rest on the way, every other motion does, too.
+//! The lower of both is itself such a motion, so it is the fastest. If it comes to rest on the path, every other motion does, too.
 
 use std::convert::Infallible;
 
@@ -17,13 +17,13 @@ use super::field::Field;
 use super::leg::{Leg, MOST_STEPS, Point, Stalled, Step};
 use super::track::{Cell, Track};
 
-/// Share of z within which a curve lies on another.
+/// Relative difference of z below which two curves coincide.
 const ON: f64 = 1e-12;
 
-/// Share of its place to which a crossing is found.
+/// Accuracy of a crossing as a share of its place.
 const CROSSING: f64 = 1e-15;
 
-/// Changes of the state within a cell; more are rounding where two curves touch, and the upper one is not left any more.
+/// Most changes of the state within a cell. More are rounding where two curves touch; then the motion stays on the upper curve.
 const MOST_CHANGES: u32 = 16;
 
 /// An end of the interval of accelerations.
@@ -31,16 +31,16 @@ const MOST_CHANGES: u32 = 16;
 pub enum Side {
     /// The largest acceleration.
     Most,
-    /// The least.
+    /// The least acceleration.
     Least,
 }
 
-/// What a piece of the motion follows.
+/// The curve that a piece of the motion follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
     /// The largest or the least acceleration.
     Side(Side),
-    /// The limit of the speed.
+    /// The speed limit.
     Cap,
 }
 
@@ -51,29 +51,29 @@ pub struct Piece {
     pub cell: usize,
     /// The step.
     pub step: Step,
-    /// What it follows.
+    /// The curve that it follows.
     pub along: Along,
 }
 
-/// Where no motion goes on.
+/// Where the motion is blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
     /// Even the largest acceleration comes to rest at this share of a cell.
     Stops(usize, f64),
-    /// Even the least acceleration is too large here for the end, or the limit of the speed, to be met.
+    /// Even the least acceleration is too large here to meet the end, or the speed limit.
     RunsAway(usize, f64),
-    /// The machine follows its friction so closely from here on that too many steps would be needed.
+    /// From here on the machine follows its friction so closely that too many steps are needed.
     Stiff(usize, f64),
     /// The speed at the start is larger than this z.
     StartTooFast(f64),
-    /// The end is reached with this z at most.
+    /// At the end z is at most this.
     EndTooFast(f64),
 }
 
-/// The fastest motion from z to z.
+/// The fastest motion between two values of z.
 ///
 /// # Errors
-/// No motion exists: where.
+/// No motion exists: the obstacle.
 pub fn fastest(
     field: &Field<'_, '_>,
     track: &Track,
@@ -99,11 +99,11 @@ fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
     u
 }
 
-/// Times by which the limit of z may change in one piece along it.
+/// Largest ratio by which the limit of z may change in one piece along it.
 const MOST_RATIO: f64 = 1.5;
 
-/// The pieces along the limit of the speed from one share of a cell to a larger one. Between their ends z is a cubic, which would fall below zero on the way
-/// to a limit many times as large.
+/// The pieces along the speed limit from one share of a cell to a larger one. Between their ends z is a cubic, which would fall below zero if the
+/// limit grew many times in one piece.
 fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<Piece>) {
     let u = [from, to];
     let z = u.map(|u| cell.cap(u));
@@ -126,7 +126,7 @@ fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<P
     });
 }
 
-/// Where `f` becomes positive on the way from `from` to `to`: at the start, inside, or nowhere.
+/// Where `f` becomes positive between `from` and `to`: at the start, inside, or not at all.
 fn first_positive(f: impl Fn(f64) -> f64, from: f64, to: f64) -> Option<f64> {
     let mut last = (from, f(from));
     if last.1 > 0.0 {
@@ -215,7 +215,7 @@ fn push(pieces: &mut Vec<Piece>, cell: usize, steps: impl Iterator<Item = Step>,
     pieces.extend(steps.map(|step| Piece { cell, step, along }));
 }
 
-/// The first step (backwards) that rises above the limit of the speed, and where it does.
+/// The first step (backwards) that rises above the speed limit, and where it does.
 fn above_cap(cell: &Cell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
     let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + ON);
     let k = steps
@@ -313,14 +313,14 @@ fn forwards(
                 .map(|_| Point { u: 0.0, ..point });
         }
     }
-    // What is left below the speed of the end is rounding, or the way is too short to reach it.
+    // A speed slightly below that of the end is rounding; otherwise the path is too short to reach it.
     if z < ends[1] * (1.0 - 1e-9) {
         return Err(Obstacle::EndTooFast(z));
     }
     Ok(pieces)
 }
 
-/// The upper curve in a cell: its pieces from the end to the beginning.
+/// The upper curve in a cell, as pieces from the end to the start.
 struct Upper<'u> {
     field: &'u Field<'u, 'u>,
     cell: &'u Cell,
@@ -328,7 +328,7 @@ struct Upper<'u> {
 }
 
 impl Upper<'_> {
-    /// The piece over a share of the cell, the later one where two meet.
+    /// The piece that contains a share of the cell; at a border the later one.
     fn piece(&self, u: f64) -> Option<&Piece> {
         let covers = |piece: &&Piece| piece.step.u[0] <= u;
         self.own.iter().find(covers).or(self.own.last())
@@ -360,7 +360,7 @@ impl Upper<'_> {
         follow(&leg, leg.point(step.u[1], step.z[1]), u)
     }
 
-    /// The first step that rises above it, and where.
+    /// The first step that rises above the upper curve, and where.
     fn crossed(&self, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
         let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + ON);
         let k = steps.iter().position(is_above)?;
@@ -374,7 +374,7 @@ impl Upper<'_> {
         Some((k, zero_of(above, step.u, values)))
     }
 
-    /// Follows it from a share of the cell on: how far, and whether it is still followed there.
+    /// Follows the upper curve from a share of the cell: how far, and whether it still does at the end.
     fn along(
         &self,
         from: f64,

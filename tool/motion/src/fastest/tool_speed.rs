@@ -1,6 +1,6 @@
-//! A limit of the tool's speed in a part of its way: a press that is fast everywhere but through the work.
+//! A speed limit of the tool in a part of its path, as for a press that is fast except through the work.
 //!
-//! With r′ the transfer function of the tool's point, |r′(φ)|·ω ≤ v is a limit of the drive link's speed that depends on the place, ω ≤ v/|r′(φ)|.
+//! With the transfer function r′ of the tool's point, |r′(φ)|·ω ≤ v limits the drive link's speed by position: ω ≤ v/|r′(φ)|.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use jred::{Domain, Error};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::mechanism::AnyMechanism;
 
-/// Positions at which the largest transfer function is looked for.
+/// Positions at which the largest transfer function is searched.
 const POSITIONS: usize = 720;
 
 /// Most limits of the tool's speed.
 pub const MOST: usize = 8;
 
-/// Share of it below which the tool stands, and limits nothing.
+/// Share of the largest transfer function below which the tool is at rest and sets no limit.
 const STANDS: f64 = 1e-6;
 
 /// The largest speed of a point of a link, between two positions of the drive link.
@@ -26,15 +26,15 @@ pub struct ToolSpeed {
     /// Largest speed (m/s).
     speed: f64,
     between: [f64; 2],
-    /// Whether the part comes again with every turn.
+    /// Whether the part repeats with every turn.
     repeats: bool,
-    /// Transfer function (m/rad, or m/m) below which the point stands.
+    /// Transfer function (m/rad, or m/m) below which the point is at rest.
     stands: f64,
 }
 
 impl ToolSpeed {
-    /// The `speed` (m/s) of a point `at` [u, v] (m) of a link, from the first position (rad, or m) to the second; on a turn the second may lie a turn
-    /// later. `None`: the point does not move.
+    /// Limits the `speed` (m/s) of a point `at` [u, v] (m) of a link, from the first position (rad, or m) to the second; on a turn the second may lie
+    /// a turn later. `None` if the point does not move.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -60,7 +60,7 @@ impl ToolSpeed {
         Ok((most > 0.0).then_some(limit))
     }
 
-    /// The same in a part that does not come again with every turn, as a length of an axis, which takes several: from the smaller position to the
+    /// The same in a part that does not repeat with every turn, such as a length of an axis over several turns: from the smaller position to the
     /// larger one.
     #[must_use]
     pub const fn once(self) -> Self {
@@ -82,7 +82,7 @@ impl ToolSpeed {
         Ok(moves.unwrap_or(0.0))
     }
 
-    /// Width of the part of the way.
+    /// Length of the part.
     fn width(&self, domain: Domain) -> f64 {
         let [from, to] = self.between;
         match domain {
@@ -91,7 +91,7 @@ impl ToolSpeed {
         }
     }
 
-    /// The largest speed of the drive link at a position; infinite where the tool may be as fast as it likes.
+    /// The largest speed of the drive link at a position; infinite where the tool has no limit.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
@@ -107,7 +107,7 @@ impl ToolSpeed {
         Ok(self.speed / self.slope(mechanism, phi)?.max(self.stands))
     }
 
-    /// Positions between which it is smooth: the ends of its part, and places inside it, so many in a turn or on a stroke.
+    /// Positions between which the limit is smooth: the ends of its part, and `count` places inside it in a turn or on a stroke.
     pub fn places(&self, domain: Domain, count: usize) -> impl Iterator<Item = f64> + use<> {
         let (from, width) = (self.between[0], self.width(domain));
         let turns = match domain {
@@ -119,29 +119,29 @@ impl ToolSpeed {
     }
 }
 
-/// Several limits of the tool's speed, at most [`MOST`]; none at first.
+/// Several speed limits of the tool, at most [`MOST`]; initially empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToolSpeeds([Option<ToolSpeed>; MOST]);
 
 impl ToolSpeeds {
-    /// With one more; `None`: there are too many.
+    /// With one more limit; `None` if there are too many.
     #[must_use]
     pub fn with(mut self, limit: ToolSpeed) -> Option<Self> {
         *self.0.iter_mut().find(|own| own.is_none())? = Some(limit);
         Some(self)
     }
 
-    /// Whether there is one.
+    /// Whether there is a limit.
     pub fn is_some(&self) -> bool {
         self.iter().next().is_some()
     }
 
-    /// Each of them.
+    /// Each limit.
     pub fn iter(&self) -> impl Iterator<Item = &ToolSpeed> {
         self.0.iter().flatten()
     }
 
-    /// The largest speed of the drive link that all of them leave at a position; infinite: any.
+    /// The largest speed of the drive link that all limits allow at a position; infinite: no limit.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.

@@ -1,4 +1,4 @@
-//! The way cut into cells: the machine and the largest speed at three places of each.
+//! The path cut into cells, with the machine and the speed limit at three places of each.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,36 +9,36 @@ use super::joint_force::{JointForce, Spot};
 use crate::memo::Memo;
 use crate::way::Place;
 
-/// Factor of z from one look to the next where nothing limits the speed, and the most of them.
+/// Factor of z from one trial to the next where nothing limits the speed, and the most trials.
 const RISE: f64 = 16.0;
 const RISES: i32 = 40;
 
-/// Speeds at which it is looked whether limits leave an acceleration.
+/// Speeds at which limits are tested for an allowed acceleration.
 const TRIED_SPEEDS: u32 = 24;
 
-/// Share of a cell, or of a piece, by which a place at a corner lies inside it: what jumps there has the value of its own side.
+/// Share of a cell, or of a piece, by which a place at a corner is moved inside: a quantity that jumps there then has the value of its own side.
 pub(super) const INSIDE: f64 = 1e-9;
 
-/// Share by which a limit of the tool's speed changes within that at most, if it does not jump there.
+/// Largest relative change of the tool's speed limit within that distance, unless it jumps there.
 const GOES_ON: f64 = 1e-6;
 
-/// Places closer than this share of the largest position are one: their last digits.
+/// Places closer than this share of the largest position are the same within rounding.
 const SAME: f64 = 16.0 * f64::EPSILON;
 
-/// A cell of the way. Between its three places every quantity is the parabola through them.
+/// A cell of the path. Between its three places every quantity is the parabola through them.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// Distance of its beginning from the start of the way (rad, or m).
+    /// Distance of its start from the start of the path (rad, or m).
     pub x: f64,
     /// Its length.
     pub length: f64,
-    /// The machine at its beginning, middle and end.
+    /// The machine at its start, middle and end.
     pub places: [Place; 3],
     /// The largest z = ½·v² at the same places; infinite: no limit.
     pub caps: [f64; 3],
-    /// The forces in joints that are limited, at the same places.
+    /// The limited joint forces at the same places.
     pub forces: Vec<[JointForce; 3]>,
-    /// Whether its beginning is the end of the cell before: no corner lies between them.
+    /// Whether it continues the cell before: no corner lies between them.
     pub goes_on: bool,
 }
 
@@ -71,7 +71,8 @@ impl Cell {
 
     /// The largest z at a share of the cell.
     ///
-    /// Its reciprocal is a parabola: towards a place where the tool stands its limit grows beyond all bounds, and the reciprocal falls to zero as a parabola.
+    /// Its reciprocal is interpolated by a parabola: towards a place where the tool is at rest the limit grows without bound, and its reciprocal
+    /// falls to zero as a parabola.
     pub fn cap(&self, u: f64) -> f64 {
         if self.is_level() {
             return self.caps[0];
@@ -82,7 +83,7 @@ impl Cell {
         (w[0] * a + w[1] * b + w[2] * c).max(least).recip()
     }
 
-    /// Its slope by the way.
+    /// Slope of the largest z by the position.
     pub fn cap_slope(&self, u: f64) -> f64 {
         let cap = self.cap(u);
         if self.is_level() || !cap.is_finite() {
@@ -107,46 +108,46 @@ fn weights(u: f64) -> [f64; 3] {
     ]
 }
 
-/// The cells of a way.
+/// The cells of a path.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// One after another.
+    /// The cells, in order.
     pub cells: Vec<Cell>,
 }
 
-/// From where to where.
+/// The ends of a path.
 #[derive(Clone, Debug)]
 pub struct Ends {
     /// Position of the start (rad, or m).
     pub from: f64,
-    /// Length of the way.
+    /// Length of the path.
     pub length: f64,
-    /// Speeds at the start and at the end, along the way.
+    /// Speeds at the start and at the end, along the path.
     pub speeds: [f64; 2],
-    /// Distances from the start at which the machine is not smooth, inside the way.
+    /// Distances from the start, inside the path, at which the machine is not smooth.
     pub corners: Vec<f64>,
 }
 
 impl Ends {
-    /// Places closer than this are one.
+    /// Distance below which two places are one.
     fn near(&self) -> f64 {
         SAME * (self.from.abs() + self.length)
     }
 
-    /// How far inside a cell of this length the machine has the values of the cell's own side.
+    /// Distance from the border of a cell of this length at which the machine has the values of the cell's own side.
     pub fn inside(&self, length: f64) -> f64 {
         (INSIDE * length).max(self.near()).min(0.25 * length)
     }
 }
 
-/// The machine at a place, whatever the speed.
+/// The machine at a place, independent of the speed.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// The machine.
     pub place: Place,
-    /// The largest speed of the drive link that the tool leaves.
+    /// The largest speed of the drive link that the tool's limit allows.
     pub tool: f64,
-    /// The forces in joints that are limited.
+    /// The limited joint forces.
     pub forces: Vec<JointForce>,
 }
 
@@ -164,7 +165,7 @@ impl Seen {
     }
 }
 
-/// The machine along a way: it is worked out once at a place, for all cells that meet there and for all motions.
+/// The machine along a path: evaluated once for each place, for all cells that meet there and for all motions.
 #[derive(Debug)]
 pub struct Survey<'f, 'w, 'a> {
     /// Machine, drive and limits.
@@ -178,7 +179,7 @@ pub struct Survey<'f, 'w, 'a> {
 }
 
 impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
-    /// Of a way from a position on.
+    /// A survey of a path from a position on.
     pub fn new(field: &'f Field<'w, 'a>, from: f64) -> Self {
         Self {
             field,
@@ -198,7 +199,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
             .of(x.to_bits(), || Seen::new(self.field, position))
     }
 
-    /// The same with the largest z; the place lies inside a cell whose border is `border`.
+    /// The same with the largest z; the place lies inside a cell with this border.
     fn at(&self, x: f64, border: f64) -> Result<(Place, f64, Vec<JointForce>), Error> {
         let Seen {
             place,
@@ -207,7 +208,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
         } = self.seen(x)?;
         let cap = self.caps.of([x, border].map(f64::to_bits), || {
             if (x - border).abs() > 0.0 {
-                // What goes on beyond the border has no step there.
+                // A limit that continues beyond the border has no jump there.
                 let there = self.seen(border)?.tool;
                 if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
                     tool = there;
@@ -223,10 +224,10 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
 }
 
 impl Track {
-    /// About `count` cells, finer towards an end at rest, which also meet at the distances `finer`; none across a corner of the machine.
+    /// About `count` cells, finer towards an end at rest, with additional borders at the distances `finer`; no cell crosses a corner of the machine.
     ///
     /// # Errors
-    /// The mechanism cannot be placed somewhere on the way.
+    /// The mechanism cannot be placed somewhere on the path.
     pub fn new(survey: &Survey, ends: &Ends, count: usize, finer: &[f64]) -> Result<Self, Error> {
         let (nodes, is_edge) = nodes(ends, count, finer);
         let at = |x: f64, border: f64| survey.at(x, border);
@@ -291,7 +292,7 @@ fn nodes(ends: &Ends, count: usize, finer: &[f64]) -> (Vec<f64>, Vec<bool>) {
     all.into_iter().unzip()
 }
 
-/// The largest z up to `top` at which limits leave an acceleration, from the first one on at which they do.
+/// The end of the first range of z, up to `top`, in which limits leave an acceleration.
 fn ceiling(field: &Field, place: &Spot, top: f64) -> f64 {
     if !field.may_be_empty() {
         return top;
@@ -300,7 +301,7 @@ fn ceiling(field: &Field, place: &Spot, top: f64) -> f64 {
     let highest = if top.is_finite() {
         top
     } else {
-        // Without a limit of the speed: from slow motions on, to where none is left.
+        // Without a speed limit: from slow motions upwards until no acceleration is left.
         let slow = (1..=RISES).map(|k| place.inertia.recip() * RISE.powi(k));
         let Some(closed) = slow.take_while(|z| z.is_finite()).find(|z| !open(*z)) else {
             return top;

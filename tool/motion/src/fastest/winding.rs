@@ -1,16 +1,16 @@
-//! The fastest motion in which the motor's winding gets no warmer than a limit.
+//! The fastest motion in which the motor's winding stays within a temperature limit.
 //!
-//! The model is that of sizing and of the simulation ([`Model`]): winding and housing against the surroundings, with the copper's resistance at
-//! the temperature of the winding. In the steady periodic state, when the motion with its pauses repeats for ever, the greatest temperature of the
-//! cycle counts, its ripple included.
+//! The model is that of sizing and of the simulation ([`Model`]): winding and housing against the surroundings, with the copper's resistance at the
+//! winding's temperature. It uses the steady periodic state, when the motion with its pauses repeats endlessly, and takes the greatest temperature of
+//! the cycle, ripple included.
 //!
-//! A cycle that is short against the winding's time constant warms it by its mean losses alone, so that the limit is one of the RMS torque R.
-//! The greatest temperature rises with R: R is sought at which it is at its limit. The next R is always the one at which the last motion, with all its
-//! torques in one proportion, would reach the limit, ripple and growth of the resistance included; where that leaves the interval
-//! between what is too warm and what is not, its middle.
+//! A cycle that is short against the winding's time constant heats it by its mean losses only, so the limit becomes a limit of the RMS torque R. The
+//! greatest temperature rises with R, and a search finds the R at its limit. The next R is the one at which the last motion, with all torques scaled
+//! equally, would reach the limit, ripple and growth of the resistance included. Where it leaves the interval between too warm and cool enough, the
+//! midpoint is used.
 //!
-//! In a cycle that is long against the time constant R is sought in the same way, by the greatest temperature of the periodic state. The motion is
-//! then the fastest one with its RMS torque; another one that warms the winding otherwise over the cycle may be faster.
+//! For a cycle that is long against the time constant, the search uses the greatest temperature of the periodic state in the same way. The motion is
+//! then the fastest one with its RMS torque; another motion that distributes the heat differently over the cycle may be faster.
 
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -30,35 +30,35 @@ use crate::way::{Actuator, BothWays};
 /// Share of the allowed rise by which the greatest temperature may lie below its limit.
 const COOLER: f64 = 1e-4;
 
-/// Share of the RMS torque within which its limit is found, and within which it is known that no motion is cool enough.
+/// Relative accuracy of the limit of the RMS torque, and the one with which it is decided that no motion is cool enough.
 const FOUND: f64 = 1e-4;
 const COARSE: f64 = 0.02;
 
-/// Motions that are tried.
+/// Most motions that are tried.
 const TRIES: u32 = 24;
 
-/// Parts of a step of the motion between which the losses run in straight lines, at the least, and the most.
+/// Least and largest number of parts of a step, between which the losses are linear.
 const PARTS: [f64; 2] = [4.0, 4096.0];
 
 /// Longest part of a step as a share of the network's fastest time constant, for the mean temperature.
 const PART: f64 = 0.02;
 
-/// Within which a proportion of torques is sought.
+/// Accuracy of a proportion of torques.
 const PROPORTION: f64 = 1e-5;
 
 /// Least proportion of torques from one try to the next.
 const LEAST: f64 = 0.25;
 
-/// Why the temperature of a motor is not known.
+/// Why the temperature of a motor is unknown.
 #[derive(Clone, Copy, Debug)]
 pub enum Unknown {
-    /// Its model asks for data that are missing.
+    /// Its model needs data that are missing.
     Figures(Sentence),
-    /// The rise is known as a share of the rated one alone, and the winding's maximum temperature is not.
+    /// The rise is known only as a share of the rated rise, and the winding's maximum temperature is missing.
     RatedRise,
 }
 
-/// The motor of a drive as a body that gets warm.
+/// The motor of a drive as a thermal body.
 #[derive(Clone, Debug)]
 pub struct Winding {
     motor: Motor,
@@ -70,19 +70,19 @@ pub struct Winding {
 /// The temperatures (°C) of a winding in the steady periodic state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Temperatures {
-    /// The greatest; infinite where there is no bound.
+    /// The greatest temperature; infinite: unbounded.
     pub greatest: f64,
-    /// The mean over a cycle that repeats without end, and greatest less least; where they are followed.
+    /// The mean over an endlessly repeated cycle, and the difference of greatest and least, where they are computed.
     pub mean: Option<[f64; 2]>,
-    /// Over the time (s) of such a cycle.
+    /// The temperatures over the time (s) of such a cycle.
     pub course: Vec<(f64, f64)>,
-    /// What the model could use.
+    /// Data that the model used.
     pub heating: Heating,
     /// Whether winding and housing are one body.
     pub whole: bool,
 }
 
-/// A motion whose winding gets no warmer than a limit.
+/// A motion whose winding stays within a temperature limit.
 #[derive(Clone, Debug)]
 pub struct Cooled {
     /// The motion.
@@ -91,7 +91,7 @@ pub struct Cooled {
     pub temperatures: Temperatures,
     /// The limit (°C).
     pub limit: f64,
-    /// Where the limit binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    /// Where the limit is active: the duration (s) of the motion without it, and the resulting RMS torque (N·m).
     pub bound: Option<[f64; 2]>,
 }
 
@@ -111,7 +111,7 @@ impl Winding {
         self.surroundings.ambient
     }
 
-    /// The maximum temperature (°C) of the winding, if it is known.
+    /// The maximum temperature (°C) of the winding, if given.
     pub const fn maximum(&self) -> Option<f64> {
         self.motor.thermal.max_temperature
     }
@@ -121,12 +121,12 @@ impl Winding {
             .map_err(Unknown::Figures)
     }
 
-    /// Kelvin per rise of a model; thin air makes it more.
+    /// Kelvin per unit of a model's rise; thin air increases it.
     fn unit(&self, model: &Model) -> Result<f64, Unknown> {
         let rated = if matches!(model, Model::Relative { .. }) {
             let derated = self.motor.derated(&self.surroundings);
             let from = match derated.temperature {
-                // A share of one is the rise that the maker's factor leaves.
+                // A share of one is the rise after the maker's derating.
                 DeratingBasis::Maker => self.surroundings.ambient,
                 _ => REFERENCE,
             };
@@ -138,10 +138,10 @@ impl Winding {
         Ok(rated / self.surroundings.altitude_factor())
     }
 
-    /// Whether a temperature can be told.
+    /// Checks that a temperature can be computed.
     ///
     /// # Errors
-    /// What is missing.
+    /// The missing data.
     pub fn known(&self) -> Result<(), Unknown> {
         let model = self.model(1.0)?;
         let course = Course::new(&[], 1.0);
@@ -180,7 +180,7 @@ impl Winding {
         Ok(Course::new(&points, trace.duration()))
     }
 
-    /// The hottest rises of losses; at rest beside the cycle the motor gives `held` (N·m).
+    /// The hottest rises for losses; at rest beside the cycle the motor gives `held` (N·m).
     fn heating(&self, model: &Model, course: &Course, held: f64) -> Result<Heating, Unknown> {
         let held = match self.operation {
             Operation::Intermittent { holding: true, .. } => held,
@@ -199,10 +199,10 @@ impl Winding {
         }
     }
 
-    /// The temperatures of a motion, and the proportion of all its torques at which the greatest would be `limit` (°C).
+    /// The temperatures of a motion, and the factor for all its torques at which the greatest would be `limit` (°C).
     ///
     /// # Errors
-    /// Figures that are missing, or a place where the mechanism cannot be placed.
+    /// Data are missing, or the mechanism cannot be placed somewhere.
     pub fn temperatures(
         &self,
         file: &MachineFile,
@@ -230,7 +230,7 @@ impl Winding {
         let ambient = self.ambient();
         let shown = |(t, [winding, _]): (f64, [f64; 2])| (t, ambient + unit * winding);
         let periodic: Vec<(f64, f64)> = periodic.into_iter().flatten().map(shown).collect();
-        // The proportion lies between the one that is too warm and the one that is not.
+        // Bracket of the factor: cool enough, and too warm.
         let (mut low, mut high) = (0.0, 1.0);
         while greatest > limit && high - low > PROPORTION {
             let middle = 0.5 * (low + high);
@@ -252,7 +252,7 @@ impl Winding {
     }
 }
 
-/// Mean of a course over the time, and what its greatest value is above its least.
+/// Mean of a course over time, and the difference of its greatest and least value.
 fn mean(course: &[(f64, f64)], greatest: f64) -> Option<[f64; 2]> {
     let (first, last) = course.first().zip(course.last())?;
     let pairs = course.windows(2);
@@ -269,7 +269,7 @@ fn mean(course: &[(f64, f64)], greatest: f64) -> Option<[f64; 2]> {
 /// `at` makes the fastest motion under a limit of the RMS torque.
 ///
 /// # Errors
-/// Those of `at`, the number of a move with it; [`NoMotion::TooWarm`].
+/// Those of `at`, with the index of a move; [`NoMotion::TooWarm`].
 pub fn cooled(
     (winding, limit): (&Winding, f64),
     (file, actuator): (&MachineFile, &Actuator),
@@ -322,7 +322,7 @@ pub fn cooled(
                 } else {
                     low = next;
                     let near = limit - temperatures.greatest <= margin;
-                    // Copper's loss grows with the square of the torque.
+                    // Copper loss grows with the square of the torque.
                     let rise = temperatures.greatest - winding.ambient();
                     next *= ((aim - winding.ambient()) / rise).sqrt();
                     best = Some((cycle, temperatures));
@@ -331,14 +331,14 @@ pub fn cooled(
                     }
                 }
             }
-            // Slower motions than these are not found.
+            // Motions slower than this are not found.
             Err((_, NoMotion::RmsTooLarge { .. } | NoMotion::NotFound { .. })) => low = next,
             Err(why) => return Err(why),
         }
         if next <= low || next >= high {
             next = low.midpoint(high);
         }
-        // What is too warm everywhere need not be known so well.
+        // If every motion is too warm, less accuracy is enough.
         let near = if best.is_some() { FOUND } else { COARSE };
         if high - low <= near * high {
             break;

@@ -1,15 +1,15 @@
 //! A lower bound for all motions, by a verification function.
 //!
-//! For any functions P(u) and C(u) with P = C = 0 at ends at rest, and V = P·w + C·√w, every motion has
+//! For any functions P(u) and C(u) with P = C = 0 at ends at rest, and V = P·w + C·√w, every motion satisfies
 //!
 //! ```text
 //! ∫ h(u, w, w′) du ≥ ∫ inf over w > 0, w′ of [h + λ/√w − dV/du] du − λ·T + V(1) − V(0),   dV/du = P′·w + C′·√w + (P + C/(2√w))·w′
 //! ```
 //!
-//! because λ·∫du/√w = λ·T, and ∫dV/du du is known. This needs no convexity. It is equality for the right P, which at the optimum is the
-//! derivative of h by w′: it is taken from the motion found. C is free; with C = 0 the bound is the dual problem's of the convex case.
-//! Where λ < 0, as with a weight that must be held, C from the torque that holds the machine at rest makes the bound finite.
-//! The integral is that of the mesh; the infimum is that of straight lines in w′ and a search over w in a range of speeds of 1 : 10,000.
+//! because λ·∫du/√w = λ·T, and ∫dV/du du is known. This needs no convexity. Equality needs the right P, which at the optimum is the derivative of h
+//! by w′: it is taken from the solution. C is free; with C = 0 the bound is that of the dual problem in the convex case. Where λ < 0, as with a
+//! weight that must be held, C from the holding torque makes the bound finite. The integral uses the mesh. The infimum is over straight lines in w′,
+//! with a search over w in a range of speeds of 1 : 10,000.
 
 use std::convert::Infallible;
 
@@ -24,24 +24,24 @@ use pieces::pieces;
 
 mod pieces;
 
-/// Ends and thirds of an element, at which C is taken.
+/// Ends and thirds of an element, at which C is evaluated.
 const THIRDS: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
 
-/// w is looked for from this share of the motion's own on, in so many steps per power of ten, up to its inverse.
+/// w is searched from this share of the motion's own w up to its inverse, in n steps per power of ten.
 const RANGE: i32 = 4;
 const STEPS: i32 = 4;
 
 /// Steps of the search by the golden section.
 const GOLDEN: u32 = 40;
 
-/// A gap of this share of the cost cannot be closed further: it is that of the quadrature and of the search over w.
+/// Share of the cost below which a gap cannot be closed further, because of the quadrature and the search over w.
 const PROVED: f64 = 1e-9;
 
-/// A cost of this size, in the units of the problem, is rounding.
+/// A cost of this size, in the units of the problem, is rounding error.
 const NONE: f64 = 1e-20;
 
-/// The best of the bounds, in the units of the problem: of the problem that is meant, P from the one with rounded bends.
-/// `price` is λ: the multiplier found, or what waiting saves. `None`: what is more than the motion's own `cost` is no bound.
+/// The best of the bounds, in the units of the problem. The bound is of the exact problem, P of the one with rounded bends. `price` is λ: the
+/// multiplier found, or the saving by waiting. `None` if the result exceeds the motion's own `cost`, and so is not a bound.
 pub(super) fn value(
     problems: [&Problem; 2],
     (found, cost): (&Minimum, f64),
@@ -55,7 +55,7 @@ pub(super) fn value(
     if plain >= cost - close {
         return Ok(Some(plain));
     }
-    // With C the integral of dV/du is that of the mesh as well: where that is too coarse, there is the other one.
+    // With C the integral of dV/du also uses the mesh; where that is too coarse, the bound without C is left.
     let held = with(problems, found, price, 1.0)?;
     Ok(Some(if held > cost + close {
         plain
@@ -64,8 +64,7 @@ pub(super) fn value(
     }))
 }
 
-/// P and P′ at every station: P′ is what stationarity asks, and P its integral, which closes over a whole move because the
-/// motion found is stationary.
+/// P and P′ at every station: P′ from stationarity, and P its integral. Over a whole move the integral closes, because the solution is stationary.
 fn integrated(problem: &Problem, found: &Minimum) -> Vec<[f64; 2]> {
     let mesh = problem.mesh;
     let mut all = Vec::with_capacity(mesh.stations.len());
@@ -85,7 +84,7 @@ fn integrated(problem: &Problem, found: &Minimum) -> Vec<[f64; 2]> {
         }
         before += h * integral(&slopes, 1.0);
     }
-    // At an end at rest P is zero, elsewhere what fits best. What is left at the other end is rounding, and is spread over the way.
+    // At an end at rest P is zero, elsewhere it is the best fit. The remainder at the other end is rounding, and is spread over the path.
     let [starts, stops] = rests(mesh);
     if stops || mesh.is_ring() {
         for ([p, slope], station) in all.iter_mut().zip(&mesh.stations) {
@@ -137,7 +136,7 @@ fn integral(values: &[f64; GAUSS_5.len()], z: f64) -> f64 {
     sum
 }
 
-/// The bound with C of a share of the torque at rest.
+/// The bound with C from a share of the torque at rest.
 fn with(
     [problem, rounded]: [&Problem; 2],
     found: &Minimum,
@@ -151,12 +150,12 @@ fn with(
         for (index, element) in mesh.elements.iter().enumerate() {
             let [from, to] = element.span;
             for (k, z) in THIRDS.into_iter().enumerate() {
-                // From inside, so that the load is that of the element.
+                // Evaluated inside, so that the load is that of the element.
                 let u = from + (to - from) * z.clamp(1e-9, 1.0 - 1e-9);
                 all[index][k] = held * of_rest(problem, u)?;
             }
         }
-        // It is continuous, and zero at rest.
+        // C is continuous, and zero at rest.
         for k in 0..last {
             let middle = 0.5 * (all[k][3] + all[k + 1][0]);
             (all[k][3], all[k + 1][0]) = (middle, middle);
@@ -196,7 +195,7 @@ fn with(
             sum += mesh.stations[station].weight * least;
         }
     }
-    // V at the ends: of P·w the share with C cancels half of C·√w.
+    // V at the ends: the part of P·w from C cancels half of C·√w.
     if !mesh.is_ring() {
         let at = |index: usize, u: f64, p: f64, k: usize| {
             let [w, ..] = pace_at(mesh, &found.x, index, u);
@@ -248,7 +247,7 @@ fn cubic(values: &[f64; 4], z: f64, h: f64) -> [f64; 2] {
     [value, slope / h]
 }
 
-/// C for the torque that holds the machine at rest.
+/// C from the holding torque at rest.
 fn of_rest(problem: &Problem, u: f64) -> Result<f64, Fault> {
     let [g, slope, _] = problem.mesh.shape.at(u);
     let place = problem.place(g)?;
@@ -311,11 +310,11 @@ impl Line {
                 return f64::NEG_INFINITY;
             }
             let by_torque = price / piece.rise;
-            // Stationary with and without drawn power, and where the two meet.
+            // Stationary points with and without drawn power, and the point where the two meet.
             let quiet = 0.5 * by_torque * root;
             let drawing = 0.5 * (by_torque - problem.cost.drawn * slope) * root;
             for tau in [quiet.min(0.0), drawing.max(0.0), 0.0, quiet] {
-                // A piece as short as a rounding may end before it begins.
+                // A piece as short as a rounding error may end before it begins.
                 let tau = tau.max(piece.torques[0]).min(piece.torques[1]);
                 let a = piece.at + (tau - piece.start) / piece.rise;
                 least = least.min(cost(tau) - price * (a - free));

@@ -1,11 +1,11 @@
-//! What a motion costs, over the time: powers of the torque, or copper loss and drawn power.
+//! The cost of a motion per time: powers of the torque, or copper loss and drawn power.
 
-/// The integrand over the time, in shares of a torque and a time of the move: c(τ) + m·max(τ, 0)·dθ/dt.
+/// The integrand over time, in units of a torque and a time of the move: c(τ) + m·max(τ, 0)·dθ/dt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     /// |τ| to this power.
     pub(super) power: i32,
-    /// m, by the way of the motor per way of the drive link.
+    /// m, in motor travel per travel of the drive link.
     pub(super) drawn: f64,
     /// Range of τ over which the bend of max(τ, 0) is rounded.
     pub(super) rounding: f64,
@@ -23,7 +23,7 @@ impl Cost {
         ]
     }
 
-    /// The same of max(τ, 0), its bend a hyperbola.
+    /// The same for max(τ, 0), its bend rounded by a hyperbola.
     pub(super) fn drawn(&self, torque: f64) -> [f64; 3] {
         if self.drawn == 0.0 {
             return [0.0; 3];

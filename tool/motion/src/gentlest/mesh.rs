@@ -1,8 +1,8 @@
 //! Elements and stations of a move: w(u), the square of the pace, in cubic pieces.
 //!
-//! With s = D·g(u) the way, v = D·g′·√w and a = D·(g″·w + ½·g′·w′): both w and w′ enter the acceleration and the square of the speed in
-//! straight lines, so that what is convex in v² and a stays convex in the unknowns. w and its slope are continuous, but at an edge of a
-//! load or a cam, where the acceleration jumps: there each side has a slope of its own.
+//! With the path s = D·g(u), v = D·g′·√w and a = D·(g″·w + ½·g′·w′). The acceleration and the squared speed are linear in w and w′, so a function
+//! that is convex in v² and a stays convex in the unknowns. w and its slope are continuous, except at an edge of a load or a cam, where the
+//! acceleration jumps: there each side has its own slope.
 
 use jred::Error;
 use jred_machine::number::quadrature::GAUSS_5;
@@ -26,17 +26,17 @@ pub(super) struct Station {
     pub(super) element: usize,
     /// u
     pub(super) u: f64,
-    /// In the integral over u.
+    /// Weight in the integral over u.
     pub(super) weight: f64,
     pub(super) place: Place,
     /// D·g′, D·g″
     pub(super) path: [f64; 2],
-    /// What the four values give to w, and to w′.
+    /// Coefficients of the four values in w, and in w′.
     pub(super) basis: [[f64; 4]; 2],
 }
 
 impl Station {
-    /// Speed and acceleration with w and w′, in a move of this duration (s).
+    /// Speed and acceleration for w and w′, in a move of this duration (s).
     pub(super) fn state(&self, [w, change]: [f64; 2], duration: f64) -> [f64; 2] {
         let [slope, bend] = self.path;
         [
@@ -51,17 +51,18 @@ impl Station {
 pub(super) struct Mesh {
     pub(super) shape: Shape,
     pub(super) elements: Vec<Element>,
-    /// Parts of the elements, each with Gauss points of its own: the element and its span.
+    /// Parts of the elements, each with its own Gauss points: the element and its span.
     pub(super) cells: Vec<(usize, [f64; 2])>,
     pub(super) stations: Vec<Station>,
     pub(super) unknowns: usize,
     ring: bool,
 }
 
-/// How a ramp rises: ever more slowly, as the acceleration of the laws does, in straight lines through these shares of its length and height.
+/// Form of a ramp: it rises ever more slowly, as the acceleration of the laws does, linearly through these [share of its length, share of its
+/// height].
 const RISE: [[f64; 2]; 1] = [[0.5, 0.75]];
 
-/// How the slopes at a node are.
+/// Slopes at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Node {
     /// One slope.
@@ -70,7 +71,7 @@ enum Node {
     Edge,
 }
 
-/// The elements of a motion whose acceleration is continuous: the ramps, and between them as many as are about as long as the ramp that is asked for.
+/// Elements of a motion with continuous acceleration: the ramps, and between them elements about as long as the requested ramp.
 fn ramped([first, last]: [f64; 2], asked: f64) -> Vec<(f64, Node)> {
     let between = 1.0 - first - last;
     let count = (1.0 / asked - 2.0).round().max(2.0);
@@ -80,8 +81,8 @@ fn ramped([first, last]: [f64; 2], asked: f64) -> Vec<(f64, Node)> {
 }
 
 impl Mesh {
-    /// About `parts` elements for a move, or, where the acceleration is continuous, so many cells of the quadrature; `edges` are the
-    /// shares of the way at which a load begins or ends.
+    /// About `parts` elements for a move, or as many cells of the quadrature where the acceleration is continuous. `edges` are the shares of the path
+    /// at which a load begins or ends.
     pub(super) fn new(
         place: impl Fn(f64) -> Result<Place, Error>,
         travel: &Travel,
@@ -150,14 +151,14 @@ impl Mesh {
         self.elements[element].values.map(|value| value.of(x))
     }
 
-    /// Whether w is greater than zero between all stations as well, and nowhere less.
+    /// Whether w is positive between all stations, too.
     pub(super) fn moves(&self, x: &[f64]) -> bool {
         let mut elements = self.elements.iter().enumerate();
         elements.all(|(index, element)| {
             let [from, to] = element.span;
             let [start, slope, end, last] = self.values(x, index);
             let (slope, last) = (slope * (to - from), last * (to - from));
-            // w = start + slope·z + c₂·z² + c₃·z³, and where its slope is zero.
+            // w = start + slope·z + c₂·z² + c₃·z³, and the zeros of its slope.
             let c2 = 3.0 * (end - start) - 2.0 * slope - last;
             let c3 = 2.0 * (start - end) + slope + last;
             let root = c2 * c2 - 3.0 * c3 * slope;
@@ -174,7 +175,7 @@ impl Mesh {
         })
     }
 
-    /// The unknowns of a function of u with its slope.
+    /// The unknowns of a function of u and its slope.
     pub(super) fn sample(&self, f: impl Fn(usize, f64) -> [f64; 2]) -> Vec<f64> {
         let mut x = vec![0.0; self.unknowns];
         for (index, element) in self.elements.iter().enumerate() {
@@ -189,7 +190,7 @@ impl Mesh {
         x
     }
 
-    /// The matrix of the unknowns, bordered by one row for the time.
+    /// An empty matrix over the unknowns, bordered by one row for the time.
     pub(super) fn matrix(&self) -> Skyline {
         let elements = self.elements.iter();
         let mut first = first_columns(self.unknowns, elements.map(|element| &element.values[..]));
@@ -220,7 +221,7 @@ fn nodes(mut marks: Vec<f64>, parts: usize) -> Vec<(f64, Node)> {
     nodes
 }
 
-/// The elements cut at the nodes of a finer row.
+/// The elements cut at the nodes of a finer mesh.
 fn cells(elements: &[Element], fine: &[(f64, Node)]) -> Vec<(usize, [f64; 2])> {
     let mut cells = Vec::new();
     for (index, element) in elements.iter().enumerate() {
@@ -264,7 +265,7 @@ fn elements(
             continue;
         }
         if let Some(end) = end.filter(|end| !ends.rest[*end]) {
-            // At an end that moves, the speed is given, and with ramps the acceleration.
+            // At a moving end the speed is given, and with ramps the acceleration.
             let [_, slope, bend] = shape.at(*u);
             let per_way = travel.duration / travel.distance.abs();
             let pace = travel.speeds[end] * per_way / slope;
@@ -282,7 +283,7 @@ fn elements(
         let is_ramp = |end: usize| ends.ramp > 0.0 && ends.rest[end];
         let mut of_ramp = of_ramp.into_iter();
         if let Some((_, border, end)) = of_ramp.find(|(near, _, end)| *near && is_ramp(*end)) {
-            // In a ramp the pace is even, as fast as it takes its share of the time.
+            // In a ramp the pace is constant, from the share of the time that the ramp takes.
             let length = (nodes[border].0 - end as f64).abs();
             let pace = length / ends.ramp;
             all.push([level, Value::Fixed(pace * pace), level]);

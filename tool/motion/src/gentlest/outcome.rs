@@ -1,4 +1,4 @@
-//! What a solved move comes to: its cost with the wait, what is known of the optimum, and the motion.
+//! The result for a solved move: its cost with the wait, the quality of the optimum, and the motion.
 
 use jred::machine::motion::{End, Polynomial};
 use jred_machine::model::motion::Phase;
@@ -10,11 +10,11 @@ use super::solve;
 use super::task::{Solved, Stage};
 use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, bound};
 
-/// Where the motion waits because that costs less than to move slowly.
+/// A wait that costs less than moving slowly.
 pub(super) struct Waits {
     duration: f64,
     at_end: bool,
-    /// Torque that holds the machine there (N·m).
+    /// Holding torque there (N·m).
     torque: f64,
 }
 
@@ -24,7 +24,7 @@ impl Waits {
         Self {
             duration,
             at_end,
-            // At an end that moves nothing is held, and it never waits.
+            // At a moving end nothing is held: it never waits.
             torque: if duration > 0.0 {
                 held[usize::from(at_end)]
             } else {
@@ -35,7 +35,7 @@ impl Waits {
 }
 
 impl Solved<'_> {
-    /// The result, with the share by which the cost changed with the last mesh, and a lower bound if that is wanted.
+    /// The result, with the relative change of the cost at the last mesh, and a lower bound on request.
     pub(super) fn finish(self, change: f64, waits: &Waits, prove: bool) -> Result<Gentle, Fault> {
         let Self {
             task,
@@ -46,7 +46,7 @@ impl Solved<'_> {
             found,
         } = self;
         let way = task.way;
-        // What is meant, without rounding.
+        // The exact problem, without rounding.
         let exact = Stage {
             range: 0.0,
             cost: Cost {
@@ -57,7 +57,7 @@ impl Solved<'_> {
         let rounded = task.problem(&mesh, moving, &scale, &stage);
         let problem = task.problem(&mesh, moving, &scale, &exact);
         let cost = problem.value(&found.x).ok_or(Fault::NotFound)?;
-        // In N²·m²·s, J; of the peak in s.
+        // In N²·m²·s or J; for the peak in s.
         let size = match task.objective {
             Objective::Rms => scale.unit * scale.unit,
             Objective::Energy { copper } => copper * scale.unit * scale.unit,
@@ -67,7 +67,7 @@ impl Solved<'_> {
         let held = size * holding * waits.duration;
         let viscous = mesh.stations.iter().any(|s| s.place.viscous > 0.0)
             || way.actuator.coefficients.0[3] > 0.0;
-        // Of a wait that costs nothing the multiplier is zero.
+        // A wait that costs nothing has a multiplier of zero.
         let waiting = waits.duration > 0.0;
         let multiplier = if waiting { -holding } else { found.multiplier };
         let whole = task.travel.ends().ramp == 0.0;
@@ -75,12 +75,12 @@ impl Solved<'_> {
         if prove && whole && task.objective != Objective::Peak {
             let value = bound::value([&problem, &rounded], (&found, cost), multiplier)?;
             refuted = value.is_none();
-            // One that is negative says nothing.
+            // A negative bound carries no information.
             let value = value.map(|value| size * moving * value + held);
             bound = value.filter(|bound| *bound >= 0.0);
         }
         let cost = size * moving * cost + held;
-        // Above it by rounding at most: more is refuted.
+        // It may exceed the cost by rounding; more is refuted.
         let bound = bound.map(|bound| bound.min(cost));
         let bends = way.bends();
         let convex = !viscous && !bends && !refuted && multiplier >= -1e-9 * found.cost;
@@ -101,9 +101,9 @@ impl Solved<'_> {
         } else {
             Optimum::Local(Reason::Bound)
         };
-        // The mean of any power is no more than the peak.
+        // The mean of any power is at most the peak.
         let peak = found.cost.powf(1.0 / f64::from(stage.cost.power)) * scale.unit;
-        // Of all motions, not of those with ramps of one form or with a wait.
+        // Valid for all motions, not for motions with a given ramp or with a wait.
         let of_all = task.objective == Objective::Peak && whole && !waiting;
         let least_peak = (of_all && proved).then_some(peak);
         let mut phases = phases(task.travel.distance, moving, &mesh, &found.x);
@@ -137,13 +137,13 @@ impl Solved<'_> {
     }
 }
 
-/// How far a polynomial may be off halfway, in positions as a share of the way and in speeds as a share of the mean speed.
+/// Allowed error of a polynomial at half its time, for positions as a share of the path, for speeds as a share of the mean speed.
 const OFF: f64 = 1e-8;
 
-/// How often a cell is halved at most.
+/// Most halvings of a cell.
 const HALVINGS: u32 = 16;
 
-/// The motion as polynomials of fifth degree, one for each cell; more where the machine slows down so much in a cell that one is none.
+/// The motion as polynomials of fifth degree, one for each cell; more where the machine slows down so much within a cell that one is not enough.
 fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     let mut parts = Vec::with_capacity(mesh.cells.len());
     for &(index, ends) in &mesh.cells {
@@ -159,7 +159,7 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
             }
         }
     }
-    // With smaller parts the integral of the time is another.
+    // With smaller parts the integral of the time changes.
     let time: f64 = parts.iter().map(|part| part.time).sum();
     let phase = |part: &Part| {
         let [first, last] = part.states.map(|[_, speed, acceleration]| {
@@ -179,7 +179,7 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     parts.iter().map(phase).collect()
 }
 
-/// A cell or a part of it: shares of the way and of the time.
+/// A cell or a part of it: shares of the path and of the time.
 struct Part {
     time: f64,
     /// Position, speed and acceleration at both ends.
@@ -204,7 +204,7 @@ impl Part {
         }
     }
 
-    /// Whether the polynomial from end to end goes where its halves do.
+    /// Whether the polynomial from end to end agrees with its halves.
     fn meets(&self, [first, second]: [&Self; 2]) -> bool {
         let [[start, v, a], [end, w, b]] = self.states;
         let polynomial =

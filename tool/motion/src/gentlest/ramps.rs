@@ -1,29 +1,29 @@
-//! Ramps: the acceleration rises from zero at rest to its first peak in the share of the time that is asked for.
+//! Ramps: the acceleration rises from zero at rest to its first peak in the given share of the time.
 //!
-//! In the pieces at the ends that rest the pace is even, so that the acceleration rises there as the path bends ([`super::mesh`]), over exactly that share of the
-//! time. What is left to choose is how high it rises: it goes with the length of the piece along the path, which is sought. At an end that moves the piece
-//! is as long as it takes so much time.
+//! In the pieces at ends at rest the pace is constant, so the acceleration rises as the path bends ([`super::mesh`]), over exactly that share of the
+//! time. How high it rises depends on the length of the piece along the path, which is found by a search. At a moving end the piece is as long as
+//! that share of the time requires.
 
 use jred_machine::number::quadrature::GAUSS_5;
 
 use super::task::{Solved, Start, Task};
 use super::{FIRST, Fault, solve};
 
-/// Lengths of the pieces: the longest, and how often that of an end that moves is corrected.
+/// Lengths of the pieces: the longest, and the number of corrections at a moving end.
 const LONGEST: f64 = 0.45;
 const CORRECTED: u32 = 4;
 
-/// Change of a length, as its logarithm, with which the search begins and ends.
+/// Change of a length, as its logarithm, at the start and at the end of the search.
 const CHANGES: [f64; 2] = [0.4, 0.01];
 
-/// Share of its first peak that the acceleration must have reached when the ramp ends, how much dearer a motion counts by the share that it lacks, and places
-/// behind the ramp at which that is looked at.
+/// Share of its first peak that the acceleration must have reached at the end of the ramp, the penalty per missing share, and the number of places
+/// behind the ramp at which it is checked.
 const REACHED: f64 = 0.9;
 const PENALTY: f64 = 10.0;
 const PLACES_BEHIND: u32 = 32;
 
 impl<'a> Task<'a> {
-    /// The same with the best pieces for the ramp that is asked for, for a motion that moves for so long (s).
+    /// The same task with the best pieces for the requested ramp, for a motion with this time in motion (s).
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -49,10 +49,10 @@ impl<'a> Task<'a> {
         task.highest(moving, rest)
     }
 
-    /// With lengths of the pieces at rest, each changed by smaller and smaller factors as long as that costs less.
+    /// Varies the lengths of the pieces at rest by smaller and smaller factors as long as that lowers the cost.
     fn highest(self, moving: f64, rest: [bool; 2]) -> Result<Task<'a>, Fault> {
         let mut best = (f64::INFINITY, self.ramps);
-        // Each search begins with the solution before: neighbours differ little.
+        // Each solution starts from the one before: neighbours differ little.
         let mut start: Option<Start> = None;
         let mut at = |ramps: [f64; 2]| -> Result<f64, Fault> {
             if ramps.iter().any(|ramp| *ramp > LONGEST) {
@@ -72,7 +72,7 @@ impl<'a> Task<'a> {
         };
         best.0 = at(best.1)?;
         if best.0.is_infinite() {
-            // In a time in which the machine would crawl no motion is found, whatever its ramps.
+            // In a time in which the machine would crawl no motion is found, whatever the ramps.
             return Ok(Task {
                 ramps: best.1,
                 ..self
@@ -81,7 +81,7 @@ impl<'a> Task<'a> {
         let mut change = CHANGES[0];
         while change > CHANGES[1] {
             let mut moved = false;
-            // Both together, and each alone.
+            // Both together, then each alone.
             for which in [[true; 2], [true, false], [false, true]] {
                 if which
                     .iter()
@@ -116,13 +116,13 @@ impl<'a> Task<'a> {
 }
 
 impl Solved<'_> {
-    /// What is least, in units that do not depend on the mesh.
+    /// The objective, in units independent of the mesh.
     fn figure(&self) -> f64 {
         let power = f64::from(self.stage.cost.power);
         self.found.cost.max(0.0).powf(1.0 / power) * self.scale.unit
     }
 
-    /// Share by which the acceleration rises too far in the piece behind a ramp.
+    /// Relative excess of the acceleration in the piece behind a ramp.
     fn beyond(&self, end: usize) -> f64 {
         let last = self.mesh.elements.len() - 1;
         let element = if end == 0 { 1 } else { last - 1 };

@@ -1,27 +1,27 @@
-//! How large a move is: the unit of its numbers, and the load of which bends are rounded over a share.
+//! Scales of a move: the unit of its numbers, and the load of which a share rounds the bends.
 //!
-//! Both are taken from an even pace along the path, w = 1. At an end that moves the pace is another one; what the change to it takes is
-//! added. Whether the torque bends at all is the machine's: [`Way::bends`].
+//! Both come from a constant pace along the path, w = 1. At a moving end the pace differs; the effort for that change is added. Whether the torque
+//! bends at all depends on the machine: [`Way::bends`].
 
 use super::mesh::Mesh;
 use super::{Fault, Travel};
 use crate::collocation::torque::Torque;
 use crate::way::Way;
 
-/// Sizes of a move in a time.
+/// Scales of a move in a given time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
-    /// Torque of the motor (N·m) that is one in the numbers of the search: about the RMS torque.
+    /// Unit of the motor torque in the search (N·m): about the RMS torque.
     pub(super) unit: f64,
-    /// About the largest load at the drive link (N·m), without Coulomb friction, which never changes. Zero: nothing resists but that.
+    /// About the largest load at the drive link (N·m), without Coulomb friction, which is constant. Zero: nothing else resists.
     pub(super) load: f64,
 }
 
 impl Scale {
-    /// Of a move on a mesh.
+    /// Scales of a move on a mesh.
     ///
     /// # Errors
-    /// A torque that is not finite, or nothing that moves has inertia.
+    /// A torque is not finite, or nothing in motion has inertia.
     pub(super) fn new(way: &Way, travel: &Travel, mesh: &Mesh) -> Result<Self, Fault> {
         let change = change(travel);
         let (mut squares, mut load) = (0.0, 0.0f64);
@@ -49,8 +49,8 @@ impl Scale {
     }
 }
 
-/// The largest acceleration (rad/s², or m/s²) with which the way takes the time between the speeds at its ends, if it is a straight line
-/// over the time; zero where no speed is given.
+/// The largest acceleration (rad/s², or m/s²) of a motion with acceleration linear in time that covers the path in the time with the given end
+/// speeds; zero if no end moves.
 fn change(travel: &Travel) -> f64 {
     let ends = travel.ends();
     if ends.ring || ends.rest == [true; 2] {

@@ -1,7 +1,7 @@
 //! Newton's method for the unknowns of a mesh: least cost in a given time.
 //!
-//! Minimise Σ weight·[c(τ)/√w + m·max(τ, 0)·s′] subject to Σ weight/√w = 1 (w in units of 1/T²). Each step solves the bordered system
-//! of Lagrange's function; then all w are scaled so that the time is met exactly, and the step is halved until the cost falls.
+//! Minimise Σ weight·[c(τ)/√w + m·max(τ, 0)·s′] subject to Σ weight/√w = 1 (w in units of 1/T²). Each step solves the bordered system of the
+//! Lagrangian. Then all w are scaled to meet the time exactly, and the step is halved until the cost falls.
 
 use super::cost::Cost;
 use super::mesh::Mesh;
@@ -16,14 +16,14 @@ const STEPS: u32 = 200;
 /// Most halvings of a step.
 const HALVINGS: u32 = 40;
 
-/// Share of the cost that a step must still promise.
+/// Smallest promised saving of a step, as a share of the cost.
 const PROMISE: f64 = 1e-14;
 
-/// A step that lowers the cost by a smaller share than this gains nothing; after so many in a row the search ends.
+/// A step that lowers the cost by less than this share gains nothing; the search ends after several in a row.
 const IDLE: f64 = 1e-12;
 const MOST_IDLE: u32 = 3;
 
-/// What is minimised.
+/// The problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
     pub(super) way: &'a Way<'a>,
@@ -35,7 +35,7 @@ pub(super) struct Problem<'a> {
     pub(super) cost: Cost,
     /// Load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
-    /// Length of the way, and where it starts and goes to.
+    /// Length of the path, and its start and signed distance.
     pub(super) length: f64,
     pub(super) course: [f64; 2],
 }
@@ -45,9 +45,9 @@ pub(super) struct Problem<'a> {
 pub(super) struct Minimum {
     pub(super) x: Vec<f64>,
     pub(super) cost: f64,
-    /// What a unit of time costs at the margin; Lagrange's multiplier.
+    /// Marginal cost of a unit of time: the Lagrange multiplier.
     pub(super) multiplier: f64,
-    /// Whether Newton's method came to its end.
+    /// Whether Newton's method converged.
     pub(super) converged: bool,
 }
 
@@ -58,13 +58,13 @@ struct Gradients {
 }
 
 impl Problem<'_> {
-    /// The machine at a share of the way.
+    /// The machine at a share of the path.
     pub(super) fn place(&self, share: f64) -> Result<Place, Error> {
         let [start, distance] = self.course;
         self.way.place(start + distance * share)
     }
 
-    /// From unknowns that may miss the time.
+    /// The minimum, from unknowns that need not meet the time.
     pub(super) fn minimise(&self, start: &[f64]) -> Option<Minimum> {
         let mut x = self.in_time(start.to_vec())?;
         let mut cost = self.value(&x)?;
@@ -98,7 +98,7 @@ impl Problem<'_> {
                 share *= 0.5;
             }
             let Some((moved, value)) = better else {
-                // Nothing is left but rounding.
+                // Only rounding is left.
                 converged = promise.abs() <= 1e-9 * cost.abs();
                 break;
             };
@@ -122,12 +122,12 @@ impl Problem<'_> {
         })
     }
 
-    /// Newton's step; the matrix is stiffened until it bends upward in every direction that keeps the time.
+    /// Newton's step. The matrix is stiffened until it is positive in every direction that keeps the time.
     fn step(&self, x: &[f64], gradients: &Gradients, multiplier: f64) -> Option<Vec<f64>> {
         let n = self.mesh.unknowns;
         let mut matrix = self.mesh.matrix();
         let mut stiffness = 1e-13;
-        // A negative multiplier bends Lagrange's function down: what is left without it is convex, but for friction and losses.
+        // A negative multiplier makes the Lagrangian concave. Without its part the rest is convex, except for friction and losses.
         let mut share = 1.0;
         loop {
             matrix.clear();
@@ -168,14 +168,14 @@ impl Problem<'_> {
         }
     }
 
-    /// The unknowns scaled to the time 1. `None`: w is not greater than zero somewhere.
+    /// The unknowns scaled to the time 1; `None` if w is not positive everywhere.
     fn in_time(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
         for _ in 0..60 {
             let time = self.time(&x)?;
             if (time - 1.0).abs() < 1e-15 {
                 break;
             }
-            // Exact unless speeds at the ends are given.
+            // Exact unless end speeds are given.
             let scale = if self.is_free() {
                 time * time
             } else {
@@ -202,7 +202,7 @@ impl Problem<'_> {
             .any(|e| e.values.iter().any(fixed))
     }
 
-    /// Σ weight/√w. `None`: w is not greater than zero somewhere.
+    /// Σ weight/√w; `None` if w is not positive everywhere.
     pub(super) fn time(&self, x: &[f64]) -> Option<f64> {
         if !self.mesh.moves(x) {
             return None;
@@ -218,7 +218,7 @@ impl Problem<'_> {
         Some(time)
     }
 
-    /// How the time changes when the unknowns are scaled.
+    /// Slope of the time when all unknowns are scaled.
     fn time_slope(&self, x: &[f64]) -> f64 {
         let gradients = self.gradients(x);
         inner(&gradients.time, x)
@@ -276,7 +276,7 @@ impl Problem<'_> {
         gradients
     }
 
-    /// Second derivatives of Lagrange's function.
+    /// Second derivatives of the Lagrangian.
     fn curvature(&self, x: &[f64], multiplier: f64, add: &mut impl FnMut(usize, usize, f64)) {
         for index in 0..self.mesh.stations.len() {
             let local = self.local(x, index);
@@ -289,7 +289,7 @@ impl Problem<'_> {
                     let (Value::Free(i), Value::Free(j)) = (row, column) else {
                         continue;
                     };
-                    // Of a pair of different values each order comes once; both are the one entry of the lower half.
+                    // Both orders of a pair of values occur; together they are one entry of the lower half.
                     if i < j {
                         continue;
                     }
@@ -301,7 +301,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Lagrange's function at a station by w and by w′, per u.
+    /// Derivatives of the Lagrangian at a station by w and by w′, per u.
     pub(super) fn pull(&self, x: &[f64], index: usize, multiplier: f64) -> [f64; 2] {
         let local = self.local(x, index);
         let weight = self.mesh.stations[index].weight;
@@ -323,7 +323,7 @@ impl Problem<'_> {
         let root = w.sqrt();
         let speed_by_root = slope / self.duration;
         let rate = self.way.actuator.coefficients.0[3] * self.way.file.drive_train.ratio().abs();
-        // By the load R, the acceleration, and the speed directly.
+        // Derivatives by the load R, the acceleration, and the speed directly.
         let load_w = 0.5 * place.inertia_slope * speed_by_root * speed_by_root
             + place.viscous * speed_by_root / (2.0 * root);
         let [acc_w, acc_c] = [bend / t2, 0.5 * slope / t2];
@@ -367,7 +367,7 @@ impl Problem<'_> {
     }
 }
 
-/// At one station: cost by w and w′; time by w, once and twice; cost twice (upper half).
+/// Derivatives at one station: cost by w and w′; time by w, first and second; second derivatives of the cost (upper half).
 struct Local {
     slope: [f64; 2],
     time: [f64; 2],

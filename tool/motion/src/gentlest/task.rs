@@ -1,4 +1,4 @@
-//! A move solved on one mesh after another, in numbers of its own.
+//! A move solved on successive meshes, in scaled numbers.
 
 use std::rc::Rc;
 
@@ -12,26 +12,26 @@ use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
 use crate::memo::Memo;
 use crate::way::{Place, Way};
 
-/// Most steps down to times that are too short, the factor of each, how many of them are looked at, and halvings after that.
+/// Search for the best time: most steps down to times that are too short, the factor of each, the number of evaluations, and halvings after that.
 const LONGEST: u32 = 60;
 const STEP: f64 = 0.8;
 const SHORTS: u32 = 4;
 const HALVINGS: u32 = 24;
 
-/// Share to which the time is found.
+/// Relative accuracy of the time.
 const CLOSE: f64 = 1e-7;
 
-/// Ranges of the loads over which bends are rounded, one after another, as shares of the largest load.
+/// Successive ranges of the loads over which bends are rounded, as shares of the largest load.
 const RANGES: [f64; 2] = [1e-1, 1e-2];
 
-/// The least power whose mean stands for the peak.
+/// The least power whose mean approximates the peak.
 const LEAST_POWER: i32 = 8;
 
-/// Ranges of the torque over which the bend of the drawn power is rounded, one after another, as shares of the torque's unit.
+/// Successive ranges of the torque over which the bend of the drawn power is rounded, as shares of the torque's unit.
 const ROUNDINGS: [f64; 3] = [1e-1, 1e-2, 1e-3];
 
-/// Where power is drawn the least energy may lie in a bend for long, as a motion that coasts does: there both are rounded less in the end, if
-/// the search comes to an end so.
+/// The least energy may stay in a bend for long, as a coasting motion does. With drawn power both are therefore rounded less at the end, if the
+/// search still converges.
 const SHARP: [f64; 2] = [1e-3, 1e-4];
 
 /// The square of the torque.
@@ -41,7 +41,7 @@ const PLAIN: Cost = Cost {
     rounding: 0.0,
 };
 
-/// Shares of the way at which a load begins or ends or a cam's segments meet, without its ends.
+/// Shares of the path, without its ends, at which a load begins or ends or a cam's segments meet.
 pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
     let machine = &way.file.machine;
     let mut shares = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
         let turn = std::f64::consts::TAU;
         let [low, high] = [0.0, travel.distance].map(|way| (travel.start + way - edge) / turn);
         let (first, last) = (low.min(high).floor() as i64, low.max(high).ceil() as i64);
-        // More passages than elements are no places to cut at.
+        // With more passages than elements, no cuts.
         for k in (first..=last).take(MOST) {
             shares.push(share(edge + k as f64 * turn));
         }
@@ -63,10 +63,10 @@ pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
     shares
 }
 
-/// The unknowns of a finer mesh.
+/// The unknowns interpolated on a finer mesh.
 fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
     finer.sample(|element, u| {
-        // From inside the finer element, so that an edge has the slope of its own side.
+        // Evaluated inside the finer element, so that an edge has the slope of its own side.
         let [from, to] = finer.elements[element].span;
         let inside = 0.5 * (from + to);
         let at = mesh.elements.partition_point(|e| e.span[1] <= inside);
@@ -83,13 +83,13 @@ pub(super) struct Task<'a> {
     pub(super) travel: &'a Travel,
     pub(super) objective: Objective,
     pub(super) edges: Vec<f64>,
-    /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it begins and ends with a jump.
+    /// Shares of the path's parameter over which the acceleration rises at the start and falls at the end; 0: it jumps.
     pub(super) ramps: [f64; 2],
-    /// The machine where it was needed before: in another time the places are the same.
+    /// The machine at places evaluated before: another time needs the same places.
     pub(super) places: Rc<Memo<u64, Place>>,
 }
 
-/// One of the problems that are solved one after another, the last of which is meant.
+/// One of the problems that are solved in succession; the last is the exact goal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stage {
     pub(super) cost: Cost,
@@ -98,7 +98,7 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// Whether its roundings are the last but the sharp ones.
+    /// Whether its rounding is the last but the sharp one.
     fn is_narrow(&self) -> bool {
         self.cost.rounding <= ROUNDINGS[2] && self.range <= RANGES[1]
     }
@@ -115,7 +115,7 @@ pub(super) struct Solved<'t> {
     pub(super) found: Minimum,
 }
 
-/// A solution of the same time or another, on another mesh, with which a search begins.
+/// A solution of the same or another time, on another mesh, as the start of a search.
 #[derive(Clone)]
 pub(super) struct Start {
     moving: f64,
@@ -125,7 +125,7 @@ pub(super) struct Start {
 }
 
 impl Solved<'_> {
-    /// It as the start of another search.
+    /// The solution as the start of another search.
     pub(super) fn start(&self) -> Start {
         Start {
             moving: self.moving,
@@ -137,8 +137,8 @@ impl Solved<'_> {
 }
 
 impl Task<'_> {
-    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: what friction holds is not deducted. Infinite at an
-    /// end that moves: there it cannot wait.
+    /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: friction is not deducted. Infinite at a moving
+    /// end, where it cannot wait.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
         let rest = self.travel.ends().rest;
         let torque = |end: usize, phi: f64| {
@@ -154,16 +154,16 @@ impl Task<'_> {
         Ok([torque(0, start)?, torque(1, start + distance)?])
     }
 
-    /// The motion in the time after which waiting is better than to go on moving: where a second more costs what holding costs.
+    /// The motion in the time beyond which waiting is better than moving: one more second of motion costs as much as a second of holding.
     pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
         let is_short = |solved: &Solved| solved.cost_above_holding(held) <= 0.0;
-        // Down to times that are too short, where there is one motion only: in a long time it may be caught where it crawls.
+        // Down to times that are too short, where only one motion exists: in a long time the search may be caught in a crawling one.
         let mut time = self.travel.duration;
         let mut last: Option<Solved> = None;
         let mut shorts = 0;
         for _ in 0..LONGEST {
             time *= STEP;
-            // A short one is no crawling one.
+            // A short one is not a crawling one.
             let start = last.as_ref().map(Solved::start);
             let solved = self.solve(time, FIRST, start.as_ref())?;
             let short = solved.filter(is_short);
@@ -176,7 +176,7 @@ impl Task<'_> {
         let Some(mut found) = last else {
             return Err(Fault::NotFound);
         };
-        // Up from there, and then between.
+        // Up from there, then bisection.
         let mut high = self.travel.duration;
         let mut is_bracketed = false;
         for _ in 0..LONGEST + HALVINGS {
@@ -200,7 +200,7 @@ impl Task<'_> {
         Ok(found)
     }
 
-    /// The cost that is meant, in numbers of its own.
+    /// The final cost, in scaled numbers.
     fn goal(&self, scale: &Scale, moving: f64) -> Result<Stage, Fault> {
         let cost = match self.objective {
             Objective::Rms => PLAIN,
@@ -246,7 +246,7 @@ impl Task<'_> {
         }
     }
 
-    /// The solution on a mesh, from another one's if there is one. `None`: the method did not come to its end.
+    /// The solution on a mesh, started from another mesh if there is one; `None` if the method did not converge.
     pub(super) fn solve<'t>(
         &'t self,
         moving: f64,
@@ -259,7 +259,7 @@ impl Task<'_> {
         };
         let place = |phi: f64| self.places.of(phi.to_bits(), || self.way.place(phi));
         let mesh = Mesh::new(place, &travel, self.ramps, (&self.edges, parts))?;
-        // All meshes for one time count in the same numbers: their costs are compared.
+        // All meshes for one time use the same scale, because their costs are compared.
         let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
         let scale = match same {
             Some(from) => from.scale,
@@ -271,7 +271,7 @@ impl Task<'_> {
             .and_then(|from| at(&goal, &refined(&from.mesh, &from.x, &mesh)))
             .filter(|found| found.converged)
             .map(|found| (goal, found));
-        // Of the peak any motion will do that is better than an even one, though the search did not come to its end.
+        // For the peak any motion better than a constant pace is accepted, even if the search did not converge.
         let mut rough: Option<(f64, Stage, Minimum)> = None;
         if kept.is_none() {
             let mut x = mesh.sample(|_, _| [1.0, 0.0]);
@@ -287,7 +287,7 @@ impl Task<'_> {
                         rough = Some((peak, stage, found.clone()));
                     }
                 }
-                // The next power begins with what was found, or anew.
+                // The next power starts from the result, or anew.
                 if found.converged || stage.cost.power == goal.cost.power {
                     x.clone_from(&found.x);
                 }
@@ -310,8 +310,8 @@ impl Task<'_> {
         }))
     }
 
-    /// Whether a stage before the last will do where that does not come to its end: the mean of a lower power is near the peak as well, and
-    /// wider roundings near the least energy.
+    /// Whether an earlier stage may replace one that does not converge: the mean of a lower power is near the peak too, and wider rounding is near
+    /// the least energy.
     fn serves(&self, stage: &Stage) -> bool {
         match self.objective {
             Objective::Rms => false,
@@ -320,7 +320,7 @@ impl Task<'_> {
         }
     }
 
-    /// From the easiest problem to the one that is meant.
+    /// From the easiest problem to the final one.
     fn stages(&self, goal: &Stage) -> Vec<Stage> {
         let mut stages = Vec::new();
         let plain = Cost {
@@ -365,7 +365,7 @@ impl Task<'_> {
 }
 
 impl Solved<'_> {
-    /// Whether it is to be taken for the one from a coarser mesh.
+    /// Whether it replaces the solution of a coarser mesh.
     pub(super) fn follows(&self, before: &Self) -> bool {
         let peak = |solved: &Self| {
             let problem =
@@ -381,15 +381,15 @@ impl Solved<'_> {
         }
     }
 
-    /// What a second more costs above what a second of holding costs, in numbers of its own.
+    /// Cost of one more second above a second of holding, in scaled numbers.
     fn cost_above_holding(&self, held: &[f64; 2]) -> f64 {
         let least = held.map(f64::abs).into_iter().fold(f64::INFINITY, f64::min);
         let [holding, ..] = self.stage.cost.torque(least / self.scale.unit);
         -self.found.multiplier - holding
     }
 
-    /// Whether waiting is better than to move for so long. For the peak it never is: a slower motion has the lower one, and the
-    /// integral of the 64th power tells nothing about pauses.
+    /// Whether waiting is better than this time in motion. For the peak it never is: a slower motion has the lower peak, and the integral of the 64th
+    /// power says nothing about pauses.
     pub(super) fn waits(&self, held: &[f64; 2]) -> bool {
         self.task.objective != Objective::Peak
             && self.cost_above_holding(held) > 1e-6 * self.found.cost

@@ -1,10 +1,10 @@
-//! A wait on the way, where holding costs less than at the ends and less than to move slowly.
+//! A wait on the path, where holding costs less than at the ends and less than moving slowly.
 //!
-//! A motion that waits at a place is one to it and one from it, each in the time that it takes of itself; the rest of the time is waited. What a
-//! second of either costs is what holding costs there. The place is one of least holding torque; the bound is that of all motions.
+//! A motion that waits at a place consists of a motion to it and one from it, each in its unconstrained time; it waits for the rest. One more second
+//! of either costs as much as holding there. The place is one of least holding torque. The bound is that of all motions.
 //!
-//! A motion that turns for ever waits once in its period: it is the move from that place round to it, begun elsewhere. Of all motions that turn that has no
-//! bound of its own.
+//! An endlessly turning motion waits once in its period: it is the move from that place round to it, with its start shifted. Among endlessly turning
+//! motions it has no separate bound.
 
 use jred::machine::motion::{End, Polynomial};
 use jred_machine::model::motion::Phase;
@@ -13,25 +13,25 @@ use jred_machine::number::numerics::{least, zero};
 use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_end};
 use crate::way::Way;
 
-/// Places at which the holding torque is looked at.
+/// Places at which the holding torque is evaluated.
 const HOLDING_PLACES: u32 = 360;
 
-/// Most places that are tried, those of least holding torque.
+/// Most places that are tried, in order of least holding torque.
 const MOST: usize = 4;
 
 /// Share by which a wait must be better.
 const BETTER: f64 = 1e-6;
 
-/// Share of the time, or of the way, that is rounding.
+/// Share of the time, or of the path, that is rounding.
 const ROUNDED: f64 = 1e-9;
 
-/// Share of its place to which a zero is found.
+/// Relative accuracy of a zero's position.
 const CLOSE: f64 = 1e-15;
 
-/// The motion that was found, or a better one that waits on its way.
+/// The given motion, or a better one that waits on its path.
 ///
 /// # Errors
-/// Those of what was found, if no other motion is.
+/// Those of the given motion, if no other motion is found.
 pub(super) fn on_the_way(
     way: &Way,
     travel: &Travel,
@@ -41,7 +41,7 @@ pub(super) fn on_the_way(
     let per_square = match objective {
         Objective::Rms => 1.0,
         Objective::Energy { copper } => copper,
-        // The largest torque is the same, wherever it waits.
+        // The largest torque is independent of where it waits.
         Objective::Peak => return found,
     };
     let mut best = found;
@@ -64,9 +64,9 @@ pub(super) fn on_the_way(
     best
 }
 
-/// With a bound of all motions; of another motion it is known whether that is a local optimum only, and why.
+/// The motion with a bound of all motions, and its optimum. `of_other` is the optimum of the motion from end to end.
 fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
-    // What is less than a bound refutes it.
+    // A cost below a bound refutes the bound.
     let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDED));
     let proved = bound.is_some_and(|bound| made.cost - bound <= GAP * made.cost);
     let optimum = match of_other {
@@ -81,7 +81,7 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
     }
 }
 
-/// Positions at which holding takes least, with the torque (N·m): zeros, the least ones among their neighbours, and the better end, where there are ends.
+/// Positions of least holding torque, with the torque (N·m): zeros, local minima, and the better end, where there are ends.
 fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(HOLDING_PLACES);
     let torques: Vec<f64> = (0..=HOLDING_PLACES)
@@ -90,7 +90,7 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let mut found = Vec::new();
     let first = u32::from(!travel.ring);
     for k in first..HOLDING_PLACES {
-        // Of a ring the place before its start is the last one before its end.
+        // On a ring, the place before the start is the last one before the end.
         let before = k.checked_sub(1).unwrap_or(HOLDING_PLACES - 1);
         let [before, here, after] = [before, k, k + 1].map(|k| torques[k as usize]);
         if here * after < 0.0 {
@@ -125,14 +125,14 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     for phi in found {
         all.push((phi, way.holding_at(phi)?.abs()));
     }
-    // A place that takes more than an end is none.
+    // A place with more holding torque than an end is dropped.
     all.retain(|(_, torque)| *torque <= at_end);
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all.truncate(MOST);
     if at_end.is_finite() {
         all.push((end, at_end));
     } else if all.is_empty() && !travel.ring {
-        // Where holding takes the same everywhere, one place is as good as another.
+        // Where holding takes the same everywhere, any place will do.
         let middle = travel.start + 0.5 * travel.distance;
         all.push((middle, way.holding_at(middle)?.abs()));
     }
@@ -143,7 +143,7 @@ fn is(place: f64, other: f64) -> bool {
     place.total_cmp(&other).is_eq()
 }
 
-/// The motion that waits at a place where a second costs so much; none where it takes longer than the time of the move.
+/// The motion that waits at a place where a second costs this much; `None` where it takes longer than the time of the move.
 fn waiting_at(
     way: &Way,
     travel: &Travel,
@@ -151,7 +151,7 @@ fn waiting_at(
     (place, rate): (f64, f64),
 ) -> Option<Gentle> {
     let end = travel.start + travel.distance;
-    // The whole has the bound of all motions: parts need none.
+    // The whole has the bound of all motions; its parts need no bound.
     let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
         let at = |values: [f64; 2]| {
             let kept = |k: usize, whole: f64| if is(ends[k], whole) { values[k] } else { 0.0 };
@@ -176,7 +176,7 @@ fn waiting_at(
         part(ways[1], travel.duration, true)?,
     ];
     if to.moving + from.moving > travel.duration {
-        // The longer one gets what the other leaves: near the time that it would take of itself that hardly costs more.
+        // The longer part gets the time that the other leaves: near its unconstrained time that costs hardly more.
         if to.moving > from.moving {
             to = part(ways[0], travel.duration - from.moving, false)?;
         } else {
@@ -213,7 +213,7 @@ fn waiting_at(
     })
 }
 
-/// The motion that turns for ever and waits at a place once in its period.
+/// The endlessly turning motion that waits at a place once in its period.
 fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) -> Option<Gentle> {
     let turn = Travel {
         start: place,
@@ -232,7 +232,7 @@ fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) ->
     })
 }
 
-/// A periodic motion begun so far behind its start.
+/// A periodic motion with its start shifted by an offset.
 fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
     let time: f64 = phases.iter().map(|phase| phase.duration).sum();
     let mut passed = 0.0;
@@ -263,7 +263,7 @@ fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
     None
 }
 
-/// A phase in two parts. Its polynomial is one of fifth degree, as theirs are.
+/// A phase in two parts. All three are polynomials of fifth degree.
 fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
     let polynomial = &phase.polynomial;
     let [start, middle, end] = [0.0, at, phase.duration].map(|t| (t, polynomial.at(t)));
@@ -276,7 +276,7 @@ fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
     })
 }
 
-/// The motion of a part without the wait at its end, or at its start; none if it waits elsewhere.
+/// The motion of a part without the wait at its end, or at its start; `None` if it waits elsewhere.
 fn moving(part: &Gentle, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
     let phases = part.phases.as_slice();
     if part.moving >= part.travel.duration {

@@ -1,30 +1,30 @@
-//! A part of a motion that is kept as it is.
+//! A part of a motion that is kept unchanged.
 
 use jred::machine::motion::{End, Polynomial, State};
 use jred_machine::model::motion::{Motion, Node, Phase, Steady};
 
-/// The ends of a part are evaluated this share of it further inside, because the acceleration may jump there.
+/// Share of a part by which its ends are evaluated further inside, because the acceleration may jump there.
 pub(crate) const INSIDE: f64 = 1e-9;
 
-/// Steps into which a kept part is divided at first, and how often each may be halved.
+/// Steps into which a kept part is divided at first, and most halvings of each.
 const STEPS: u32 = 16;
 const HALVINGS: u32 = 10;
 
-/// Error that a step may have in its middle: of the position as a share of the way, of the speed as a share of the largest speed.
+/// Allowed error in the middle of a step: of the position as a share of the path, of the speed as a share of the largest speed.
 const OFF: f64 = 1e-9;
 
-/// A part of a motion, with position, speed and acceleration over its time.
+/// A part of a motion, with position, speed and acceleration over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kept {
-    /// Number of its segment in the file, from 0 on.
+    /// Index of its segment in the file, from 0.
     pub segment: usize,
-    /// Where it begins (rad, or m of the drive link).
+    /// Start position (rad, or m of the drive link).
     pub from: f64,
-    /// Where it ends.
+    /// End position.
     pub to: f64,
-    /// How long it takes (s).
+    /// Duration (s).
     pub duration: f64,
-    /// Its speed (rad/s, or m/s), of the tool if that is prescribed, with its sign.
+    /// Its speed (rad/s, or m/s) with sign; of the tool if that is prescribed.
     pub speed: f64,
     course: Vec<Node>,
 }
@@ -43,7 +43,7 @@ impl Kept {
             let inside = from + duration * share.clamp(INSIDE, 1.0 - INSIDE);
             let State { phi, omega, .. } = motion.at(t);
             let within = motion.at(inside);
-            // The next part may begin with another speed: the value at the end is that of this part.
+            // The next part may begin with another speed: at the end the value of this part counts.
             let omega = if share >= 1.0 { within.omega } else { omega };
             State {
                 phi: phi + further,
@@ -94,7 +94,7 @@ impl Kept {
         }
     }
 
-    /// Its nodes, from t = 0 on.
+    /// Its nodes, from t = 0.
     pub fn nodes(&self) -> &[Node] {
         &self.course
     }
@@ -105,7 +105,7 @@ impl Kept {
             .map(|node| node.map_or([0.0; 2], |node| [node.omega, node.alpha[0]]))
     }
 
-    /// The part as polynomials, one after another.
+    /// The part as successive polynomials.
     pub fn phases(&self) -> Vec<Phase> {
         let phase = |pair: &[Node]| {
             let [a, b] = [&pair[0], &pair[1]];

@@ -1,4 +1,4 @@
-//! The time of a motion, cut where the drive link turns back, where a pause begins or ends, and where a kept part does.
+//! The time of a motion, cut where the drive link turns back and where pauses or kept parts begin or end.
 
 use std::convert::Infallible;
 
@@ -7,19 +7,19 @@ use jred_machine::number::numerics::edge;
 
 use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
 
-/// Number of parts of a smooth stretch; the direction is taken at their ends.
+/// Parts of a smooth stretch at whose ends the direction is evaluated.
 const SAMPLES: u32 = 256;
 
-/// A speed below this share of the largest one counts as rest: the ends of motion laws are at rest but for rounding.
+/// A speed below this share of the largest speed counts as rest: at the ends of motion laws it is rounding.
 const REST: f64 = 1e-12;
 
-/// A span of time in which the drive link goes in one direction: backward (−1) or forward (+1), or is at rest (0).
+/// A span of time in which the drive link moves in one direction: backward (−1) or forward (+1), or is at rest (0).
 #[derive(Clone, Copy, Debug)]
 struct Span {
     from: f64,
     to: f64,
     sign: i8,
-    /// Number of the stretch in `process`, if this span is kept.
+    /// Index of the stretch in `process`, if this span is kept.
     kept: Option<usize>,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct Timeline<'a> {
     /// Its largest speed.
     largest: f64,
     spans: Vec<Span>,
-    /// The segments whose overshoot is left out.
+    /// The segments whose overshoot is removed.
     overshoots: Vec<Overshoot>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Timeline<'a> {
         Ok(line)
     }
 
-    /// The overshoots that are left out: blemishes of laws, in segments of which nothing is kept.
+    /// The overshoots to remove: blemishes of laws, in segments without kept parts.
     fn overshoots(&self) -> Vec<Overshoot> {
         let untouched = |overshoot: &Overshoot| {
             let [from, to] = overshoot.span;
@@ -104,7 +104,7 @@ impl<'a> Timeline<'a> {
             .collect()
     }
 
-    /// The direction of the segment at this time, if its overshoot is left out.
+    /// The direction of the segment at this time, if its overshoot is removed.
     fn straight(&self, t: f64) -> Option<i8> {
         let within = |overshoot: &&Overshoot| overshoot.span[0] < t && t < overshoot.span[1];
         let overshoot = self.overshoots.iter().find(within)?;
@@ -135,7 +135,7 @@ impl<'a> Timeline<'a> {
         [state.phi + further, state.omega]
     }
 
-    /// Way of the drive link in one cycle.
+    /// Travel of the drive link in one cycle.
     fn advance(&self) -> f64 {
         self.motion.at(self.motion.duration()).phi - self.motion.at(0.0).phi
     }
@@ -267,7 +267,7 @@ impl<'a> Timeline<'a> {
         (0..runs.len()).map(part).collect()
     }
 
-    /// The kept part that a span stands for; `None`: the span is not kept.
+    /// The kept part of a span; `None` if the span is not kept.
     fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<Kept> {
         let steady = self.process.get(span.kept?)?;
         let duration = self.motion.duration();
@@ -282,8 +282,8 @@ impl<'a> Timeline<'a> {
     }
 }
 
-/// Adds the spans between two samples. `inner` says of each sample whether it lies inside its stretch: a zero of the speed there is where a
-/// pause begins or ends, while a zero at the end of a stretch may be that of a motion law.
+/// Adds the spans between two samples. `inner` says for each sample whether it lies inside its stretch: there a zero of the speed is where a pause
+/// begins or ends. A zero at the end of a stretch may come from a motion law.
 fn split(sign: &impl Fn(f64) -> i8, [from, to]: [f64; 2], inner: [bool; 2], spans: &mut Vec<Span>) {
     let middle = sign(from.midpoint(to));
     let [before, after] = [sign(from), sign(to)];

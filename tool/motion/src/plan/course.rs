@@ -1,4 +1,4 @@
-//! A plan beside its motion: the polynomials of its rows and those of the motion's steps over the time that they have in common.
+//! A plan compared with its motion: the polynomials of its rows and of the motion's steps over their common time.
 
 use jred::Domain;
 use jred::axis::plan::HEADER_WORDS;
@@ -7,13 +7,13 @@ use super::polynomial::{apart, most_above, moved, slope, stays};
 use super::rows::{RANGE, span};
 use crate::trace::Node;
 
-/// Words of a row.
+/// Words per row.
 const ROW: usize = 8;
 
-/// The rounding of a factor from counts to a speed or an acceleration.
+/// Relative rounding of a factor from counts to a speed or an acceleration.
 const FACTOR: f64 = 1.0 / 16_777_216.0;
 
-/// Position, speed and acceleration as powers of a share of a time.
+/// Position, speed and acceleration as polynomials in a share of a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     pub(super) position: [f64; 6],
@@ -22,7 +22,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// A position over a length of time (s), with its derivatives.
+    /// A position over a time (s), with its derivatives.
     fn of(position: [f64; 6], length: f64) -> Self {
         let speed: [f64; 5] = slope(&position).map(|c: f64| c / length);
         Self {
@@ -32,7 +32,7 @@ impl Course {
         }
     }
 
-    /// The quintic from one node to another, its position from that of the first on.
+    /// The quintic from one node to another, its position relative to the first.
     pub(super) fn between(first: &Node, last: &Node) -> Self {
         let length = last.t - first.t;
         let (speed, raised) = (length * first.omega, length * length * first.alpha[1]);
@@ -50,13 +50,13 @@ impl Course {
         Self::of(position, length)
     }
 
-    /// A step of a motion, its position from that of the node before on.
+    /// A step of a motion, its position relative to the node before.
     pub(super) fn step(before: &Node, after: &Node) -> Self {
         let step = after.step;
         let [first, last] = [before.alpha[1], after.alpha[0]];
         let [rest, missed] = after.missed_since(before);
         let bend = step * (last - first);
-        // What is felt of the missed speed, as the motion itself has it: nothing where that is rounding.
+        // The part of the missed speed that the motion itself contains: zero where it is rounding.
         let felt = (after.after(before, 0.5).alpha - 0.5 * (first + last)) / 1.5;
         Self {
             position: [
@@ -78,7 +78,7 @@ impl Course {
         }
     }
 
-    /// The same over a part of it, and from so far on.
+    /// The same over a part of it, with an offset of the position.
     pub(super) fn part(&self, from: f64, width: f64, beyond: f64) -> Self {
         let mut position = self.position;
         position[0] += beyond;
@@ -91,7 +91,7 @@ impl Course {
 }
 
 impl Course {
-    /// What position, speed and acceleration differ by from another course over the same time at most, and about where, if that is more than is known.
+    /// Largest difference of position, speed and acceleration from another course over the same time, and about where, if it exceeds `known`.
     pub(super) fn beside(&self, other: &Self, known: [f64; 3]) -> [Option<[f64; 2]>; 3] {
         [
             most_above(apart(self.position, other.position), known[0]),
@@ -110,23 +110,23 @@ impl Course {
 
 /// A row of an image.
 pub(super) struct Row {
-    /// From when to when (s).
+    /// Start and end time (s).
     pub(super) t: [f64; 2],
-    /// Where it begins (rad, or m).
+    /// Start position (rad, or m).
     pub(super) position: f64,
-    /// Its window (s), over a share of which its course is.
+    /// Its window (s); the course is over a share of it.
     pub(super) window: f64,
     pub(super) course: Course,
-    /// What firmware is off by beside these polynomials: the time in the row is rounded, and sums are rounded down (tests `a_plan_keeps_the_proven_bounds`).
+    /// Additional errors of firmware: the time in the row is rounded, and sums are rounded down (tests `a_plan_keeps_the_proven_bounds`).
     pub(super) rounding: [f64; 3],
 }
 
-/// The greatest speed and acceleration of an image that was written.
+/// The greatest speed and acceleration of a written image.
 pub(super) fn greatest(words: &[u32]) -> [f32; 2] {
     [8, 9].map(|word| words.get(word).map_or(0.0, |bits| f32::from_bits(*bits)))
 }
 
-/// The rows of an image that was written, by docs/table-image.md.
+/// The rows of a written image, by docs/table-image.md.
 pub(super) fn rows(words: &[u32], domain: Domain) -> Vec<Row> {
     let [_, p, x, y] = words.get(3).map_or([0; 4], |word| word.to_le_bytes());
     let units = [i32::from(p), x.cast_signed().into(), y.cast_signed().into()];
@@ -144,7 +144,7 @@ pub(super) fn rows(words: &[u32], domain: Domain) -> Vec<Row> {
     rows.windows(2).map(row).collect()
 }
 
-/// A row, of a plan with these greatest rates, and with the unit of its positions and their begin.
+/// A row of a plan with these greatest rates, the unit of its positions and their origin.
 fn row(
     [own, next]: [&[u32; ROW]; 2],
     [p, x, y]: [i32; 3],
@@ -170,7 +170,7 @@ fn row(
     ];
     let sum =
         |factors: [f64; 4]| -> f64 { c.iter().zip(factors).map(|(c, by)| c.abs() * by).sum() };
-    // A unit of the time in the row, for its speed and for the rest.
+    // One unit of the time in the row, for its speed and for the rest.
     let (even, odd) = match exponent + 8 {
         ..0 => (0.0, 0.0),
         0 => (0.0, power(-31) * window),

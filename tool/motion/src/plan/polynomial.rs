@@ -1,15 +1,15 @@
-//! Polynomials over a share from 0 to 1, and what is the most of them: all of it, not some places.
+//! Polynomials over a share from 0 to 1, with bounds of their magnitude over the whole range, not at samples.
 //!
-//! In Bernstein's form a polynomial lies between the least and the largest of its coefficients; the first and the last one are its ends. Halved, the coefficients come nearer to
-//! it with the square of the width.
+//! In Bernstein form a polynomial lies between the least and the largest of its coefficients; the first and the last one are its ends. When it is
+//! halved, the coefficients approach it with the square of the width.
 
-/// Share by which a bound may lie above what is reached.
+/// Share by which a bound may exceed the true maximum.
 pub(super) const TIGHT: f64 = 1e-5;
 
-/// Halvings after which a bound is taken as it is.
+/// Halvings after which a bound is accepted as it is.
 const DEEPEST: u32 = 24;
 
-/// From powers of x to those of s, x = from + width·s.
+/// Converts coefficients in x to coefficients in s, x = from + width·s.
 pub(super) fn moved<const N: usize>(mut c: [f64; N], from: f64, width: f64) -> [f64; N] {
     for i in 0..N {
         for j in (i..N.saturating_sub(1)).rev() {
@@ -29,7 +29,7 @@ pub(super) fn slope<const N: usize, const M: usize>(c: &[f64; N]) -> [f64; M] {
     std::array::from_fn(|k| c.get(k + 1).map_or(0.0, |c| (k + 1) as f64 * c))
 }
 
-/// The difference of two of them in Bernstein's form.
+/// The difference of two polynomials in Bernstein form.
 pub(super) fn apart<const N: usize>(one: [f64; N], other: [f64; N]) -> [f64; N] {
     let mut b: [f64; N] = std::array::from_fn(|k| one[k] - other[k]);
     let mut choose = 1.0;
@@ -57,7 +57,7 @@ fn halves<const N: usize>(mut b: [f64; N]) -> [[f64; N]; 2] {
     [first, b]
 }
 
-/// What its magnitude is at most by its coefficients, and at its ends.
+/// Bound of its magnitude by its coefficients, and its magnitude at its ends.
 fn hull<const N: usize>(b: &[f64; N]) -> [f64; 2] {
     let most = b.iter().fold(0.0_f64, |most, b| most.max(b.abs()));
     [most, b[0].abs().max(b[N - 1].abs())]
@@ -78,7 +78,7 @@ fn stays_from<const N: usize>(b: [f64; N], bound: f64, depth: u32) -> bool {
         .all(|half| stays_from(half, bound, depth + 1))
 }
 
-/// A bound of the magnitude that is above `known`, and about where it is reached; `None`: there is none.
+/// A bound of the magnitude above `known`, and about where it is reached; `None` if it is not above.
 pub(super) fn most_above<const N: usize>(b: [f64; N], known: f64) -> Option<[f64; 2]> {
     let mut found = [known, f64::NAN];
     look(b, [0.0, 1.0], 0, &mut found);
@@ -105,7 +105,7 @@ fn look<const N: usize>(b: [f64; N], [from, to]: [f64; 2], depth: u32, found: &m
 mod tests {
     use super::*;
 
-    /// (x − 0.3)·(x + 2)·(x − 5) from 0.1 on, 0.7 wide, beside its values; its largest magnitude by a fine grid.
+    /// (x − 0.3)·(x + 2)·(x − 5) from 0.1 on, 0.7 wide, against its values; its largest magnitude by a fine grid.
     #[test]
     fn a_cubic_and_its_bound() {
         let f = |x: f64| (x - 0.3) * (x + 2.0) * (x - 5.0);
@@ -133,7 +133,7 @@ mod tests {
         }
     }
 
-    /// One whose extreme lies inside: s·(1 − s), a quarter in the middle.
+    /// A polynomial whose extreme lies inside: s·(1 − s), a quarter in the middle.
     #[test]
     fn an_extreme_inside() {
         let [bound, at] = most_above(apart([0.0, 1.0, -1.0], [0.0; 3]), 0.1).unwrap();

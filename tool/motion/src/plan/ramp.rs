@@ -1,13 +1,13 @@
 //! The shortest ramp of the rate with which a plan keeps the torque of its drive.
 //!
-//! A follower goes through the plan with ds/dt = r, so that the speed is r·ω and the acceleration r²·α + ω·dr/dt. With a ramp of R seconds from 0 to 100 % the rate changes by
-//! 1/R a second, up or down. At a place and a rate the drive leaves accelerations from a₋ to a₊, at the speed r·ω; so
+//! A follower passes through the plan with ds/dt = r, so the speed is r·ω and the acceleration r²·α + ω·dr/dt. With a ramp of R seconds from 0 to 100
+//! % the rate changes by 1/R per second, up or down. At a place and a rate the drive allows accelerations from a₋ to a₊, at the speed r·ω; so
 //!
 //! ```text
 //! ω/R ≤ a₊(s, r·ω) − r²·α   and   ω/R ≤ r²·α − a₋(s, r·ω)
 //! ```
 //!
-//! for every place s and every rate. 1/R is the least of both shares of ω.
+//! for every place s and every rate. 1/R is the least of both right sides divided by ω.
 
 use jred::Error;
 use jred_machine::model::machine::MachineFile;
@@ -15,21 +15,21 @@ use jred_machine::model::machine::MachineFile;
 use crate::trace::{Node, Trace};
 use crate::way::{Actuator, Way};
 
-/// Places of a step, its ends among them, and rates at which it is looked.
+/// Places per step, its ends included, and rates at which the change is evaluated.
 const PLACES: u32 = 8;
 const RATES: u32 = 48;
 
-/// Rounds and halvings in which the least of them is made exact.
+/// Rounds and halvings that refine the minimum.
 const ROUNDS: u32 = 6;
 const STEPS: u32 = 40;
 
-/// Share of the greatest speed below which a change of the rate asks for nothing.
+/// Share of the greatest speed below which a change of the rate needs no acceleration.
 const AT_REST: f64 = 1e-9;
 
-/// Share of the greatest acceleration that is nothing.
+/// Share of the greatest acceleration that counts as zero.
 const NOTHING: f64 = 1e-9;
 
-/// A motion under a drive, asked for the change of the rate at a place.
+/// A motion under a drive, for the allowed change of the rate at a place.
 struct Motion<'a> {
     ways: [Way<'a>; 2],
     gearbox: Option<f64>,
@@ -38,7 +38,7 @@ struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// The greatest change of the rate (1/s), up or down, that the drive leaves at a share of a step and a rate.
+    /// The greatest change of the rate (1/s), up or down, that the drive allows at a share of a step and a rate.
     fn change(&self, [a, b]: [&Node; 2], share: f64, rate: f64) -> Result<f64, Error> {
         let state = b.after(a, share);
         let speed = state.omega.abs();
@@ -60,8 +60,8 @@ impl Motion<'_> {
     }
 }
 
-/// The shortest ramp (s) from 0 to 100 % with which the motion keeps the torque of a drive and of its gearbox (N·m at its output) at every place and rate; infinite: no ramp does.
-/// `None`: the drive has no limit of its torque.
+/// The shortest ramp (s) from 0 to 100 % with which the motion keeps the torque of a drive and of its gearbox (N·m at its output) at every place and
+/// rate; infinite if no ramp does. `None` if the drive has no torque limit.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -117,7 +117,7 @@ pub fn least_ramp(
     }))
 }
 
-/// The least change about a place and a rate of a step: along one of both after the other, by thirds.
+/// The least change near a place and a rate of a step: by thirds along one, then the other.
 fn lowest(motion: &Motion, step: [&Node; 2], place: [f64; 2]) -> Result<f64, Error> {
     let mut place = place;
     let mut wide = [1.0 / f64::from(PLACES), 1.0 / f64::from(RATES)];

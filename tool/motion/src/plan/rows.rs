@@ -1,4 +1,4 @@
-//! Which nodes of a motion become rows of its plan.
+//! Selects the nodes of a motion that become rows of its plan.
 
 use std::f64::consts::TAU;
 
@@ -10,39 +10,41 @@ use super::course::Course;
 use super::polynomial::TIGHT;
 use crate::trace::Node;
 
-/// Share of that by which a position may be, of the way.
+/// The allowed error of a position, as a share of the path, is this factor times the plan's share.
 const OF_WAY: f64 = 0.1;
 
-/// Half a unit at both ends of a row is at most 6 units over its length squared as an acceleration: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
+/// Half a unit at both ends of a row is an acceleration of at most 6 units over its length squared: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
 const ROUNDING: f64 = 6.0;
 
-/// A speed that is missed at an end of a row is at most so many times itself over its length as an acceleration: the quintic's 3.9, and a little for the way that is missed with it.
+/// A missed speed at an end of a row is an acceleration of at most this many times itself over the row's length: the quintic's 3.9, and a margin for
+/// the missed position.
 const MISSED: f64 = 5.0;
 
-/// Share of the range by which a row that is looked at may be beyond an end of the stroke: rounding.
+/// Share of the range by which a row may exceed an end of the stroke at the checked points: rounding.
 const BEYOND: f64 = 1e-9;
 
 /// 2³²
 pub(super) const RANGE: f64 = 4_294_967_296.0;
 
-/// What integers of 32 bits make of the greatest speed and of the greatest acceleration, with the sums that they are found by and the factors that follow.
+/// Relative errors of 32-bit integers for the greatest speed and the greatest acceleration, with the sums that produce them and the factors that
+/// follow.
 const DIGITS: [f64; 2] = [1.5 / 16_777_216.0, 1.0 / 4_194_304.0];
 
-/// The place in a row is known to this share of it, at most.
+/// Relative resolution of the place in a row.
 const PLACE: f64 = 1.0 / 1_073_741_824.0;
 
-/// By how much position, speed and acceleration may be off: shares of the greatest that there are, and at least of the mean speed, and of what takes the greatest speed in the time of the
-/// motion: at constant speed an acceleration is nothing but rounding.
+/// Allowed errors of position, speed and acceleration, as shares of the greatest values. The scales are at least the mean speed, and the acceleration
+/// to the greatest speed within the motion: at constant speed an acceleration is only rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
-    /// By how much.
+    /// The allowed errors.
     pub(super) asked: [f64; 3],
     /// The greatest speed and acceleration.
     most: [f64; 2],
 }
 
 impl Bounds {
-    /// Shares of a motion.
+    /// Shares of a motion's greatest values.
     pub(super) fn of(nodes: &[Node], share: f64) -> Self {
         let most = |of: fn(&Node) -> f64| nodes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         let way = most(|node| node.phi) + most(|node| -node.phi);
@@ -59,11 +61,11 @@ impl Bounds {
         }
     }
 
-    /// What rounding may take of that in a row so long (s), with this polynomial of its acceleration.
+    /// Errors by rounding in a row of this length (s), with this polynomial of its acceleration.
     fn rounding(&self, length: f64, course: &Course, unit: f64) -> [f64; 3] {
         let [speed, acceleration] = self.most;
         let rounded = ROUNDING * unit / length;
-        // Of the coefficients over the window, of which 29 bits are left below the greatest sum.
+        // Of the coefficients over the window 29 bits are left below the greatest sum.
         let window = (length.log2().floor() + 1.0).exp2();
         let powers = course.acceleration.iter().rev();
         let raised = powers.fold(0.0, |sum, c| sum * window / length + c.abs());
@@ -89,7 +91,7 @@ const fn unit(domain: Domain) -> f64 {
     span(domain) / RANGE
 }
 
-/// Nodes that a plan tells apart: of two that are closer one, which goes on as the second does.
+/// Nodes that a plan can distinguish: of two closer nodes one is kept, which continues as the second does.
 pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
     let mut kept: Vec<Node> = Vec::with_capacity(nodes.len());
     for node in nodes {
@@ -98,7 +100,7 @@ pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
             _ => kept.push(*node),
         }
     }
-    // The end is where the motion ends.
+    // The last node lies where the motion ends.
     if let (Some(end), Some(last)) = (nodes.last(), kept.last_mut()) {
         let before = last.alpha[0];
         *last = Node {
@@ -112,21 +114,22 @@ pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
     kept
 }
 
-/// A part of the motion between two jumps of the acceleration, or a jump and an end, that is too short for a row: the rounding of positions would be more than what the acceleration may be off by.
+/// A part of the motion between two jumps of the acceleration, or a jump and an end, that is too short for a row: rounding of positions would exceed
+/// the allowed error of the acceleration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sliver {
-    /// From when to when (s).
+    /// Start and end time (s).
     t: [f64; 2],
-    /// What the speed is off by without it (rad/s, or m/s).
+    /// Error of the speed without it (rad/s, or m/s).
     speed: f64,
 }
 
-/// A row that is shorter (s) is off by more than the acceleration may be, because its positions are rounded.
+/// Least duration of a row (s): in a shorter one, rounding of positions exceeds the allowed error of the acceleration.
 fn shortest([.., acceleration]: [f64; 3], domain: Domain) -> f64 {
     (ROUNDING * unit(domain) / acceleration).sqrt()
 }
 
-/// The nodes without slivers whose speed may be missed: what follows begins earlier, before the end what precedes goes on.
+/// The nodes without slivers whose speed may be missed: the following part begins earlier; before the end, the preceding part continues.
 pub(super) fn without_slivers(
     mut nodes: Vec<Node>,
     bounds: [f64; 3],
@@ -174,10 +177,10 @@ pub(super) fn without_slivers(
     (nodes, slivers)
 }
 
-/// Share of a step by which the times of its ends are rounded at most.
+/// Share of a step by which rounding may move the times of its ends.
 const SAME_STEP: f64 = 1e-6;
 
-/// Lets the steps be as long as the times between the nodes that are left.
+/// Sets the steps to the times between the remaining nodes.
 fn joined(nodes: &mut [Node]) {
     let mut before = None;
     for node in nodes {
@@ -188,17 +191,17 @@ fn joined(nodes: &mut [Node]) {
     }
 }
 
-/// What a plan is to keep to.
+/// Requirements of a plan.
 pub(super) struct Asked<'s> {
-    /// By how much position, speed and acceleration may be off.
+    /// Allowed errors of position, speed and acceleration.
     pub(super) bounds: Bounds,
     pub(super) domain: Domain,
-    /// What is left out of the motion, in the order of time.
+    /// Parts omitted from the motion, in order of time.
     pub(super) slivers: &'s [Sliver],
 }
 
 impl Asked<'_> {
-    /// What the speed is off by at an end of a row between these times, because a sliver is left out there.
+    /// Error of the speed at an end of a row between these times, from an omitted sliver.
     fn missed(&self, [from, to]: [f64; 2]) -> f64 {
         let beside = |sliver: &&Sliver| {
             sliver.t[0].total_cmp(&from).is_eq() || sliver.t[1].total_cmp(&to).is_eq()
@@ -213,8 +216,8 @@ impl Asked<'_> {
         self.slivers.get(k).is_some_and(|sliver| sliver.t[0] <= t)
     }
 
-    /// By how much the polynomial of a row between these times may be off: what rounding leaves of the bounds, or as much as rounding where that takes more than half; and
-    /// more where a sliver is left out beside it.
+    /// Allowed error of a row's polynomial between these times: the bounds less rounding, or the rounding itself where that takes more than half;
+    /// more beside an omitted sliver.
     fn of_row(&self, ends: [f64; 2], course: &Course) -> [f64; 3] {
         let length = ends[1] - ends[0];
         let rounding = self.bounds.rounding(length, course, unit(self.domain));
@@ -224,7 +227,7 @@ impl Asked<'_> {
         std::array::from_fn(|k| (asked[k] * (1.0 - TIGHT) - rounding[k]).max(rounding[k]) + more[k])
     }
 
-    /// The knots of the plan: from each one as far as the polynomial through both keeps to the motion, and to the stroke.
+    /// The knots of the plan: each row reaches as far as its polynomial keeps to the motion and to the stroke.
     pub(super) fn knots(&self, nodes: &[Node]) -> Vec<Knot> {
         let Some(last) = nodes.len().checked_sub(1) else {
             return Vec::new();
@@ -234,7 +237,7 @@ impl Asked<'_> {
         let mut kept = vec![0];
         let mut from = 0;
         while from < last {
-            // Twice as far each time, then the last place between.
+            // Doubles the reach, then bisects.
             let (mut reached, mut reach) = (from + 1, 2);
             while from + reach <= last && fits(from, from + reach) {
                 (reached, reach) = (from + reach, 2 * reach);
@@ -248,7 +251,7 @@ impl Asked<'_> {
                     beyond = middle;
                 }
             }
-            // What is left before a corner may be so short that its positions are too coarse: two rows of the same length instead.
+            // The rest before a corner may be so short that positions are too coarse: two rows of equal length instead.
             if nodes[reached].t - nodes[from].t < short
                 && let [.., before, between] = kept.as_mut_slice()
             {
@@ -265,7 +268,8 @@ impl Asked<'_> {
         kept.into_iter().map(|k| knot(&nodes[k])).collect()
     }
 
-    /// Whether the polynomial of the fifth degree from the first node to the last keeps to every step between, and to the stroke in the nodes and halfway between.
+    /// Whether the polynomial of fifth degree from the first node to the last keeps to every step between them, and to the stroke at the nodes and
+    /// halfway between.
     fn keeps(&self, nodes: &[Node]) -> bool {
         let [Some(first), Some(last)] = [nodes.first(), nodes.last()] else {
             return true;
@@ -303,7 +307,7 @@ fn knot(node: &Node) -> Knot {
     }
 }
 
-/// Makes two rows of one: at its middle node, or halfway between the two that it has.
+/// Splits a row in two: at its middle node, or halfway between its two nodes.
 pub(super) fn halve(knots: &mut Vec<Knot>, nodes: &[Node], row: usize) {
     let (Some(from), Some(to)) = (knots.get(row), knots.get(row + 1)) else {
         return;

@@ -1,4 +1,4 @@
-//! The machine with what is asked of its motion: the same parts with other moves, and what they take.
+//! The machine with the request for its motion: the same parts with other moves, and their cost.
 
 use jred::Error;
 use jred::machine::motion::{End, Law, Polynomial};
@@ -14,10 +14,10 @@ use crate::gentlest::{Fault, Gentle, Objective, Travel};
 use crate::moves::{Chain, Kept, Move, Part, Passing};
 use crate::way::{BothWays, Way};
 
-/// The turn at constant kinetic energy.
+/// The rotation at constant kinetic energy.
 const EVEN_ENERGY: &str = "constant kinetic energy";
 
-/// The machine with what is asked.
+/// The machine with the request.
 pub(super) struct Asked<'a> {
     file: &'a MachineFile,
     request: &'a Request,
@@ -30,7 +30,7 @@ pub(super) struct Asked<'a> {
 type Search = fn(&Way, &Travel, Objective) -> Result<Gentle, Fault>;
 
 impl<'a> Asked<'a> {
-    /// Of a motion, and the parts that it is made of.
+    /// The request for a motion with these parts.
     pub(super) fn new(
         file: &'a MachineFile,
         motion: &Motion,
@@ -46,7 +46,7 @@ impl<'a> Asked<'a> {
         }
     }
 
-    /// Each move in the gentlest way.
+    /// The gentlest motion of each move.
     pub(super) fn gentlest(&self, search: Search) -> Result<Vec<Gentle>, Obstacle> {
         let Request {
             goal, copper, ramp, ..
@@ -84,7 +84,7 @@ impl<'a> Asked<'a> {
         })
     }
 
-    /// What the pauses and the kept parts cost, in the unit of the moves' costs: of the peak nothing.
+    /// Cost of the pauses and the kept parts, in the unit of the moves' costs; zero for the peak.
     pub(super) fn held(&self) -> Result<f64, Error> {
         let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
         let mut cost = 0.0;
@@ -101,7 +101,7 @@ impl<'a> Asked<'a> {
         Ok(cost)
     }
 
-    /// Cost of a square of the torque and a second.
+    /// Cost per square of the torque and second.
     fn heat(&self) -> f64 {
         match self.request.goal {
             Goal::Energy => self.request.copper.unwrap_or(0.0),
@@ -109,7 +109,7 @@ impl<'a> Asked<'a> {
         }
     }
 
-    /// What a kept part costs, and its peak torque.
+    /// Cost of a kept part, and its peak torque.
     fn of_kept(&self, kept: &Kept) -> Result<[f64; 2], Error> {
         let ways = BothWays::new(self.file, &self.request.actuator);
         let [mut cost, mut peak] = [0.0_f64; 2];
@@ -167,7 +167,7 @@ impl<'a> Asked<'a> {
         Ok(self.request.figures(&cycle))
     }
 
-    /// The motion of the list with the lowest peak, if that is below this one and it has the form of the ends that is asked for.
+    /// The motion of the list with the lowest peak, if that is below the given peak and it has the requested form at its ends.
     pub(super) fn better_law(&self, laws: &[Row], peak: f64) -> Option<&'static str> {
         // No law begins or ends with a speed.
         if self.passes() {
@@ -183,7 +183,7 @@ impl<'a> Asked<'a> {
         Some(best.name)
     }
 
-    /// A move as the motion of the list with this name makes it.
+    /// A move by the law or motion of the list with this name.
     pub(super) fn by_law(&self, name: &str, step: &Move) -> Result<Vec<Phase>, Error> {
         let distance = step.to - step.from;
         if let Some((_, law)) = LAWS.iter().find(|(own, _)| *own == name) {
@@ -204,7 +204,7 @@ impl<'a> Asked<'a> {
         parts.any(|part| matches!(part, Part::Passing(..)))
     }
 
-    /// The laws; of a rotation without rest the classical motions. Between speeds there is no law: there it is the polynomial of fifth degree.
+    /// The laws; for a rotation without rest the classical motions. Between nonzero speeds no law exists; there it is the polynomial of fifth degree.
     pub(super) fn beside(&self) -> Result<Vec<Row>, duty::Fault> {
         if self.endless {
             return self.classical();
@@ -250,7 +250,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// From one speed to another, with the accelerations of the kept parts, as a segment of fifth degree goes.
+/// The polynomial of fifth degree from one speed to another, with the accelerations of the kept parts.
 fn between(step: &Move, ends: &Passing) -> Segment {
     let distance = step.to - step.from;
     let direction = distance.signum();

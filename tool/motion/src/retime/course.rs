@@ -1,4 +1,4 @@
-//! The gentlest motion as nodes over the time.
+//! The gentlest motion as nodes over time.
 
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Phase;
@@ -26,7 +26,8 @@ pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Tra
     trace
 }
 
-/// Share of the way by which the positions of a phase may differ from the way at its speeds: between two nodes these are cubics, and those of a phase have one degree more.
+/// Share of the path by which the positions of a phase may differ from the integral of its speeds: between nodes the speeds are cubics, but those of
+/// a phase have one degree more.
 const SAME: f64 = 1e-13;
 
 /// Most parts of a phase.
@@ -63,7 +64,7 @@ fn nodes(from: f64, phases: &[Phase]) -> Vec<Node> {
         };
         let end = at(1.0);
         let [rest, _] = end.missed_since(&at(0.0));
-        // It falls with the fifth power of the step.
+        // The error falls with the fifth power of the step.
         let parts = (rest.abs() / (SAME * whole)).sqrt().sqrt().ceil();
         let parts = if parts.is_finite() {
             parts.clamp(1.0, MOST_PARTS)

@@ -11,10 +11,10 @@ use crate::way::{Place, Way};
 /// Parts of a turn at constant kinetic energy.
 const PARTS: usize = 512;
 
-/// ω ∝ 1/√J, J with rotor, gearbox and drive train, as one torque moves them all.
+/// ω ∝ 1/√J, where J includes rotor, gearbox and drive train, because one torque moves them all.
 pub(super) fn constant_energy(way: &Way, step: &Move) -> Result<Vec<Phase>, Error> {
     let distance = step.to - step.from;
-    // Inertia and its slope along the way.
+    // Inertia and its slope along the path.
     let inertia = |share: f64| -> Result<[f64; 2], Error> {
         let place = way.place(step.from + distance * share)?;
         let whole = way.demand(&place, 0.0, 0.0).per_acceleration;

@@ -1,4 +1,4 @@
-//! What a motion asks of the motor, and which of it is to be least.
+//! The load of the motor in a motion, and the goal to minimise.
 
 use jred_machine::number::rounding::of_terms;
 use jred_sizing::catalogue::Drive;
@@ -8,11 +8,11 @@ use jred_sizing::motor::winding::CurrentCurve;
 use super::Request;
 use crate::way::Actuator;
 
-/// Temperature of the winding (°C) at which the copper loss is taken.
+/// Temperature of the winding (°C) for the copper loss.
 pub const WINDING: f64 = 20.0;
 
 jred_machine::words! {
-    /// What is to be least, over the cycle.
+    /// Quantity to minimise over the cycle.
     pub enum Goal default Rms {
         /// RMS torque: the heat in the motor.
         Rms = "rms",
@@ -23,22 +23,22 @@ jred_machine::words! {
     }
 }
 
-/// Copper loss per square of the torque of a drive's motor (W/(N·m)²), its winding at 20 °C, up to the torque where the iron saturates.
-/// `None`: resistance or torque constant is not stated.
+/// Copper loss per square of the torque of a drive's motor (W/(N·m)²), with the winding at 20 °C, up to the torque where the iron saturates. `None`
+/// if resistance or torque constant is not given.
 pub fn copper(drive: &Drive) -> Option<f64> {
     let constant = CurrentCurve::of(drive.motor)?.torque_constant();
     let resistance = drive.motor.winding.loss_resistance(WINDING)?;
     Some(resistance / (constant * constant))
 }
 
-/// What a motion asks of the motor, or of the input of the drive train.
+/// Load of the motor, or of the input of the drive train, in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// RMS torque over the cycle (N·m).
     pub rms: f64,
     /// Largest magnitude of the torque (N·m).
     pub peak: f64,
-    /// Mechanical work that the motor delivers in a cycle (J); what flows back is not deducted.
+    /// Mechanical work that the motor delivers in a cycle (J); returned energy is not deducted.
     pub drawn: f64,
     /// Copper loss in a cycle (J).
     pub copper: Option<f64>,
@@ -46,14 +46,14 @@ pub struct Figures {
     pub speed: f64,
     /// Largest share of the drive's short-time torque; infinite beyond its largest speed.
     pub used: f64,
-    /// RMS torque as a share of the S1 torque at the mean speed; 0 where that is not known.
+    /// RMS torque as a share of the S1 torque at the mean speed; 0 without data.
     pub rms_used: f64,
-    /// Largest speed as a share of the motor's; 0 where that is not known.
+    /// Largest speed as a share of the motor's; 0 without data.
     pub speed_used: f64,
 }
 
 impl Figures {
-    /// The figure that is to be least.
+    /// The figure that a goal minimises.
     pub fn of(&self, goal: Goal) -> f64 {
         match goal {
             Goal::Rms => self.rms,
@@ -64,7 +64,7 @@ impl Figures {
 }
 
 impl Request {
-    /// What a cycle asks.
+    /// The figures of a cycle.
     pub(crate) fn figures(&self, cycle: &Cycle) -> Figures {
         let Actuator {
             coefficients,
@@ -72,7 +72,7 @@ impl Request {
             envelope,
         } = &self.actuator;
         let speed = cycle.peak_speed() * ratio;
-        // The torque is a sum of terms as large as ½·J′·ω², the work one of torques at their speeds.
+        // The torque is a sum of terms as large as ½·J′·ω², the work a sum of torques times their speeds.
         let [_, driving, ..] = coefficients.0;
         let peak = cycle.peak_torque(coefficients);
         let inertial = driving * cycle.inertia().max * cycle.peak_speed().powi(2);

@@ -8,7 +8,7 @@ use crate::moves::INSIDE;
 /// Parts of a smooth stretch of a law.
 const PARTS: u32 = 64;
 
-/// Polynomials of fifth degree through position, speed and acceleration of a move by a law; exact where the law is such a polynomial.
+/// Polynomials of fifth degree through position, speed and acceleration of a law; exact where the law is such a polynomial.
 pub(super) fn phases(law: Law, distance: f64, duration: f64) -> Vec<Phase> {
     let mut ends = vec![0.0, 1.0];
     ends.extend(law.breaks().into_iter().flatten());

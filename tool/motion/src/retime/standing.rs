@@ -1,20 +1,20 @@
-//! How long links stand still while the drive moves, as the table of an indexing cam does.
+//! Times in which links are at rest while the drive moves, as for the table of an indexing cam.
 
 use jred::Error;
 use jred::machine::Mechanism as _;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::Motion;
 
-/// Instants at which it is looked.
+/// Instants that are evaluated.
 const INSTANTS: u32 = 2000;
 
-/// A transfer function below this share of the largest one of the link is none.
+/// A transfer function below this share of the link's largest one counts as zero.
 const STILL: f64 = 1e-6;
 
-/// Share of the motion by which a time must differ to be named.
+/// Share of the motion by which a time must differ to be reported.
 const DIFFERS: f64 = 0.005;
 
-/// Links with the times (s) for which they stand still in both motions although the drive moves, where these differ.
+/// Links with the times (s) for which they are at rest in both motions although the drive moves, where these differ.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -25,7 +25,7 @@ pub(super) fn changed(
 ) -> Result<Vec<(String, [f64; 2])>, Error> {
     let [own_times, other_times] = [times(file, own)?, times(file, other)?];
     let mechanism = file.machine.mechanism();
-    // The links of loads are none of the machine's.
+    // Links of loads do not belong to the machine.
     let names = mechanism.link_names().iter().take(mechanism.own_links());
     let pairs = own_times.into_iter().zip(other_times);
     let all = names

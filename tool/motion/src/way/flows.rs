@@ -1,21 +1,21 @@
-//! The torque that a motion needs as the highest of linear forms.
+//! The torque of a motion as the highest of linear forms.
 //!
-//! A stage of efficiency η ≤ 1 needs τ/η where it drives the machine and η·τ where power flows back: always the larger of both. So for the
-//! load X and the acceleration a of the drive link
+//! A stage of efficiency η ≤ 1 needs τ/η where it drives the machine and η·τ where power flows back: always the larger of both. So for the load X and
+//! the acceleration a of the drive link
 //!
 //! ```text
 //! T = maxₖ (pₖ·X + qₖ·a) + d·v + e
 //! ```
 //!
-//! with one form for each way in which power can flow through the stages. T rises with a, so that the acceleration of a torque is the
-//! least of those of the forms: neither needs a search.
+//! with one form for each combination of power directions through the stages. T rises with a, so the acceleration by a torque is the least of the
+//! forms' accelerations. Neither needs a search.
 
 use jred_machine::model::drive_train::DriveTrain;
 use jred_sizing::cycle::form::Coefficients;
 
 use super::Demand;
 
-/// Stages with losses through each of which power flows one way.
+/// One combination of power directions through the stages with losses.
 #[derive(Clone, Copy, Debug)]
 struct Flow {
     /// pₖ: torque per torque of the load.
@@ -35,7 +35,7 @@ pub(super) struct Flows {
 }
 
 impl Flows {
-    /// Of the motor before a chain; its coefficients are by the loads at the input of the chain. Commands refuse branches beside it.
+    /// The torque of the motor before a drive train; its coefficients are by the loads at the train's input. Commands refuse branches here.
     pub(super) fn new(train: &DriveTrain, motor: &Coefficients) -> Self {
         debug_assert!(train.branches().is_empty(), "branches are not counted");
         let first = Flow {
@@ -67,13 +67,12 @@ impl Flows {
         }
     }
 
-    /// Whether power that flows back changes nothing.
+    /// Whether the direction of power makes no difference.
     pub(super) fn is_lossless(&self) -> bool {
         self.each.len() < 2
     }
 
-    /// The torque that load, acceleration and speed ask for; its slope takes in that the load has an inertia of its own. And which of the
-    /// forms it is.
+    /// The torque for load, acceleration and speed, and the index of its form. The slope includes the load's own inertia.
     pub(super) fn demand(&self, load: [f64; 2], acceleration: f64, speed: f64) -> (Demand, usize) {
         let [resisting, inertia] = load;
         let load = resisting + inertia * acceleration;
@@ -90,7 +89,7 @@ impl Flows {
         (demand, which)
     }
 
-    /// The acceleration that a torque gives: the inverse of [`demand`](Self::demand).
+    /// The acceleration by a torque: the inverse of [`demand`](Self::demand).
     pub(super) fn acceleration(
         &self,
         [resisting, inertia]: [f64; 2],
@@ -108,7 +107,7 @@ impl Flows {
     }
 }
 
-/// Each flow driving and back through a stage with an inertia at its output.
+/// Each form, driving and back, through a stage with an inertia at its output.
 fn through(flows: &[Flow], inertia: f64, factors: [f64; 2]) -> Vec<Flow> {
     let [driving, back] = factors;
     let factors = if driving.total_cmp(&back).is_eq() {

@@ -1,4 +1,4 @@
-//! What the axes on one DC bus do, and whether the bus holds.
+//! The result for the axes on one DC bus.
 
 use miette::{Result, miette};
 
@@ -11,7 +11,7 @@ use super::{Need, Watch};
 use crate::catalogue::Catalogue;
 use jred_machine::model::supply::Supply;
 
-/// One axis: its drive, and what it draws.
+/// One axis: its drive and its power.
 #[derive(Debug)]
 pub struct Axis {
     /// Title of its machine file.
@@ -35,7 +35,7 @@ pub struct Answer {
     pub axes: Vec<Axis>,
     /// Data of the bus.
     pub data: BusData,
-    /// All of them.
+    /// All axes on the bus.
     pub shared: Axes,
     /// Figures of the bus with all axes in step.
     pub in_step: Option<BusFigures>,
@@ -49,11 +49,11 @@ pub struct Answer {
     pub bounds: Bounds,
     /// Requirements for a brake resistor if the machine files give none or it is not suitable.
     pub need: Option<Need>,
-    /// The smallest resistor of the catalogue that meets it.
+    /// The smallest resistor of the catalogue that meets the need.
     pub proposal: Option<String>,
-    /// The same, if it was connected to the bus because the machine files give none.
+    /// The same, if it was connected to the bus because the machine files give no resistor.
     pub chosen: Option<String>,
-    /// Why no resistor of the catalogue meets it.
+    /// Why no resistor of the catalogue meets the need.
     pub misses: Option<String>,
     /// Changes that would satisfy every limit.
     pub cures: Vec<Cure>,
@@ -63,7 +63,7 @@ impl Answer {
     /// Computes the result; `only_in_step`: only with all axes in step.
     ///
     /// # Errors
-    /// The DC bus is not known.
+    /// Data of the DC bus are missing.
     pub fn new(
         axes: Vec<Axis>,
         only_in_step: bool,
@@ -138,7 +138,7 @@ impl Answer {
         Ok(answer)
     }
 
-    /// The worst phases, and those with the most room.
+    /// The worst phases, and the phases with the most margin.
     fn search(&mut self, watch: &dyn Watch) {
         let Some(period) = self.power.as_ref().map(PowerCurve::period) else {
             return;
@@ -159,8 +159,7 @@ impl Answer {
         }
     }
 
-    /// Mean power of separate resistors less that of a common one (W), all axes in step; of several axes, where the resistor is
-    /// known.
+    /// Mean power of separate resistors less the mean power of a common one (W), with all axes in step; only for several axes with a given resistor.
     pub fn saved(&self) -> Option<f64> {
         self.data.resistor.filter(|_| self.axes.len() > 1)?;
         let period = self.power.as_ref()?.period();

@@ -1,9 +1,9 @@
 //! Several axes on one DC bus, their cycles shifted against each other.
 //!
-//! Peaks need no search: with free phases every axis may have its largest power at the same instant, and the sum of the
-//! largest powers is reached. What the capacitor and the brake resistor see depends on the phases: two axes are searched
-//! over all phases, then finer around the worst; three over a coarser grid; more, one phase at a time from several starts,
-//! which finds a large value but need not find the largest. [`Bounds`] hold for any phases and periods.
+//! Peaks need no search: with free phases every axis may have its largest power at the same instant, so the sum of the largest powers is reached. The
+//! load of capacitor and brake resistor depends on the phases. Two axes are searched over all phases, then finer around the worst; three over a
+//! coarser grid. With more axes one phase is varied at a time from several starts, which finds a large value, not necessarily the largest. [`Bounds`]
+//! are valid for any phases and periods.
 
 use serde::Serialize;
 
@@ -12,11 +12,11 @@ use super::period::Common;
 use super::phases::{Found, Phases, Watch};
 use super::store::{Bus, BusFigures};
 
-/// Up to how many points of all axes over the common period the search takes all of them: of two axes, and of more, whose phases
-/// are looked for on a grid that misses more than fewer points do.
+/// Largest number of points of all axes over the common period that the search uses unreduced: for two axes, and for more. Their coarser grid misses
+/// more than the reduction does.
 const EXACT: [usize; 2] = [100_000, 5_000];
 
-/// How far the curves may be off, of their own span, that a search takes beyond that. Its results are worked out with all points.
+/// Error of the curves, as a share of their span, that a larger search accepts. Its results are computed again with all points.
 const OFF: f64 = 1e-4;
 
 /// Axes on a bus.
@@ -46,7 +46,7 @@ impl Goal {
     /// All of them, in the order of [`Goal::of`].
     pub const ALL: [Self; 4] = [Self::Voltage, Self::Resistor, Self::Peak, Self::Pulse];
 
-    /// The figure that it looks at.
+    /// The figure that it maximises.
     pub const fn of(self, figures: &BusFigures) -> f64 {
         match self {
             Self::Voltage => figures.highest,
@@ -57,10 +57,10 @@ impl Goal {
     }
 }
 
-/// Phases that were found.
+/// Phases found by a search.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Worst {
-    /// How much later each axis starts than the first (s).
+    /// Delay of each axis relative to the first (s).
     #[serde(rename = "phases [s]")]
     pub phases: Vec<f64>,
     /// Result for the bus over the common period.
@@ -70,10 +70,10 @@ pub struct Worst {
 /// Bounds that are valid for any phases and periods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Bounds {
-    /// Largest power drawn (W): the sum of the axes' own. It is reached.
+    /// Largest power drawn (W): the sum of the axes' largest powers. It is reached.
     #[serde(rename = "peak drawn [W]")]
     pub drawn: f64,
-    /// Largest power fed back (W): the sum of the axes' own. It is reached where all of them feed back.
+    /// Largest power fed back (W): the sum of the axes' largest values. It is reached if all axes feed back.
     #[serde(rename = "peak fed back [W]")]
     pub back: f64,
     /// Highest voltage (V).
@@ -117,7 +117,7 @@ impl Axes {
         &self.common
     }
 
-    /// The power of all axes over the common period, each started later by its phase (s). `None`: that is not searched.
+    /// The power of all axes over the common period, each delayed by its phase (s); `None` if that is not searched.
     pub fn power(&self, phases: &[f64]) -> Option<PowerCurve> {
         let all = phases.iter().copied().chain(std::iter::repeat(0.0));
         let phases: Vec<f64> = all.take(self.whole.len()).collect();
@@ -138,13 +138,13 @@ impl Axes {
         }
     }
 
-    /// The worst phases for each [`Goal`], in the order of [`Goal::ALL`]. `None`: the common period is not searched.
+    /// The worst phases for each [`Goal`], in the order of [`Goal::ALL`]; `None` if the common period is not searched.
     pub fn worst(&self, watch: &dyn Watch) -> Option<[Worst; 4]> {
         let figures = |figures: &BusFigures| Goal::ALL.map(|goal| goal.of(figures));
         self.largest(figures, watch)
     }
 
-    /// The phases at which each of these figures is largest. `None`: the common period is not searched.
+    /// The phases at which each of these figures is largest; `None` if the common period is not searched.
     pub fn largest<const N: usize>(
         &self,
         of: impl Fn(&BusFigures) -> [f64; N] + Sync,
@@ -183,7 +183,7 @@ impl Axes {
         !(self.bus.regenerative || back == 0.0 || unbounded)
     }
 
-    /// Mean power drawn, and fed back, by all axes, each for itself (W).
+    /// Mean power drawn and fed back (W), summed over the axes.
     pub fn mean(&self) -> [f64; 2] {
         self.curves.iter().fold([0.0; 2], |[drawn, back], curve| {
             let [d, b] = curve.energies();
@@ -191,8 +191,8 @@ impl Axes {
         })
     }
 
-    /// Bounds for any phases and periods. The energy stored is at most the sum of what each axis alone would store:
-    /// it is the largest energy that came back in any span of time, and that of a sum is at most the sum of the largest.
+    /// Bounds for any phases and periods. An axis alone stores the largest energy fed back in any span of time. For a sum of axes this is at most the
+    /// sum of the individual values.
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds {
             drawn: 0.0,
@@ -218,15 +218,14 @@ impl Axes {
         [_, bounds.resistor] = self.mean();
         let voltage = (self.bus.voltage * self.bus.voltage + stored).sqrt();
         bounds.highest = match self.bus.resistor {
-            // The resistor lets the voltage rise to where it comes on, or to where it takes the largest power.
+            // The resistor lets the voltage rise to its switch-on voltage, or to the voltage at which it takes the largest power.
             Some([on, resistance]) => voltage.min(on.max((bounds.back * resistance).sqrt())),
             None => voltage,
         };
         bounds
     }
 
-    /// Mean power of the brake resistors (W) if each axis had a bus, a resistor like this and its share of the capacitance
-    /// of its own.
+    /// Mean power of the brake resistors (W) if each axis had its own bus, with such a resistor and its share of the capacitance.
     pub fn apart(&self) -> f64 {
         let share = 1.0 / self.curves.len().max(1) as f64;
         let alone = Bus {

@@ -1,13 +1,13 @@
 //! Contradictory bus voltages.
 //!
-//! The machine file refuses such an order among its own keys. The voltages of one bus may come from several places, though:
-//! the machine file, the amplifier, the motor's data sheet.
+//! The machine file refuses such an order among its own keys. However, the voltages of one bus may come from several sources: the machine file, the
+//! amplifier, the motor's data sheet.
 
 use super::supply::BusData;
 use jred_machine::number::rounding::short;
 
-/// A conflict that no brake resistor resolves: the supply voltage must be below the chopper voltage, and that below the
-/// maximum voltage.
+/// A conflict that no brake resistor resolves: the supply voltage must be below the chopper voltage, and the chopper voltage below the maximum
+/// voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conflict {
     /// The supply voltage is at or above the maximum voltage (V).
@@ -19,14 +19,14 @@ pub enum Conflict {
     },
     /// The brake resistor switches on at or above the maximum voltage (V).
     LateChopper {
-        /// Voltage at which it comes on.
+        /// Switch-on voltage.
         chopper: f64,
         /// The highest voltage.
         highest: f64,
     },
     /// The brake resistor is never off (V).
     EarlyChopper {
-        /// Voltage at which it comes on.
+        /// Switch-on voltage.
         chopper: f64,
         /// Supply voltage.
         supply: f64,
@@ -77,8 +77,7 @@ impl Conflict {
 }
 
 impl BusData {
-    /// Whether the voltages, as far as they are known, leave a brake resistor nothing to do. A supply that takes energy back
-    /// needs none.
+    /// Whether the known voltages make a brake resistor useless. A regenerative supply needs no resistor.
     pub fn conflict(&self) -> Option<Conflict> {
         if let (Some(supply), Some(highest)) = (self.voltage, self.max_voltage)
             && supply >= highest

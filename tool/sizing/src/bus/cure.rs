@@ -1,4 +1,4 @@
-//! Changes that would bring a bus within its limits.
+//! Changes that bring a bus within its limits.
 
 use std::fmt::Write as _;
 
@@ -17,11 +17,11 @@ pub struct Cure {
     pub changes: Vec<Change>,
     /// Delay of each axis relative to the first (s), if the phases are to be changed.
     pub phases: Option<Vec<f64>>,
-    /// In words.
+    /// The message.
     pub words: String,
 }
 
-/// A key and what it must be.
+/// A key and its required value.
 #[derive(Clone, Debug)]
 pub struct Change {
     /// The key of `[supply]`.
@@ -110,7 +110,7 @@ impl Answer {
         ]
     }
 
-    /// Changes each of which is sufficient by itself. Empty if every limit is satisfied.
+    /// Changes each of which is sufficient by itself; empty if every limit is satisfied.
     pub fn cures(&self, watch: &dyn Watch) -> Vec<Cure> {
         if self.failed().is_empty() {
             return Vec::new();
@@ -153,7 +153,7 @@ impl Answer {
             return Some(Cure::of(changes.collect()));
         }
         if self.data.resistor.is_some() && mean == 0.0 {
-            // It never comes on, whatever its resistance is.
+            // It never switches on, whatever its resistance.
             let least = self.data.min_resistance?;
             let change = Change::at_least("brake_resistor.resistance", least, "Ohm");
             return (!self.fails(Judged::Voltage)).then(|| Cure::of(vec![change]));
@@ -195,8 +195,8 @@ impl Answer {
         Some(cure)
     }
 
-    /// A capacitor that stores all regenerated energy: ½·C·(U² − U₀²) is the most that is ever stored, whatever C is. With a
-    /// brake resistor U is the voltage at which that would come on, if that is not above the highest.
+    /// A capacitor that stores all regenerated energy: ½·C·(U² − U₀²) is the largest stored energy, whatever C is. With a brake resistor U is its
+    /// switch-on voltage, if that is not above the maximum.
     fn capacitance_cure(&self, watch: &dyn Watch) -> Option<Cure> {
         let u0 = self.data.voltage?;
         let chopper = self.data.resistor.and(self.data.chopper_voltage);

@@ -1,4 +1,4 @@
-//! Power over time that repeats: straight lines between points, with jumps.
+//! Periodic power over time: straight lines between points, with jumps.
 
 /// Power drawn from the bus (W, negative: fed back) over one period.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,8 +9,7 @@ pub struct PowerCurve {
 }
 
 impl PowerCurve {
-    /// A curve through points in order of time; constant before the first point, and from the last one to the end of the
-    /// period.
+    /// A curve through points in order of time, constant before the first point and after the last one.
     pub fn new(inner: impl IntoIterator<Item = [f64; 2]>, period: f64) -> Self {
         let mut points: Vec<[f64; 2]> = Vec::new();
         for [t, power] in inner {
@@ -73,7 +72,7 @@ impl PowerCurve {
         })
     }
 
-    /// When the smallest power is reached first (s).
+    /// First time at which the power is smallest (s).
     pub(super) fn least_at(&self) -> f64 {
         let least = self.points.iter().min_by(|a, b| a[1].total_cmp(&b[1]));
         least.map_or(0.0, |[t, _]| *t)
@@ -87,10 +86,10 @@ impl PowerCurve {
         moved
     }
 
-    /// Writes the shifted curve into an existing one, since a search over phases shifts a curve many times.
+    /// Writes the shifted curve into an existing one, because a search over phases shifts a curve many times.
     pub(super) fn shift_into(&self, shift: f64, moved: &mut Self) {
         let cut = (self.period - shift).rem_euclid(self.period);
-        // What begins at `cut` comes first.
+        // The part from `cut` on comes first.
         let split = self.points.partition_point(|[t, _]| *t < cut);
         let (head, tail) = self.points.split_at(split);
         let at_cut = match (head.last(), tail.first()) {
@@ -109,7 +108,7 @@ impl PowerCurve {
         points.push([self.period, at_cut]);
     }
 
-    /// A place for a curve.
+    /// An empty curve to write into.
     pub(super) const fn empty() -> Self {
         Self {
             points: Vec::new(),
@@ -130,10 +129,10 @@ impl PowerCurve {
         }
     }
 
-    /// A curve with fewer points that is nowhere off by more than `tolerance` (W); jumps stay.
+    /// A curve with fewer points whose error is nowhere above `tolerance` (W); jumps stay.
     #[must_use]
     pub fn simplified(&self, tolerance: f64) -> Self {
-        // The point kept last, and slopes of the lines from it that pass all points after it within the tolerance.
+        // The last kept point, and slopes of lines from it that pass all points after it within the tolerance.
         let mut kept = 0;
         let mut slopes = [f64::NEG_INFINITY, f64::INFINITY];
         let mut points = self.points.get(..1).unwrap_or_default().to_vec();
@@ -179,7 +178,7 @@ impl PowerCurve {
         let points = &mut sum.points;
         points.clear();
         let (mut i, mut k) = (0, 0);
-        // The value of a curve at `t` between its points number n − 1 and n.
+        // The value of a curve at `t` between its points n − 1 and n.
         let value = |points: &[[f64; 2]], n: usize, t: f64| match (
             n.checked_sub(1).and_then(|m| points.get(m)),
             points.get(n),
@@ -197,7 +196,7 @@ impl PowerCurve {
                 k += 1;
             } else {
                 points.push([*ta, pa + pb]);
-                // Of a jump only one side moves on at a time.
+                // At a jump only one side advances at a time.
                 let jumps = |points: &[[f64; 2]], n: usize, t: f64| {
                     points.get(n + 1).is_some_and(|[next, _]| *next <= t)
                 };
@@ -211,7 +210,7 @@ impl PowerCurve {
                 }
             }
         }
-        // Past the end of one curve the other's last points stand at the period.
+        // Past the end of one curve, the other's last points lie at the period.
         let last_of = |points: &[[f64; 2]]| points.last().map_or(0.0, |[_, p]| *p);
         for [t, p] in a.iter().skip(i) {
             points.push([*t, p + last_of(b)]);
@@ -225,7 +224,7 @@ impl PowerCurve {
 /// A straight piece of power: length (s), power at both ends (W).
 pub type Piece = (f64, [f64; 2]);
 
-/// The parts of a straight piece, cut where its power passes `level`.
+/// The parts of a straight piece, cut where its power crosses `level`.
 pub(super) fn split((h, [a, b]): Piece, level: f64, mut part: impl FnMut(Piece)) {
     let place = (level - a) / (b - a);
     if (a - level) * (b - level) < 0.0 && place > 0.0 && place < 1.0 {

@@ -10,7 +10,7 @@ use jred_machine::model::supply::BrakeResistor;
 use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;
 
-/// What a resistor may miss, and whether it does.
+/// A requirement, and whether a resistor misses it.
 type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
 
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
@@ -34,8 +34,8 @@ pub struct Need {
 }
 
 impl Need {
-    /// Requirements for a power curve. `None`: no data for the chopper voltage, or it is not between supply voltage and
-    /// limit ([`BusData::conflict`]), or the capacitor stores all regenerated energy.
+    /// Requirements for a power curve. `None` if there are no data for the chopper voltage, if it is not between supply voltage and limit
+    /// ([`BusData::conflict`]), or if the capacitor stores all regenerated energy.
     pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
         let [least, _] = curve.extremes();
         let figures = Self::bus(data, -least)?.run(curve);
@@ -43,8 +43,8 @@ impl Need {
         Self::new(data, [mean, figures.burnt_peak, figures.pulse])
     }
 
-    /// The need of several axes at any phases: each figure at the phases where it is largest. `None`: as [`Need::of`], or their
-    /// common period is not searched.
+    /// Requirements of several axes at any phases: each figure at the phases where it is largest. `None` as for [`Need::of`], or if their common
+    /// period is not searched.
     pub fn over(data: &BusData, axes: &Axes, watch: &dyn Watch) -> Option<Self> {
         let axes = axes.on(Self::bus(data, axes.bounds().back)?);
         let period = axes.power(&[])?.period();
@@ -113,7 +113,7 @@ impl Need {
         })
     }
 
-    /// Why no resistor of a catalogue meets these requirements: how many miss each of them.
+    /// Why no resistor of a catalogue meets these requirements: how many resistors miss each of them.
     pub fn misses(&self, resistors: &[Resistor]) -> String {
         let least = self.smallest_resistance.unwrap_or(0.0);
         let reasons: [Misses; 6] = [
@@ -154,12 +154,12 @@ impl Need {
         )
     }
 
-    /// In words.
+    /// The message.
     pub fn words(&self) -> String {
         format!("requires a brake resistor of {}", self.figures())
     }
 
-    /// Its figures in words.
+    /// The figures of the message.
     pub fn figures(&self) -> String {
         let largest = short(self.largest_resistance);
         let range = match self.smallest_resistance.map(short) {

@@ -1,27 +1,27 @@
 //! The common period of cycles.
 //!
-//! Periods are decimal numbers of data, or quotients of them, as floating-point numbers. Two periods match if integer
-//! multiples of them agree to within the tolerance of the search over phases; for long common periods to within rounding,
-//! since any two numbers are nearly in the ratio of large enough integers.
+//! Periods are decimal input values or quotients of them, as floating-point numbers. Two periods match if integer multiples of them agree to within
+//! the tolerance of the search over phases. Long common periods must agree to within rounding, because any two numbers are nearly in the ratio of
+//! large enough integers.
 
 use super::curve::PowerCurve;
 
-/// The largest number of cycles of an axis in a common period that is searched for the worst phases.
+/// Largest number of cycles of an axis in a common period that is searched for the worst phases.
 pub const MOST_CYCLES: u32 = 256;
 
-/// The largest number that a common period is looked for in.
+/// Largest number of cycles that is tried for a common period.
 pub const LOOKED_AT: u32 = 100_000;
 
-/// How well the periods must fit into each other, as a share.
+/// Relative tolerance with which periods must match.
 const FIT: f64 = 1e-9;
 
-/// The same of long common periods: some roundings. Of 100 000 numbers of cycles one fits by chance once in a thousand pairs.
+/// The same for long common periods: a few rounding errors. Among 100 000 numbers of cycles one fits by chance in one of a thousand pairs.
 const LONG_FIT: f64 = 1e-13;
 
 /// Whether cycles repeat together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Common {
-    /// They do, and soon enough for a search.
+    /// They do, within [`MOST_CYCLES`].
     Searched {
         /// The shortest common period (s).
         period: f64,
@@ -40,7 +40,7 @@ pub enum Common {
 }
 
 impl Common {
-    /// Of these curves.
+    /// The common period of these curves.
     pub(super) fn of(curves: &[PowerCurve]) -> Self {
         let periods: Vec<f64> = curves.iter().map(PowerCurve::period).collect();
         if let Some((period, cycles)) = shortest(&periods, MOST_CYCLES, FIT) {
@@ -52,7 +52,7 @@ impl Common {
         }
     }
 
-    /// The curves over the common period; none if that is not searched.
+    /// The curves over the common period; empty if that is not searched.
     pub(super) fn repeated(&self, curves: &[PowerCurve]) -> Vec<PowerCurve> {
         let Self::Searched { cycles, .. } = self else {
             return Vec::new();
@@ -61,11 +61,11 @@ impl Common {
         each.map(|(curve, count)| curve.repeated(*count)).collect()
     }
 
-    /// Up to which phase (s) of each axis the bus has anything new to do.
+    /// Largest phase (s) of each axis up to which the bus behaves differently.
     ///
-    /// Only the phases between the axes matter, and time may start at any cycle of any axis: the phase of an axis counts but
-    /// to the greatest common divisor of its own period with the common period of the axes before it. With n₁ and n₂ cycles of
-    /// two axes in the common period T that is T/(n₁·n₂).
+    /// Only the phases between the axes matter, and time may start at any cycle of any axis. So the phase of an axis counts up to the greatest common
+    /// divisor of its own period and the common period of the axes before it. With n₁ and n₂ cycles of two axes in the common period T that is
+    /// T/(n₁·n₂).
     pub(super) fn reach(&self) -> Vec<f64> {
         let Self::Searched { period, cycles } = self else {
             return Vec::new();
@@ -81,7 +81,7 @@ impl Common {
     }
 }
 
-/// The greatest common divisor; that of zero and a number is the number.
+/// The greatest common divisor; of zero and a number, the number.
 const fn divisor(a: u32, b: u32) -> u32 {
     let (mut a, mut b) = (a, b);
     while b != 0 {

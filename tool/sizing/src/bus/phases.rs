@@ -1,9 +1,8 @@
 //! The search over the phases between axes.
 //!
-//! Every goal is looked for in one pass over the same grid. Two axes: all phases on a grid of 720 to a cycle; three: 48 × 48;
-//! then finer around the best of each goal. More: one phase at a time from several starts. Cycles that repeat together only
-//! after several of each have fewer phases that differ ([`Common::reach`](super::period::Common)), so that the work does not
-//! grow with the length of the common period.
+//! All goals are searched in one pass over the same grid. Two axes: all phases on a grid of 720 per cycle; three: 48 × 48; then finer around the best
+//! of each goal. More: one phase at a time from several starts. Cycles that repeat together only after several cycles of each have fewer distinct
+//! phases ([`Common::reach`](super::period::Common)), so the work does not grow with the length of the common period.
 
 use super::curve::PowerCurve;
 use crate::threads;
@@ -22,27 +21,27 @@ impl Watch for () {
     fn done(&self, _: u64) {}
 }
 
-/// Phases of a grid to a cycle for two axes, for three, and for one phase of many.
+/// Grid phases per cycle for two axes, for three, and for one phase of many.
 const GRID: [f64; 3] = [720.0, 48.0, 48.0];
 
-/// The least of them for two axes, and for three.
+/// Least number of grid phases for two axes, and for three.
 const LEAST: [f64; 2] = [16.0, 32.0];
 
-/// Parts of a grid's step around the best place, and halvings of such a part after that.
+/// Parts of a grid step around the best place, and halvings of such a part after that.
 const PARTS: u32 = 8;
 const HALVINGS: u32 = 12;
 
 /// If all values around a phase agree to this share, the search is not refined there.
 const FLAT: f64 = 1e-9;
 
-/// Starts of a search one phase at a time, besides the one with all largest powers fed back at once.
+/// Starts of a one-phase-at-a-time search, besides the start with all largest powers fed back at once.
 const STARTS: u32 = 4;
 
 /// Curves of one period on a bus, the first one fixed.
 pub(super) struct Phases<'a> {
-    /// Over the common period.
+    /// The curves over the common period.
     pub(super) whole: &'a [PowerCurve],
-    /// Up to which phase (s) of each there is anything new.
+    /// Largest distinct phase (s) of each.
     pub(super) reach: &'a [f64],
     /// Period of each (s).
     pub(super) periods: Vec<f64>,
@@ -94,7 +93,7 @@ fn offer<const N: usize>(best: &mut [Found; N], phases: &[f64], values: [f64; N]
     }
 }
 
-/// Curves to work in.
+/// Working curves.
 struct Room {
     moved: PowerCurve,
     sum: PowerCurve,
@@ -127,7 +126,7 @@ impl Phases<'_> {
             .unwrap_or_else(|| PowerCurve::new([], self.whole[without].period()))
     }
 
-    /// All axes.
+    /// The power of all axes.
     pub(super) fn all(&self, phases: &[f64]) -> PowerCurve {
         self.rest(phases, usize::MAX)
     }
@@ -141,10 +140,10 @@ impl Phases<'_> {
             .collect()
     }
 
-    /// Places of the grid for the phase of an axis, and how far apart they are (s).
+    /// Number of grid places for the phase of an axis, and their distance (s).
     fn step(&self, axis: usize, grid: f64) -> (u32, f64) {
         if self.whole.len() > 3 {
-            // One phase is moved at a time: with the others held, all of the axis's own count.
+            // One phase moves at a time: while the others are fixed, all phases of the axis's own period count.
             return (grid as u32, self.periods[axis] / grid);
         }
         let count = (grid * self.reach[axis] / self.periods[axis])
@@ -153,8 +152,7 @@ impl Phases<'_> {
         (count as u32, self.reach[axis] / count)
     }
 
-    /// The phases at which each of the goals is largest, as far as the search finds them. `everywhere`: whether the goals
-    /// depend on the phases at all.
+    /// The phases at which each goal is largest, as far as the search finds them. `everywhere`: whether the goals depend on the phases at all.
     pub(super) fn search<const N: usize>(
         &self,
         everywhere: bool,
@@ -199,7 +197,7 @@ impl Phases<'_> {
             watch.done(1);
             values
         });
-        // In the order of the phases: the result does not depend on how the work was shared out.
+        // In the order of the phases: the result does not depend on how the work was distributed.
         for (i, values) in values.into_iter().enumerate() {
             offer(best, &[0.0, i as f64 * step], values);
         }
@@ -242,7 +240,7 @@ impl Phases<'_> {
         watch: &dyn Watch,
         best: &mut [Found; N],
     ) {
-        // Starts that spread evenly: multiples of the golden section, one for each axis.
+        // Evenly spread starts: multiples of the golden section, one for each axis.
         const SECTION: f64 = 0.618_033_988_749_894_9;
         let spread = |start: u32| -> Vec<f64> {
             let periods = self.periods.iter().enumerate();
@@ -278,7 +276,7 @@ impl Phases<'_> {
         let mut best = Found::of(start, goals(&self.all(start)));
         let mut expected = self.climbs(N, grid);
         for goal in 0..N {
-            // What no phase has moved yet does not depend on them.
+            // A goal that no phase has changed so far does not depend on them.
             if goal > 0 && best[goal].is_flat() {
                 continue;
             }
@@ -308,7 +306,7 @@ impl Phases<'_> {
         best
     }
 
-    /// Finer around a place: once from grid place to grid place, then in halves of halves.
+    /// Refines around a place: once between its grid neighbours, then by repeated halving.
     fn close_in<const N: usize>(
         &self,
         goal: usize,
@@ -331,7 +329,7 @@ impl Phases<'_> {
                 let step = self.step(axis, grid).1;
                 let mut phases = centre.clone();
                 watch.planned(u64::from(2 * parts));
-                // Both sides; the middle is known.
+                // Both sides; the middle is already evaluated.
                 for i in (0..=2 * parts).filter(|i| *i != parts) {
                     let off = (f64::from(i) / f64::from(parts) - 1.0) * width * step;
                     phases[axis] = (centre[axis] + off).rem_euclid(self.periods[axis]);

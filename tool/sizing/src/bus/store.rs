@@ -4,10 +4,9 @@
 //! E = ½·C·U²,   E′ = P_supply − P − P_R
 //! ```
 //!
-//! P is the power that the axes draw. A diode supply keeps U ≥ U₀ and takes nothing back; a regenerative supply keeps U =
-//! U₀. Above the chopper voltage, the brake resistor takes the regenerated power, at most U²/R; any excess raises the
-//! voltage further. The chopper's switching and the ripple of the mains are not followed. Power runs in straight lines;
-//! between its events (empty, chopper on, resistor at its most) the course is exact.
+//! P is the power that the axes draw. A diode supply keeps U ≥ U₀ and takes nothing back; a regenerative supply keeps U = U₀. Above the chopper
+//! voltage, the brake resistor takes the regenerated power, at most U²/R; any excess raises the voltage further. The chopper's switching and the
+//! mains ripple are not modelled. Power is piecewise linear; between its events (empty, chopper on, resistor at its limit) the course is exact.
 
 use super::curve::{Piece, PowerCurve, split};
 
@@ -16,18 +15,18 @@ use super::curve::{Piece, PowerCurve, split};
 pub struct Bus {
     /// Supply voltage (V).
     pub voltage: f64,
-    /// Capacitance (F); zero: none is known, and nothing is stored.
+    /// Capacitance (F); zero: no data, and nothing is stored.
     pub capacitance: f64,
     /// Whether the supply takes energy back.
     pub regenerative: bool,
-    /// Brake resistor: voltage at which it comes on (V), resistance (Ω).
+    /// Brake resistor: switch-on voltage (V), resistance (Ω).
     pub resistor: Option<[f64; 2]>,
 }
 
 /// Result for one period in the steady state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct BusFigures {
-    /// Energy from the supply (J); NaN where nothing bounds the voltage.
+    /// Energy from the supply (J); NaN if the voltage is unbounded.
     #[serde(rename = "supplied [J]")]
     #[schemars(with = "Option<f64>")]
     pub supplied: f64,
@@ -40,10 +39,10 @@ pub struct BusFigures {
     /// Its largest power (W).
     #[serde(rename = "resistor peak [W]")]
     pub burnt_peak: f64,
-    /// Largest energy of it without a pause (J); of a resistor that never pauses that of a period.
+    /// Its largest energy without a pause (J); if it never pauses, its energy per period.
     #[serde(rename = "resistor pulse [J]")]
     pub pulse: f64,
-    /// Highest voltage (V); infinite where nothing bounds it.
+    /// Highest voltage (V); infinite if unbounded.
     #[serde(rename = "highest voltage [V]")]
     #[schemars(with = "Option<f64>")]
     pub highest: f64,
@@ -65,10 +64,10 @@ impl BusFigures {
     };
 }
 
-/// How close the start of the next period must come, as a share of the energy at U₀ and that fed back.
+/// Tolerance of the periodic state, as a share of the energy at U₀ and the energy fed back.
 const PERIODIC: f64 = 1e-13;
 
-/// The most periods until it does.
+/// Most periods until it is reached.
 const MOST_PERIODS: u32 = 10_000;
 
 impl Bus {
@@ -80,8 +79,7 @@ impl Bus {
             parts(piece, most, |part| pieces.push(part));
         }
         let [mut drawn, mut back] = [0.0; 2];
-        // If more is drawn than fed back, the capacitor is empty where the energy drawn so far is largest. A period from
-        // there needs no other one to begin with.
+        // If more is drawn than fed back, the capacitor is empty where the accumulated drawn energy is largest. A period from there needs no run-in.
         let (mut from, mut most) = (0, 0.0);
         for (k, (h, [a, b])) in pieces.iter().enumerate() {
             let area = 0.5 * h * (a + b);
@@ -112,7 +110,7 @@ impl Bus {
             let mut walk = Walk::new(self, start, pulse);
             let stored = walk.period(&pieces, from);
             let carried = if walk.paused { walk.pulse } else { 0.0 };
-            // The first period is the same as the next where no pulse runs on into that.
+            // The first period equals the next unless a pulse continues into the next.
             let settled = period > 0 || carried <= 0.0;
             if (walk.excess - start).abs() <= PERIODIC * scale && settled {
                 return walk.finish(stored);
@@ -141,28 +139,27 @@ impl Bus {
     }
 }
 
-/// The parts of a piece in which neither the sign of the power nor whether the resistor can take all of it, `most` (W),
-/// changes.
+/// The parts of a piece in which neither the sign of the power changes, nor whether the resistor can take all of it (at most `most`, in W).
 fn parts(piece: Piece, most: f64, mut part: impl FnMut(Piece)) {
     split(piece, 0.0, |one_way| split(one_way, -most, &mut part));
 }
 
-/// The bus on its way through a period.
+/// The state of the bus in a period.
 struct Walk<'b> {
     bus: &'b Bus,
     /// ½·C·U₀² (J).
     base: f64,
-    /// Energy above `base` at which the resistor comes on (J); infinite without one.
+    /// Energy above `base` at which the resistor switches on (J); infinite without a resistor.
     full: f64,
     /// 2/(R·C): power of the resistor over stored energy (1/s); infinite without capacitance.
     rate: f64,
-    /// Largest power of the resistor at the voltage at which it comes on (W).
+    /// Largest power of the resistor at its switch-on voltage (W).
     most: f64,
     /// Energy above `base` (J).
     excess: f64,
     /// Energy of the resistor since its last pause (J).
     pulse: f64,
-    /// Whether it had a pause in this period.
+    /// Whether it has paused in this period.
     paused: bool,
     figures: BusFigures,
 }
@@ -199,7 +196,7 @@ impl<'b> Walk<'b> {
         self.figures
     }
 
-    /// A period from the piece `from` on, round to it again; returns the energy stored at the first piece (J).
+    /// Runs one period, starting and ending at the piece `from`; returns the energy stored at the first piece (J).
     fn period(&mut self, pieces: &[Piece], from: usize) -> f64 {
         self.seen(self.excess);
         let (first, last) = pieces.split_at(from);
@@ -237,7 +234,7 @@ impl<'b> Walk<'b> {
         let draws = a + b >= 0.0;
         let resistor = self.bus.resistor.is_some();
         let overloaded = resistor && -(a + b) > 2.0 * self.most;
-        // Each event ends a part of the piece; there are three at most.
+        // Each event ends a part of the piece; there are at most three.
         for _ in 0..4 {
             if h <= 0.0 {
                 return;
@@ -280,7 +277,7 @@ impl<'b> Walk<'b> {
         let (time, excess) = if area.abs() < way {
             (h, self.excess - area)
         } else {
-            // |a|·t + ½·|b − a|/h·t² = way, in the form that holds for a slope of either sign and for none.
+            // |a|·t + ½·|b − a|/h·t² = way, in a form that is valid for a slope of either sign and for zero.
             let (start, slope) = (a.abs(), (b.abs() - a.abs()) / h);
             let root = (start * start + 2.0 * slope * way).max(0.0).sqrt();
             let time = if start + root > 0.0 {
@@ -307,8 +304,8 @@ impl<'b> Walk<'b> {
         }
     }
 
-    /// The resistor at U²/R, until the voltage is back to where it came on or the piece ends; returns the time (s).
-    /// y = E satisfies y′ = s(t) − k·y with s = −P.
+    /// The resistor at U²/R, until the voltage is back at the switch-on voltage or the piece ends; returns the time (s). y = E satisfies y′ = s(t) −
+    /// k·y with s = −P.
     fn burns_at_most(&mut self, h: f64, [a, b]: [f64; 2], overloaded: bool) -> f64 {
         let k = self.rate;
         let slope = (a - b) / h;

@@ -1,4 +1,4 @@
-//! The bus of one drive or of several, as far as it is known.
+//! The known data of the bus of one drive or of several.
 
 use crate::catalogue::{Amplifier, Motor};
 use jred_machine::model::supply::{BrakeResistor, Supply};
@@ -12,7 +12,7 @@ pub struct BusData {
     pub voltage: Option<f64>,
     /// Capacitance (F).
     pub capacitance: Option<f64>,
-    /// Voltage at which the brake resistor comes on (V).
+    /// Switch-on voltage of the brake resistor (V).
     pub chopper_voltage: Option<f64>,
     /// Highest voltage (V).
     pub max_voltage: Option<f64>,
@@ -25,8 +25,8 @@ pub struct BusData {
 }
 
 impl BusData {
-    /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet. The bus must not exceed what the
-    /// motor's insulation withstands either.
+    /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet. The limit of the motor's insulation also applies to
+    /// the bus.
     pub fn new(
         supply: &Supply,
         bus_voltage: Option<f64>,
@@ -72,18 +72,18 @@ impl BusData {
         }
     }
 
-    /// Whether the bus asks for a brake resistor, if it rises to this voltage without one (NaN: not known): above the highest, or, if
-    /// that is not given, above the voltage at which a brake resistor would switch on.
+    /// Whether the bus needs a brake resistor, if it rises to this voltage without one (NaN: unknown): above the highest voltage or, if that is not
+    /// given, above the chopper voltage.
     pub fn asks_for_a_resistor(&self, highest: f64) -> bool {
         let top = self.max_voltage.or(self.chopper_voltage);
         top.is_some_and(|top| highest.is_nan() || highest > top)
     }
 
-    /// The bus with its resistor, if it has both that and a voltage at which it comes on. Without capacitance nothing is
-    /// stored: all regenerated energy goes into the resistor.
+    /// The bus with its resistor, if it has a resistor and a switch-on voltage. Without capacitance nothing is stored: all regenerated energy goes
+    /// into the resistor.
     ///
     /// # Errors
-    /// Message about missing data.
+    /// The missing data, as a message.
     pub fn bus(&self) -> Result<Bus, &'static str> {
         let voltage = self.voltage.ok_or("voltage of the DC bus")?;
         let resistor = match (self.resistor, self.chopper_voltage) {

@@ -15,11 +15,11 @@ pub enum Judged {
     Voltage,
     /// Resistance of the brake resistor.
     Resistance,
-    /// Its mean power.
+    /// Mean power of the brake resistor.
     Mean,
-    /// Its largest power.
+    /// Largest power of the brake resistor.
     Peak,
-    /// Its largest energy without a pause.
+    /// Largest energy of the brake resistor without a pause.
     Pulse,
 }
 
@@ -28,7 +28,7 @@ pub enum Judged {
 pub struct BusCheck {
     /// The value that is checked.
     pub what: Judged,
-    /// NaN: not known.
+    /// NaN: unknown.
     pub figure: f64,
     /// `None`: no limit given, but the value exceeds any limit.
     pub limit: Option<f64>,
@@ -79,7 +79,7 @@ impl BusCheck {
 pub struct Open {
     /// Name of the figure.
     pub figure: &'static str,
-    /// Lists of keys; all of one list say it.
+    /// Lists of keys; all keys of one list are needed.
     pub keys: &'static [&'static [&'static str]],
     /// Message about missing data.
     pub words: String,
@@ -90,7 +90,7 @@ impl Answer {
     /// if unknown.
     pub fn judged(&self) -> [f64; 4] {
         let mut judged = self.found();
-        // Nothing takes the regenerated energy, or there are no data.
+        // No device takes the regenerated energy, or there are no data.
         if judged[0].is_infinite() && self.data.capacitance.is_none() {
             judged[0] = f64::NAN;
         }
@@ -145,7 +145,7 @@ impl Answer {
             check(Judged::Pulse, pulse, resistor.and_then(|r| r.pulse_energy)),
         ]
         .into_iter()
-        // A voltage without bound is beyond any limit.
+        // An unbounded voltage exceeds any limit.
         .filter(|check| check.limit.is_some() || check.figure.is_infinite())
         .collect()
     }
@@ -164,7 +164,7 @@ impl Answer {
         self.data.conflict().filter(|_| needed)
     }
 
-    /// Checks without data: what is missing, and which keys would provide it.
+    /// Checks without data: the missing data, and the keys that provide them.
     pub fn open(&self) -> Vec<Open> {
         let [voltage, _, peak, pulse] = self.judged();
         let data = &self.data;
@@ -280,7 +280,7 @@ impl Answer {
         self.axes.iter().all(|axis| axis.holds) && self.failed().is_empty()
     }
 
-    /// How far the brake resistor is from meeting the requirements.
+    /// Distance of the brake resistor from each violated requirement.
     pub fn lacks(&self) -> Vec<(Judged, f64)> {
         let failed = self.failed().into_iter();
         let own = failed.filter(|check| check.what != Judged::Voltage);

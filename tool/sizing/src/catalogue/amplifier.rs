@@ -17,13 +17,13 @@ pub struct Amplifier {
     pub rated_current: f64,
     /// Peak current (A).
     pub peak_current: f64,
-    /// The maker's factors on both currents at the site.
+    /// The maker's derating factors on both currents at the site.
     pub derating: Derating,
-    /// How long the peak current may flow from cold (s).
+    /// Longest duration of the peak current from cold (s).
     pub peak_time: Option<f64>,
     /// Nominal DC-bus voltage (V).
     pub bus_voltage: Option<f64>,
-    /// Mains voltage that it is made for (V): any of its class.
+    /// Mains voltage that it is made for (V), with its whole voltage class.
     pub mains_voltage: Option<f64>,
     /// DC-bus capacitance (F).
     pub capacitance: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Resistor {
 }
 
 impl Resistor {
-    /// What the bus sees of it.
+    /// Its data for the bus.
     pub const fn on_bus(&self) -> BrakeResistor {
         BrakeResistor {
             resistance: self.resistance,

@@ -17,7 +17,7 @@ pub(super) struct Cell<'t> {
     pub(super) unit: Option<&'t Unit>,
 }
 
-/// Splits "3.2 N m" into its number and its unit.
+/// Splits "3.2 N m" into number and unit.
 pub(super) fn number_and_unit(text: &str, holds: Holds) -> Result<(String, Unit), Fault> {
     let tidy = tidy(text);
     let kind = holds.kinds().first();

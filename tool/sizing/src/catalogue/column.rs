@@ -24,7 +24,7 @@ impl Kind {
         Self::Compatibility,
     ];
 
-    /// Ending of the name of such a file before ".csv", and name of its rows.
+    /// End of the file name before ".csv", and name of the rows.
     pub(super) const fn plural(self) -> &'static str {
         match self {
             Self::Motors => "motors",
@@ -35,7 +35,7 @@ impl Kind {
         }
     }
 
-    /// The name of its tables in TOML.
+    /// Name of the tables in TOML.
     pub(super) const fn singular(self) -> &'static str {
         match self {
             Self::Motors => "motor",
@@ -59,10 +59,10 @@ pub(super) enum For {
 #[derive(Debug)]
 pub(super) struct Unit {
     pub(super) text: String,
-    /// Its value in SI.
+    /// Its SI value.
     pub(super) si: f64,
     pub(super) motors: For,
-    /// The smallest value above zero and the largest (SI): others are mistakes, and lead to figures without end.
+    /// The smallest positive and the largest value (SI). Others are mistakes and lead to infinite figures.
     pub(super) range: [f64; 2],
 }
 
@@ -72,14 +72,13 @@ pub(super) const PLAIN: [f64; 2] = [1e-6, 1e12];
 /// The range of the ratio of a gearbox.
 pub(super) const RATIO: [f64; 2] = [1e-4, 1e6];
 
-/// What is written in a cell or in a point of a curve.
+/// Content of a cell or of a point of a curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Holds {
     /// Cycles per hour.
     Hourly,
-    /// A quantity of a kind, or of two: of a motor that turns, of one that slides. None: words, quantities that carry their units
-    /// themselves, or plain numbers. The header of a price names the currency, any word chosen by the user, which is only
-    /// compared.
+    /// A quantity of one kind, or of two: for a rotary and for a linear motor. Empty: words, quantities with their own units, or plain numbers. The
+    /// header of a price names the currency, any word chosen by the user, which is only compared.
     Of(&'static [&'static units::Kind]),
 }
 
@@ -87,7 +86,7 @@ pub(super) enum Holds {
 pub(super) const SPEED: Holds = Holds::Of(&[&units::ANGULAR_SPEED, &units::VELOCITY]);
 /// Torques or forces of a curve.
 pub(super) const EFFORT: Holds = Holds::Of(&[&units::TORQUE, &units::FORCE]);
-/// Temperatures of the surroundings.
+/// Ambient temperatures.
 pub(super) const TEMPERATURE: Holds = Holds::Of(&[&units::TEMPERATURE]);
 /// Altitudes.
 pub(super) const ALTITUDE: Holds = Holds::Of(&[&units::ALTITUDE]);
@@ -103,7 +102,7 @@ impl Holds {
         }
     }
 
-    /// Reads the unit of such a quantity.
+    /// Reads the unit of a quantity.
     pub(super) fn unit(self, text: &str) -> Result<Unit, Fault> {
         let foreign = |cure| {
             let shown = plain::cut(text);
@@ -134,7 +133,7 @@ impl Holds {
 
 macro_rules! columns {
     ($($column:ident $name:literal [$($kind:ident)*] [$($holds:ident)*];)*) => {
-        /// A column; as an index its place in [`Column::ALL`].
+        /// A column; its index is its position in [`Column::ALL`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Column { $($column,)* }
 
@@ -149,7 +148,7 @@ macro_rules! columns {
                 match self { $(Self::$column => Holds::Of(&[$(&units::$holds,)*]),)* }
             }
 
-            /// The tables that have it.
+            /// The tables that contain it.
             pub(super) const fn kinds(self) -> &'static [Kind] {
                 match self { $(Self::$column => &[$(Kind::$kind,)*],)* }
             }

@@ -1,70 +1,70 @@
-//! How heat and thin air at the site reduce the ratings of motors and amplifiers.
+//! Derating of motors and amplifiers by heat and thin air at the site.
 //!
-//! The maker's points hold where the catalogue has them; otherwise the general rules of docs/sizing-rules.md. Neither reaches
-//! further than its source: [`Derated::hottest`] and [`Derated::highest`] are where it ends.
+//! The maker's points are used if the catalogue has them, otherwise the general rules of docs/sizing-rules.md. Neither extends beyond its source:
+//! [`Derated::hottest`] and [`Derated::highest`] are the limits.
 
 use super::{Amplifier, Motor, broken_line};
 use jred_machine::model::surroundings::{LOW, REFERENCE, Surroundings};
 
-/// The highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
+/// Highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
 const HOTTEST_MOTOR: f64 = 60.0;
 
-/// The highest temperature (°C) around amplifiers up to which makers state a reduction of the current.
+/// Highest ambient temperature (°C) of amplifiers for which makers give a reduction of the current.
 const HOTTEST_AMPLIFIER: f64 = 55.0;
 
-/// The highest altitude (m) for which IEC 60034-1 has a rule, and makers of amplifiers do.
+/// Highest altitude (m) for which IEC 60034-1 and makers of amplifiers have a rule.
 const HIGHEST: f64 = 4000.0;
 
-/// Loss of S1 torque per kelvin above 40 °C, where the winding's highest temperature is not known.
+/// Loss of S1 torque per kelvin above 40 °C, if the winding's maximum temperature is not given.
 const TORQUE_PER_KELVIN: f64 = 0.01;
 
 /// Loss of an amplifier's current per kelvin above 40 °C.
 const CURRENT_PER_KELVIN: f64 = 0.025;
 
-/// The maker's factors on a rating: (temperature in °C or altitude in m, factor), rising; empty: not given.
+/// The maker's derating factors: (temperature in °C or altitude in m, factor), rising; empty: not given.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Derating {
-    /// Over the temperature of the surroundings.
+    /// By ambient temperature.
     pub temperature: Vec<[f64; 2]>,
-    /// Over the altitude.
+    /// By altitude.
     pub altitude: Vec<[f64; 2]>,
 }
 
-/// Where a factor comes from.
+/// Source of a factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
-    /// Nothing is reduced.
+    /// No derating.
     None,
     /// The maker's points.
     Maker,
-    /// The rise that the winding's highest temperature leaves.
+    /// The remaining temperature rise up to the winding's maximum temperature.
     Rise,
-    /// Makers' practice, which the catalogue does not confirm.
+    /// Makers' practice, not confirmed by the catalogue.
     Practice,
 }
 
 /// The ratings of a motor or an amplifier at a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Derated {
-    /// Factor on the S1 torque at every speed, or on the current.
+    /// Factor of the S1 torque at every speed, or of the current.
     pub factor: f64,
-    /// Part of it by which the torque counts more in a thermal model of shares of the rated rise, since the maker states it for
-    /// the torque; the rest is a smaller rise.
+    /// Part of it that raises the relative torque in a thermal model with shares of the rated rise, because the maker gives it for the torque; the
+    /// other part lowers the rise.
     pub torque: f64,
-    /// Share of the rated rise of a winding that the site leaves; above one where it is cool.
+    /// Share of the winding's rated rise that is available at the site; above one at a cool site.
     pub rise: f64,
-    /// Highest temperature of the surroundings (°C).
+    /// Highest ambient temperature (°C) for which the factor is valid.
     pub hottest: f64,
-    /// Highest altitude (m).
+    /// Highest altitude (m) for which the factor is valid.
     pub highest: f64,
-    /// Where the factor for the temperature comes from.
+    /// Source of the factor for the temperature.
     pub temperature: Basis,
-    /// Where that for the altitude comes from.
+    /// Source of the factor for the altitude.
     pub altitude: Basis,
 }
 
 impl Motor {
-    /// Its S1 torque at a site: T/T_N = √(rise left/rated rise) where the winding's highest temperature is known.
+    /// Derating of the S1 torque at a site: T/T_N = √(available rise/rated rise) if the winding's maximum temperature is given.
     pub fn derated(&self, site: &Surroundings) -> Derated {
         let limit = (self.thermal.max_temperature).filter(|limit| *limit > REFERENCE);
         let hot = (site.ambient - REFERENCE).max(0.0);
@@ -94,7 +94,7 @@ impl Motor {
         };
         let general = limit.map_or(HOTTEST_MOTOR, |limit| limit.min(HOTTEST_MOTOR));
         Derated {
-            // Cool air allows a larger rise, but no data sheet a larger S1 torque.
+            // Cool air allows a larger rise, but no data sheet allows a larger S1 torque.
             factor: torque * rise.min(1.0).sqrt(),
             torque,
             rise,
@@ -107,7 +107,7 @@ impl Motor {
 }
 
 impl Amplifier {
-    /// Its currents at a site.
+    /// Derating of the currents at a site.
     pub fn derated(&self, site: &Surroundings) -> Derated {
         let hot = (site.around_amplifier() - REFERENCE).max(0.0);
         let thin = (site.altitude - LOW).max(0.0);
@@ -145,7 +145,7 @@ impl Amplifier {
     }
 }
 
-/// Where the maker's points end, or the general rule.
+/// End of the maker's points, or of the general rule.
 fn end(points: &[[f64; 2]], general: f64) -> f64 {
     points.last().map_or(general, |[end, _]| *end)
 }

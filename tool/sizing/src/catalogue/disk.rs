@@ -18,10 +18,10 @@ use super::load::{Loader, twice};
 /// The largest file of a catalogue (bytes): some hundred thousand rows.
 const MAX_SIZE: u64 = 64 << 20;
 
-/// The largest folder (bytes), all its tables together.
+/// The largest folder (bytes), with all its tables.
 const MAX_FOLDER: u64 = 64 << 20;
 
-/// What to load.
+/// Sources of a catalogue.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     /// Folders or files, each a catalogue of its own.

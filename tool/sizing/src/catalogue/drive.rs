@@ -10,21 +10,21 @@ pub struct Drive<'c> {
     pub motor: &'c Motor,
     /// The gearbox; `None`: directly coupled.
     pub gearbox: Option<&'c Gearbox>,
-    /// The servo amplifier; `None`: not chosen.
+    /// The servo amplifier; `None`: no amplifier chosen.
     pub amplifier: Option<&'c Amplifier>,
 }
 
-/// Which drive of a catalogue: its motor, gearbox and amplifier by their indices, packed, because a selection keeps one for
-/// every drive. Ids rise in the order of [`Catalogue::drives`](super::Catalogue::drives).
+/// Identifies a drive of a catalogue by the indices of motor, gearbox and amplifier, packed because a selection keeps one for every drive. Ids rise
+/// in the order of [`Catalogue::drives`](super::Catalogue::drives).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DriveId(u64);
 
-/// Bits of the index of an amplifier, and of that of a gearbox; the rest are those of the motor.
+/// Bits of the index of an amplifier and of a gearbox; the remaining bits are for the motor.
 const AMPLIFIER: u32 = 16;
 const GEARBOX: u32 = 24;
 
 impl DriveId {
-    /// `amplifier` is its index among those of the motor.
+    /// `amplifier` is its index among the amplifiers of the motor.
     pub(super) const fn new(motor: usize, gearbox: Option<usize>, amplifier: usize) -> Self {
         let gearbox = match gearbox {
             Some(index) => index as u64 + 1,
@@ -46,12 +46,12 @@ impl DriveId {
     }
 }
 
-/// Value of a part, zero if the drive does not have it; `None` if not given.
+/// Value of a part, zero without the part; `None` if not given.
 fn part<T>(part: Option<&T>, of: impl Fn(&T) -> Option<f64>) -> Option<f64> {
     part.map_or(Some(0.0), of)
 }
 
-/// The sum; `None` if one part has no data.
+/// The sum; `None` if a part has no data.
 fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
     parts.into_iter().sum()
 }
@@ -75,21 +75,20 @@ impl Drive<'_> {
         name
     }
 
-    /// Whether all its figures were taken from its makers' own documents.
+    /// Whether all its figures come from its makers' own documents.
     pub fn from_makers(&self) -> bool {
         self.motor.from_maker
             && self.gearbox.is_none_or(|gearbox| gearbox.from_maker)
             && self.amplifier.is_none_or(|amplifier| amplifier.from_maker)
     }
 
-    /// Whether the amplifier is made for the motor, as far as anybody states it: a list of the catalogue names it, or both are of one
-    /// maker.
+    /// Whether the amplifier is known to be made for the motor: a list of the catalogue names it, or both are from one maker.
     pub fn is_paired(&self) -> bool {
         self.motor.amplifiers_listed
             || (self.amplifier).is_none_or(|amplifier| of_one_maker(self.motor, amplifier))
     }
 
-    /// Mass of motor, gearbox and amplifier (kg); `None`: one of them has no data.
+    /// Mass of motor, gearbox and amplifier (kg); `None` if one has no data.
     pub fn mass(&self) -> Option<f64> {
         sum([
             self.motor.mass,
@@ -98,7 +97,7 @@ impl Drive<'_> {
         ])
     }
 
-    /// Price of motor, gearbox and amplifier, in the currency of the catalogue; `None`: one of them has no data.
+    /// Price of motor, gearbox and amplifier, in the currency of the catalogue; `None` if one has no data.
     pub fn price(&self) -> Option<f64> {
         sum([
             self.motor.price,

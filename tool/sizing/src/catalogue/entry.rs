@@ -14,9 +14,9 @@ use jred_machine::number::rounding::figure;
 use jred_machine::plain;
 use motor::motor;
 
-/// A row, read.
+/// The entry of a row.
 pub(super) enum Entry {
-    /// A motor, and the key of the gearbox that it is built together with.
+    /// A motor, and the key of the gearbox that it is built with.
     Motor(Box<Motor>, Option<String>),
     Gearbox(Box<Gearbox>),
     Amplifier(Amplifier),
@@ -27,7 +27,7 @@ pub(super) enum Entry {
 impl Entry {
     /// Reads a row as an entry of its table.
     pub(super) fn read(row: &mut Row) -> Read<Self> {
-        // What is known to be wrong with its keys and units already: figures are looked at once these can be read.
+        // Faults of keys and units first: figures are checked only once these can be read.
         row.checked()?;
         Ok(match row.kind {
             Kind::Motors => {
@@ -47,7 +47,7 @@ impl Entry {
             Self::Motor(motor, _) => motor.price.is_some(),
             Self::Gearbox(gearbox) => gearbox.price.is_some(),
             Self::Amplifier(amplifier) => amplifier.price.is_some(),
-            // A resistor's price is compared with those of resistors only, after their power.
+            // A resistor's price is only compared with other resistors' prices, after their power.
             Self::Resistor(_) | Self::Listing(_) => false,
         }
     }
@@ -184,7 +184,7 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
     Ok(amplifier)
 }
 
-/// The maker's factors on ratings at the site.
+/// The maker's derating factors at the site.
 fn derating(row: &Row) -> Derating {
     let points = |column, place| {
         let points = row.points(column, [place, FACTOR]);
@@ -229,7 +229,7 @@ fn resistor(row: &Row) -> Read<Resistor> {
     Ok(resistor)
 }
 
-/// A mains voltage, which must be one that there is.
+/// A mains voltage; it must be in the range of real mains.
 fn mains_voltage(row: &Row) -> Option<f64> {
     let mains = row.optional(Column::MainsVoltage)?;
     let [least, most] = MAINS;
@@ -245,7 +245,7 @@ fn mains_voltage(row: &Row) -> Option<f64> {
     None
 }
 
-/// Whether the data were taken from the maker's own document; true if the column is missing or the cell empty.
+/// Whether the data come from the maker's own document; true if the column is missing or the cell empty.
 fn from_maker(row: &Row) -> bool {
     let from = row.choice(Column::FiguresFrom, &[("maker", true), ("other", false)]);
     from.unwrap_or(true)

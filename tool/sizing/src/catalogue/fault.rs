@@ -1,5 +1,4 @@
-//! Faults of a catalogue and their messages: all broken rows are found in one pass, and the first few are shown with their
-//! places.
+//! Faults of a catalogue and their messages: all broken rows are found in one pass, and the first few are shown with their positions.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -9,7 +8,7 @@ use jred_machine::text::problem::Problem;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// Number of broken rows shown with their places; the others are counted.
+/// Number of broken rows shown with their positions; the others are counted.
 pub const SHOWN: usize = 10;
 
 /// A catalogue that cannot be used.
@@ -34,7 +33,7 @@ pub enum CatalogueError {
     #[error("{0}")]
     #[diagnostic(transparent)]
     Several(Box<Several>),
-    /// The same file twice.
+    /// The same file given twice.
     #[error("the catalogue {path} is given twice{}", if path == before { String::new() } else { format!(", the first time as {before}") })]
     #[diagnostic(help("name every folder and every file once"))]
     Twice {
@@ -59,7 +58,7 @@ pub enum CatalogueError {
     #[error("the catalogue {0} is empty: it contains no {1}")]
     #[diagnostic(help("{2}"))]
     Empty(String, &'static str, &'static str),
-    /// The catalogue has no motor but broken ones, which were skipped.
+    /// The catalogue has only broken motors, which were skipped.
     #[error("the catalogue {0} has no motor left: {1} broken and skipped")]
     #[diagnostic(help(
         "leave out --skip-broken-rows to see what is wrong with each, and correct at least one motor"
@@ -103,7 +102,7 @@ impl Several {
 pub(super) struct Text {
     pub(super) name: String,
     pub(super) text: Arc<String>,
-    /// What tells it from others, by whatever name it is called.
+    /// Identifies the file, whatever its name.
     pub(super) place: PathBuf,
 }
 
@@ -117,19 +116,19 @@ impl Text {
         }
     }
 
-    /// With where it really is.
+    /// With its canonical path.
     #[cfg(feature = "fs")]
     pub(super) fn at(self, place: PathBuf) -> Self {
         Self { place, ..self }
     }
 
-    /// The fault at its place in this text.
+    /// The fault at its position in this text.
     pub(super) fn shows(&self, problem: Problem) -> Problem {
         problem.in_file(&self.name, &self.text)
     }
 }
 
-/// The faults of rows: the first of them in full, the rest counted.
+/// Faults of rows: the first ones in full, the rest counted.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     rows: usize,
@@ -176,13 +175,13 @@ impl Faults {
     }
 }
 
-/// Warnings about rows that are used, collected by kind: the first few with their places, the others counted.
+/// Warnings about rows that are used, collected by kind: the first few with their positions, the others counted.
 #[derive(Debug, Default)]
 pub(super) struct Remarks {
     kinds: Vec<(&'static str, Vec<String>, usize)>,
 }
 
-/// Number of warnings of a kind that are shown.
+/// Number of warnings shown per kind.
 const REMARKS_SHOWN: usize = 3;
 
 impl Remarks {

@@ -1,4 +1,4 @@
-//! Which files make up a catalogue, and what each of them contains.
+//! The files of a catalogue, and the content of each.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::column::{Column, Kind};
 use super::fault::{CatalogueError, Text};
 use super::mgdb;
 
-/// The catalogue that comes with the tool, each row with its source.
+/// The built-in catalogue, each row with its source.
 const BUILT_IN: [(Kind, &str); 3] = [
     (Kind::Motors, include_str!("../../catalogue/motors.csv")),
     (
@@ -51,7 +51,7 @@ const fn database(kind: Kind) -> bool {
     matches!(kind, Kind::Motors | Kind::Gearboxes | Kind::Compatibility)
 }
 
-/// jred's own format, or that of the database.
+/// jred's own format, or the format of the database.
 pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
     let own_list = || {
         csv::header_of(&text.text)
@@ -69,7 +69,7 @@ pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
     }
 }
 
-/// Content of a file, by its name.
+/// Content of a file, from its name.
 pub(super) fn kind_of(path: &Path) -> Option<Kind> {
     let stem = path.file_stem()?.to_str()?.to_lowercase();
     let csv = path.extension()?.eq_ignore_ascii_case("csv");
@@ -85,7 +85,7 @@ pub(super) fn is_toml(path: &Path) -> bool {
 pub(super) const NAMES: &str = "file names of tables end in motors.csv, gearboxes.csv, amplifiers.csv, resistors.csv \
      or compatibility.csv, or in .toml";
 
-/// What a text holds, by its name.
+/// Format of a text, from its name.
 pub(super) fn formatted(text: Text) -> Result<(Format, Text), CatalogueError> {
     let path = Path::new(&text.name);
     if is_toml(path) {

@@ -21,7 +21,7 @@ pub struct Gearbox {
     pub rated_torque: Option<f64>,
     /// Acceleration torque T2B at the output (N·m).
     pub peak_torque: Option<f64>,
-    /// Emergency torque at the output (N·m), which may occur a limited number of times.
+    /// Emergency torque at the output (N·m), allowed a limited number of times.
     pub emergency_torque: Option<f64>,
     /// Rated input speed (rad/s).
     pub rated_speed: Option<f64>,
@@ -60,22 +60,21 @@ impl Gearbox {
     }
 }
 
-/// Cycles per hour up to which T2B holds where the maker gives no shock factors (WITTENSTEIN, engineering glossary).
+/// Cycles per hour up to which T2B is valid if the maker gives no shock factors (WITTENSTEIN, engineering glossary).
 const CYCLES: f64 = 1000.0;
 
 impl Gearbox {
-    /// The maker's shock factor f_s at a number of cycles per hour: linear between the maker's points, constant beyond them; one if
-    /// the maker gives none.
+    /// The maker's shock factor f_s at a number of cycles per hour: linear between the maker's points, constant beyond them; one if not given.
     pub fn shock_factor(&self, cycles: f64) -> f64 {
         broken_line(&self.shock_factors, cycles)
     }
 
-    /// Largest output torque (N·m) at a number of cycles per hour: T2B/f_s. `None`: T2B is not given.
+    /// Largest output torque (N·m) at a number of cycles per hour: T2B/f_s; `None` if T2B is not given.
     pub fn acceleration_torque(&self, cycles: f64) -> Option<f64> {
         Some(self.peak_torque? / self.shock_factor(cycles))
     }
 
-    /// Cycles per hour up to which [`Self::acceleration_torque`] is the maker's.
+    /// Cycles per hour up to which [`Self::acceleration_torque`] comes from the maker.
     pub fn most_cycles(&self) -> f64 {
         self.shock_factors.last().map_or(CYCLES, |[most, _]| *most)
     }

@@ -24,7 +24,7 @@ pub(super) struct Listing {
     pub(super) motor: String,
     /// Keys of gearboxes; `None`: any.
     pub(super) gearboxes: Option<Vec<String>>,
-    /// Whether the motor may be directly coupled.
+    /// Keys of amplifiers; `None`: any suitable one.
     pub(super) direct: bool,
     /// Keys of amplifiers; `None`: any that suits.
     pub(super) amplifiers: Option<Vec<String>>,
@@ -65,7 +65,7 @@ impl Loader {
         let lists_gearboxes = group.listings.iter().any(|(_, l)| l.gearboxes.is_some());
         let gear_motors: HashSet<u32> = self.gear_motors.iter().map(|g| g.0).collect();
         if lists_gearboxes {
-            // A motor that its own catalogue's list leaves out is directly coupled only.
+            // A motor missing in its own catalogue's list may only be directly coupled.
             for motor in group.motors.iter().filter(|m| !gear_motors.contains(m)) {
                 if let Some(partners) = pairing.motors.get_mut(*motor as usize) {
                     partners.gearboxes = Some(Box::default());
@@ -143,7 +143,7 @@ impl Loader {
     }
 }
 
-/// In which form a file is written.
+/// The format of a file.
 fn form_of(text: &Text) -> Form {
     if is_toml(Path::new(&text.name)) {
         Form::Toml

@@ -19,10 +19,10 @@ use super::twins::Twins;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 use jred_machine::number::words::counted;
 
-/// Most rows of all tables: motors with their limits take 150 MB.
+/// Most rows of all tables: this many motors with their limits take 150 MB.
 const MOST_ROWS: usize = 100_000;
 
-/// How many rows a table has at most; those of lists are of a few bytes and not counted.
+/// Largest possible number of rows of a table. Rows of lists take few bytes and are not counted.
 fn rows(format: Format, text: &str) -> usize {
     match format {
         Format::Csv(Kind::Compatibility) | Format::Database(Kind::Compatibility) => 0,
@@ -38,12 +38,12 @@ pub(super) struct Group {
     pub(super) motors: Vec<u32>,
 }
 
-/// A catalogue in the making.
+/// A catalogue under construction.
 #[derive(Debug, Default)]
 pub(super) struct Loader {
     pub(super) catalogue: Catalogue,
     pub(super) texts: Vec<Text>,
-    /// How many rows they have.
+    /// Number of their rows.
     rows: usize,
     pub(super) faults: Faults,
     remarks: Remarks,
@@ -54,11 +54,11 @@ pub(super) struct Loader {
     read: HashMap<PathBuf, PathBuf>,
     /// Whether broken rows are skipped.
     skip: bool,
-    /// A column that the current file lacks.
+    /// A missing column of the current file.
     lacking: Option<Problem>,
     /// Keys of broken rows, which lists may still contain.
     pub(super) broken: HashSet<String>,
-    /// Gear motors: index of the motor, key of its gearbox, and the place of this entry.
+    /// Gear motors: index of the motor, key of its gearbox, and the position of this entry.
     pub(super) gear_motors: Vec<(u32, String, usize, Range<usize>)>,
 }
 

@@ -1,5 +1,5 @@
-//! Reader for files of the Motor-Gearbox Database (github.com/ekrimsk/MGDB) as they are: figures in SI, columns by name,
-//! "inf", "nan" or an empty cell if the data sheet gives no value. The mapping is tabulated in docs/catalogue.md.
+//! Reader for files of the Motor-Gearbox Database (github.com/ekrimsk/MGDB) in their original form: figures in SI, columns by name, "inf", "nan" or
+//! an empty cell if the data sheet gives no value. docs/catalogue.md has the mapping.
 
 use std::ops::Range;
 
@@ -13,11 +13,10 @@ use super::lists::Listing;
 use super::motor::{Motor, Thermal, Winding};
 use crate::catalogue::Commutation;
 
-/// Efficiency of a stage if the database gives none: 608 of the 613 gearboxes of this maker with a given efficiency have at
-/// least this one.
+/// Efficiency per stage if the database gives none: 608 of this maker's 613 gearboxes with a given efficiency have at least this one.
 const STAGE_EFFICIENCY: f64 = 0.87;
 
-/// Whether a header is that of the database.
+/// Whether a header is in the format of the database.
 pub(super) fn is_header(text: &str) -> bool {
     let titles: Vec<&str> = csv::header_of(text).split(',').map(str::trim).collect();
     ["key", "manufacturer", "ID"]
@@ -31,7 +30,7 @@ struct Sheet<'t> {
     csv: Table<'t>,
 }
 
-/// The figures of a drive (SI) that are plausible; the rest are mistakes.
+/// Plausible figures of a drive (SI); others are mistakes.
 const RANGE: std::ops::RangeInclusive<f64> = 1e-15..=1e10;
 
 impl Sheet<'_> {
@@ -61,7 +60,7 @@ impl Sheet<'_> {
             return None;
         }
         let value = word.parse::<f64>();
-        // Infinity and not-a-number mean that the figure is not given.
+        // Infinity and NaN mean that the figure is not given.
         let wrong = |v: f64| v < 0.0 || v > 0.0 && v.is_finite() && !RANGE.contains(&v);
         if value.as_ref().map_or(true, |value| wrong(*value)) {
             remarks.add("cells that are not plausible numbers, treated as not given", || {
@@ -78,7 +77,7 @@ impl Sheet<'_> {
         value.ok().filter(|value| RANGE.contains(value))
     }
 
-    /// A value that is required for every drive.
+    /// A value that every drive needs.
     fn needed(&self, title: &str) -> Result<f64, Problem> {
         let value = self.word(title).parse::<f64>().ok();
         value.filter(|v| RANGE.contains(v)).ok_or_else(|| {
@@ -125,7 +124,7 @@ impl Sheet<'_> {
     }
 }
 
-/// An entry with its line and place.
+/// Receives an entry with its line and position.
 type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Problem>);
 
 fn each<T>(
@@ -164,7 +163,7 @@ fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Problem> {
     let no_load_speed = figure("omega_nl");
     let voltage_constant = figure("k_e").or(torque_constant);
     let rated_torque = torque_constant.zip(rated_current).map(|(k, i)| k * i);
-    // Torque that the motor loses without load.
+    // No-load torque of the motor.
     let lost = torque_constant.zip(no_load_current).map(|(k, i)| k * i);
     let coulomb = figure("coulomb_friction");
     let viscous = figure("viscous_friction");

@@ -8,15 +8,15 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Commutation {
-    /// Three phases, sine currents: RMS currents, line-to-line resistance, inductance and voltage constant.
+    /// Three phases with sine currents: RMS currents, line-to-line resistance, inductance and voltage constant.
     #[default]
     Sine,
-    /// Direct current, or a brushless motor with block commutation: plain figures between two terminals.
+    /// Direct current, or a brushless motor with block commutation: plain values between two terminals.
     Block,
 }
 
-/// A servo motor; SI units. `None`: not given. Of a linear motor read force (N) for torque, m/s for
-/// speed, and the mass of the moving part (kg) for the rotor's inertia.
+/// A servo motor; SI units. `None`: not given. For a linear motor read force (N) for torque, m/s for speed, and the mass of the moving part (kg) for
+/// the rotor's inertia.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motor {
     /// Key, unique in the catalogue.
@@ -57,13 +57,13 @@ pub struct Motor {
     pub winding: Winding,
     /// Its thermal data.
     pub thermal: Thermal,
-    /// The maker's factors on its S1 torque at the site.
+    /// The maker's derating factors of its S1 torque at the site.
     pub derating: Derating,
     /// Its holding brake.
     pub brake: Option<Brake>,
     /// DC-bus voltage that the data are valid for (V).
     pub bus_voltage: Option<f64>,
-    /// Mains voltage that the motor is made for (V): any of its class.
+    /// Mains voltage that the motor is made for (V), with its whole voltage class.
     pub mains_voltage: Option<f64>,
     /// Largest DC-bus voltage that its insulation withstands (V).
     pub max_bus_voltage: Option<f64>,
@@ -90,7 +90,7 @@ pub enum MotorKind {
 }
 
 impl MotorKind {
-    /// What its figures are called and shown in.
+    /// Names and units of its figures.
     pub const fn vocabulary(self) -> &'static Vocabulary {
         match self {
             Self::Rotary => &Vocabulary::ROTARY,
@@ -99,8 +99,7 @@ impl MotorKind {
     }
 }
 
-/// A motor's winding. For a three-phase motor currents are RMS values, voltages line to line; for a direct-current motor
-/// both are plain.
+/// A motor's winding. For a three-phase motor currents are RMS values and voltages line to line; for a direct-current motor both are plain values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Winding {
     /// Commutation, which determines the meaning of the following values.
@@ -128,7 +127,7 @@ pub struct Winding {
 /// A motor's thermal data.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Thermal {
-    /// Thermal resistance from winding to housing, or from winding to surroundings if that is all there is (K/W).
+    /// Thermal resistance from winding to housing, or from winding to surroundings if only that is given (K/W).
     pub winding_resistance: Option<f64>,
     /// Thermal resistance from housing to surroundings (K/W).
     pub housing_resistance: Option<f64>,
@@ -136,7 +135,7 @@ pub struct Thermal {
     pub winding_time: Option<f64>,
     /// Thermal time constant of the housing, or of the motor as a whole (s).
     pub housing_time: Option<f64>,
-    /// Highest temperature of the winding (°C).
+    /// Maximum temperature of the winding (°C).
     pub max_temperature: Option<f64>,
 }
 
@@ -147,18 +146,18 @@ pub struct Brake {
     pub torque: f64,
     /// Its inertia (kg·m²).
     pub inertia: f64,
-    /// Mean torque while it slips (N·m); `None`: not given.
+    /// Mean torque while it slips (N·m), if given.
     pub dynamic_torque: Option<f64>,
-    /// Time from switching off its current to its torque (s).
+    /// Time from switching off its current until it has its torque (s).
     pub closing_time: Option<f64>,
     /// Largest work of one stop from speed (J).
     pub work: Option<f64>,
-    /// How many such stops it bears in an hour.
+    /// Allowed number of such stops per hour.
     pub stops_per_hour: Option<f64>,
 }
 
 impl Motor {
-    /// Inertia of the brake (kg·m²); zero without one.
+    /// Inertia of the brake (kg·m²); zero without a brake.
     pub fn brake_inertia(&self) -> f64 {
         self.brake.map_or(0.0, |brake| brake.inertia)
     }
@@ -168,8 +167,8 @@ impl Motor {
         self.rotor_inertia + self.brake_inertia()
     }
 
-    /// Rated torque times rated speed (W). Where no rated speed is stated, it is that of the nominal point of a motor fed with
-    /// direct current: n = (V − R·I)/k_e at the rated current.
+    /// Rated torque times rated speed (W). If no rated speed is given, it is the speed at the nominal point of a direct-current motor: n = (V −
+    /// R·I)/k_e at the rated current.
     pub fn rated_power(&self) -> Option<f64> {
         let torque = self.rated_torque?;
         let speed = self.rated_speed.or_else(|| self.nominal_speed(torque))?;

@@ -1,4 +1,4 @@
-//! Which gearboxes and amplifiers can be combined with which motor.
+//! The gearboxes and amplifiers that can be combined with each motor.
 
 use std::collections::HashMap;
 
@@ -11,16 +11,15 @@ use crate::catalogue::{Drive, DriveId};
 
 /// Gearboxes and amplifiers that can be combined with each motor, as indices into the lists of the catalogue.
 ///
-/// By default every motor is combined with every gearbox, without a gearbox, and with every suitable amplifier
-/// ([`Pairing::suits`]) of its own maker; with those of other makers only in a catalogue that has none of the motor's maker and whose
-/// lists pair no amplifiers at all.
+/// By default every motor is combined with every gearbox, without a gearbox, and with every suitable amplifier ([`Pairing::suits`]) of its own maker.
+/// Amplifiers of other makers are used only if the catalogue has no amplifier of the motor's maker and its lists pair no amplifiers at all.
 #[derive(Clone, Debug, Default)]
 pub struct Pairing {
     /// By index of the motor; a motor beyond the end is combined with everything.
     pub(super) motors: Vec<Partners>,
-    /// Whether a list names amplifiers of some motor.
+    /// Whether a list names amplifiers for any motor.
     pub(super) lists_amplifiers: bool,
-    /// By index of the gearbox: whether it is part of gear motors and used with no other motor.
+    /// By index of the gearbox: whether it is part of gear motors and so used with no other motor.
     pub(super) built_in: Vec<bool>,
 }
 
@@ -35,12 +34,12 @@ pub(super) struct Partners {
     pub(super) amplifiers: Option<Box<[u32]>>,
 }
 
-/// Whether both are of one maker, however it is written.
+/// Whether both are from one maker, in any spelling.
 pub(super) fn of_one_maker(motor: &Motor, amplifier: &Amplifier) -> bool {
     same_name(&motor.maker, &amplifier.maker)
 }
 
-/// Whether two names differ in nothing but capitals, blanks and hyphens.
+/// Whether two names differ only in capitals, blanks and hyphens.
 fn same_name(one: &str, other: &str) -> bool {
     let letters = |name: &str| -> Vec<char> {
         let letters = name.chars().filter(|c| c.is_alphanumeric());
@@ -49,13 +48,13 @@ fn same_name(one: &str, other: &str) -> bool {
     one == other || letters(one) == letters(other)
 }
 
-/// Rated current of an amplifier in units of the motor's: smaller ones starve the motor, larger ones regulate it coarsely.
+/// Rated current of an amplifier relative to the motor's: a smaller one cannot feed the motor, a larger one controls it coarsely.
 const CURRENTS: [f64; 2] = [0.5, 4.0];
 
 impl Pairing {
-    /// Whether an amplifier is suitable for a motor if no list decides: its bus voltage is within a factor of 4/3 of that of
-    /// the motor data, or higher and within what the motor is stated to be made for, and its rated current is half to four times
-    /// that of the motor (standstill, else rated). Missing data do not exclude an amplifier.
+    /// Whether an amplifier is suitable for a motor if no list decides. Its bus voltage must be within a factor of 4/3 of the voltage of the motor
+    /// data, or higher and within the voltage that the motor is stated to be made for. Its rated current must be half to four times the motor's
+    /// (standstill, else rated). Missing data do not exclude an amplifier.
     pub fn suits(motor: &Motor, amplifier: &Amplifier) -> bool {
         let winding = &motor.winding;
         let current = winding.standstill_current.or(winding.rated_current);
@@ -85,7 +84,7 @@ impl<'k> Keys<'k> {
         Self { exact, sorted }
     }
 
-    /// The entries that match `pattern`: one by its key, or, with "*" at the end, all whose key starts with it.
+    /// The entries that match `pattern`: one by its key, or, with "*" at the end, all whose key begins with it.
     pub(super) fn find(&self, pattern: &str, mut take: impl FnMut(u32)) {
         if let Some(start) = pattern.strip_suffix('*') {
             let first = self.sorted.partition_point(|(key, _)| *key < start);
@@ -102,8 +101,8 @@ impl<'k> Keys<'k> {
     }
 }
 
-/// Every drive of a catalogue, or those of one of its motors: gearbox by gearbox, first directly coupled, with each
-/// amplifier in turn. Each step costs a few nanoseconds.
+/// Every drive of a catalogue, or of one of its motors: gearbox by gearbox, first directly coupled, with each amplifier in turn. Each step costs a
+/// few nanoseconds.
 #[derive(Clone, Debug)]
 pub struct Drives<'c> {
     catalogue: &'c Catalogue,
@@ -204,7 +203,7 @@ impl<'c> Iterator for Drives<'c> {
     /// The same drives in plain loops, so that values common to all drives of a motor are computed once.
     fn fold<B, F: FnMut(B, Self::Item) -> B>(mut self, start: B, mut take: F) -> B {
         let mut folded = start;
-        // Those of a motor that is begun.
+        // The remaining drives of the current motor.
         loop {
             let Some(motor) = self.motor else {
                 if self.advance_motor().is_none() {
@@ -227,12 +226,12 @@ impl<'c> Iterator for Drives<'c> {
 }
 
 impl Catalogue {
-    /// Every drive that can be put together, each with its id.
+    /// Every possible drive, with its id.
     pub fn drives(&self) -> Drives<'_> {
         Drives::new(self, 0..self.motors.len())
     }
 
-    /// The drives with the motors of these indices, in the order in which [`Catalogue::drives`] has them.
+    /// The drives with the motors of these indices, in the order of [`Catalogue::drives`].
     pub fn drives_of(&self, motors: std::ops::Range<usize>) -> Drives<'_> {
         Drives::new(self, motors)
     }
@@ -277,7 +276,7 @@ impl Catalogue {
 }
 
 impl Catalogue {
-    /// Warns of amplifiers that run no motor, and of motors that are combined with amplifiers of other makers by their figures alone.
+    /// Warns of amplifiers without a motor, and of motors combined with other makers' amplifiers only by their figures.
     pub(super) fn remark_amplifiers(&self, remarks: &mut Remarks) {
         let mut runs = vec![false; self.amplifiers.len()];
         let mut unpaired: Vec<[&str; 2]> = Vec::new();

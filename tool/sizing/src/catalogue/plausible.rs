@@ -1,7 +1,7 @@
 //! Implausible values, mostly wrong units. They cause warnings, never errors: a catalogue may contain an unusual motor.
 //!
-//! The limits are set beyond what the built-in catalogue and the 1037 motors and 2543 gearboxes of the Motor-Gearbox Database
-//! span, from a 2 mm micromotor to a 16 kW servo motor; see docs/catalogue.md.
+//! The limits lie beyond the range of the built-in catalogue and of the 1037 motors and 2543 gearboxes of the Motor-Gearbox Database, from a 2 mm
+//! micromotor to a 16 kW servo motor; see docs/catalogue.md.
 
 use super::fault::Remarks;
 use super::gearbox::Gearbox;
@@ -11,14 +11,13 @@ use jred_machine::number::rounding::figure;
 /// Rotor inertia over rated torque to the power 5/3, (kg·m²)/(N·m)^(5/3): equal for similar shapes at equal shear stress.
 const SLIMNESS: [f64; 2] = [5e-7, 3e-2];
 
-/// Inertia of a solid steel cylinder as long as it is thick over its mass to the power 5/3, kg·m²/kg^(5/3):
-/// J = m·r²/2 with m = 2π·ρ·r³.
+/// Inertia over mass to the power 5/3 of a solid steel cylinder as long as its diameter, kg·m²/kg^(5/3): J = m·r²/2 with m = 2π·ρ·r³.
 const CYLINDER: f64 = 3.7e-4;
 
-/// Most inertia of a rotor in units of the cylinder of the motor's mass: a thin ring has more than a cylinder.
+/// Largest inertia of a rotor relative to a cylinder of the motor's mass: a thin ring has more than a cylinder.
 const ROTOR: f64 = 30.0;
 
-/// Most inertia of a gearbox at its input in units of the cylinder of its mass.
+/// Largest inertia of a gearbox at its input relative to a cylinder of its mass.
 const GEARS: f64 = 1.0;
 
 /// Time in which the rated torque brings the bare rotor to rated speed (s).
@@ -30,27 +29,27 @@ const TORQUE_DENSITY: [f64; 2] = [0.01, 30.0];
 /// Rated speed (rad/s): 0.5 rpm and 150 000 rpm.
 const SPEED: [f64; 2] = [0.05, 15_700.0];
 
-/// k_t·I over the torque that it should give: a winding saturates, an amplitude taken for an RMS value is 1.41.
+/// k_t·I over the torque that it should give: a winding saturates; an amplitude used as an RMS value gives 1.41.
 const CURRENT_AND_TORQUE: [f64; 2] = [0.75, 1.35];
 
-/// Voltage constant over torque constant, and how far off it may be.
+/// Allowed relative difference of voltage constant and torque constant.
 const CONSTANTS: f64 = 0.15;
 
-/// Efficiency per stage, or in all where the stages are not stated.
+/// Efficiency per stage, or in total if the number of stages is not given.
 const EFFICIENCY: f64 = 0.3;
 
-/// Play (rad): 3°.
+/// Backlash (rad): 3°.
 const BACKLASH: f64 = 0.053;
 
 /// Output torque over mass (N·m/kg).
 const GEARBOX_DENSITY: [f64; 2] = [0.01, 2000.0];
 
-/// Inertia in units of that of a cylinder of the mass.
+/// Inertia relative to a cylinder of the mass.
 fn of_cylinder(inertia: f64, mass: Option<f64>) -> f64 {
     mass.map_or(0.0, |mass| inertia / (CYLINDER * mass.powf(5.0 / 3.0)))
 }
 
-/// Warns of an inertia that is too large for the mass.
+/// Warns of an inertia too large for the mass.
 fn mass(
     remarks: &mut Remarks,
     place: &dyn Fn() -> String,
@@ -191,7 +190,7 @@ fn winding(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &Motor) {
     }
 }
 
-/// Curves against the single figures.
+/// Compares curves with single figures.
 fn curves(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &Motor) {
     let first = motor.peak_curve.first().map(|point| point[1]);
     if let Some((curve, peak)) = first.zip(motor.peak_torque)

@@ -11,25 +11,25 @@ use jred_machine::units::quantity::possible_units;
 use super::cell::{self, Cell, NUMBER_CURE};
 use super::column::{Column, For, Holds, Kind, PLAIN, RATIO, Unit};
 
-/// Where the cells of a row come from.
+/// Source of the cells of a row.
 pub(super) trait Cells {
-    /// Content of a column; `None`: empty, or there is no such column.
+    /// Content of a column; `None`: empty, or no such column.
     fn cell(&self, column: Column) -> Option<Cell<'_>>;
-    /// The place of the cell, or of the row if there is no such cell.
+    /// The position of the cell, or of the row if there is no such cell.
     fn place(&self, column: Column) -> Range<usize>;
     /// Whether the row could have such a cell.
     fn has(&self, column: Column) -> bool;
     /// Whether the file has an entry in this column, even an empty one.
     fn given(&self, column: Column) -> bool;
-    /// The place of the header, for columns that are missing.
+    /// The position of the header, for missing columns.
     fn header(&self) -> Range<usize>;
     /// The currency of its price, if given.
     fn currency(&self) -> &str;
-    /// In which form it is written.
+    /// The form of the file.
     fn form(&self) -> Form;
 }
 
-/// The two forms of a catalogue, which have words of their own for the same cure.
+/// The two forms of a catalogue; cures have different words for them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     Csv,
@@ -37,7 +37,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// How a figure is left out.
+    /// Words for omitting a figure.
     pub(super) const fn leave_out(self) -> &'static str {
         match self {
             Self::Csv => "leave this cell empty",
@@ -45,7 +45,7 @@ impl Form {
         }
     }
 
-    /// How a share is written.
+    /// Words for writing a share.
     pub(super) const fn share(self) -> &'static str {
         match self {
             Self::Csv => "check the value and the unit in the header: 97 needs [%], 0.97 no unit",
@@ -53,7 +53,7 @@ impl Form {
         }
     }
 
-    /// What a column is called.
+    /// Word for a column.
     pub(super) const fn column(self) -> &'static str {
         match self {
             Self::Csv => "column",
@@ -70,10 +70,10 @@ pub(super) type Read<T> = Result<T, Vec<Problem>>;
 pub(super) struct Row<'t> {
     pub(super) kind: Kind,
     cells: &'t dyn Cells,
-    /// Which motors its units must be for.
+    /// The kind of motor that its units must be for.
     motors: For,
     faults: RefCell<Vec<Problem>>,
-    /// A column that its whole table lacks.
+    /// A column missing in the whole table.
     lacking: RefCell<Option<Problem>>,
 }
 
@@ -88,7 +88,7 @@ impl<'t> Row<'t> {
         }
     }
 
-    /// Keeps a fault.
+    /// Records a fault.
     pub(super) fn add(&self, fault: Problem) {
         self.faults.borrow_mut().push(fault);
     }
@@ -101,7 +101,7 @@ impl<'t> Row<'t> {
         })
     }
 
-    /// An error with the faults kept so far, if there are any.
+    /// The recorded faults as an error, if there are any.
     pub(super) fn checked(&self) -> Read<()> {
         let faults = self.faults.take();
         if faults.is_empty() && self.lacking.borrow().is_none() {
@@ -111,7 +111,7 @@ impl<'t> Row<'t> {
         }
     }
 
-    /// The fault of a column that its whole table lacks.
+    /// The fault of a column missing in the whole table.
     pub(super) fn lacking(&self) -> Option<Problem> {
         self.lacking.take()
     }
@@ -130,7 +130,7 @@ impl<'t> Row<'t> {
         self.cells.cell(column).map_or("?", |cell| cell.text)
     }
 
-    /// Place of a column in this row.
+    /// Position of a column in this row.
     pub(super) fn place(&self, column: Column) -> Range<usize> {
         self.cells.place(column)
     }
@@ -140,7 +140,7 @@ impl<'t> Row<'t> {
         self.cells.given(column)
     }
 
-    /// A fault in a column of this row; `what` goes on after its name.
+    /// A fault in a column of this row; `what` continues the sentence after its name.
     pub(super) fn fault(
         &self,
         column: Column,
@@ -158,12 +158,12 @@ impl<'t> Row<'t> {
             .help(help)
     }
 
-    /// Words, which may be missing.
+    /// Words, if given.
     pub(super) fn words(&self, column: Column) -> Option<&'t str> {
         self.cells.cell(column).map(|cell| cell.text)
     }
 
-    /// In which form it is written.
+    /// The form of the file.
     pub(super) fn form(&self) -> Form {
         self.cells.form()
     }
@@ -173,7 +173,7 @@ impl<'t> Row<'t> {
         self.cells.currency()
     }
 
-    /// Words that must be there.
+    /// Required words.
     pub(super) fn text(&self, column: Column) -> String {
         let words = self.words(column);
         if words.is_none() {
@@ -182,7 +182,7 @@ impl<'t> Row<'t> {
         words.unwrap_or_default().to_owned()
     }
 
-    /// Keeps the fault of a missing cell; one of `instead` would also be sufficient.
+    /// Records the fault of a missing cell; one of `instead` would also be sufficient.
     pub(super) fn missing(&self, column: Column, instead: &[Column]) {
         let name = column.name();
         let others = instead.iter().map(|other| other.name());
@@ -215,7 +215,7 @@ impl<'t> Row<'t> {
         self.lacking.borrow_mut().get_or_insert(fault);
     }
 
-    /// A number that may be left out, in SI.
+    /// An optional number in SI.
     fn number(
         &self,
         column: Column,
@@ -271,7 +271,7 @@ impl<'t> Row<'t> {
         }
     }
 
-    /// Checks that a number is within the range of its kind, down to the smallest value if it must be above zero.
+    /// Checks that a number is within the range of its kind; if it must be positive, also against the smallest value.
     fn plausible(
         &self,
         column: Column,
@@ -306,22 +306,22 @@ impl<'t> Row<'t> {
         }
     }
 
-    /// A figure greater than zero that may be left out, in SI.
+    /// An optional figure greater than zero, in SI.
     pub(super) fn optional(&self, column: Column) -> Option<f64> {
         self.keep(self.number(column, 0.0, ABOVE_ZERO), None)
     }
 
-    /// A figure greater than zero that must be there, in SI.
+    /// A required figure greater than zero, in SI.
     pub(super) fn positive(&self, column: Column) -> f64 {
         self.needed(column, self.number(column, 0.0, ABOVE_ZERO), 1.0)
     }
 
-    /// A figure that may be zero and may be left out, in SI.
+    /// An optional figure that may be zero, in SI.
     pub(super) fn not_negative(&self, column: Column) -> Option<f64> {
         self.keep(self.number(column, -f64::MIN_POSITIVE, FROM_ZERO), None)
     }
 
-    /// A figure that may be zero and must be there, in SI.
+    /// A required figure that may be zero, in SI.
     pub(super) fn zero_or_more(&self, column: Column) -> f64 {
         self.needed(
             column,
@@ -337,7 +337,7 @@ impl<'t> Row<'t> {
         })
     }
 
-    /// A whole number from 1 to 1000 that may be left out.
+    /// An optional whole number from 1 to 1000.
     pub(super) fn count(&self, column: Column) -> Option<u32> {
         let value = self.optional(column)?;
         if value.fract() == 0.0 && value <= 1000.0 {
@@ -352,7 +352,7 @@ impl<'t> Row<'t> {
         None
     }
 
-    /// Points "x: y; x: y", in SI; none if the cell is empty.
+    /// Points "x: y; x: y", in SI; empty if the cell is empty.
     pub(super) fn points(&self, column: Column, holds: [Holds; 2]) -> Vec<[f64; 2]> {
         let Some(text) = self.words(column) else {
             return Vec::new();
@@ -362,7 +362,7 @@ impl<'t> Row<'t> {
         self.keep(points, Vec::new())
     }
 
-    /// One of some words; nothing if the cell is empty.
+    /// One of several words; `None` if the cell is empty.
     pub(super) fn choice<T: Copy>(&self, column: Column, words: &[(&str, T)]) -> Option<T> {
         let word = self.words(column)?;
         let lower = word.to_lowercase();
@@ -376,7 +376,7 @@ impl<'t> Row<'t> {
         None
     }
 
-    /// Yes or no; nothing if the cell is empty.
+    /// Yes or no; `None` if the cell is empty.
     pub(super) fn yes_or_no(&self, column: Column) -> Option<bool> {
         self.choice(
             column,
@@ -389,7 +389,7 @@ impl<'t> Row<'t> {
         )
     }
 
-    /// A figure must not be below another one.
+    /// Checks that a figure is not below another one.
     pub(super) fn at_least(
         &self,
         (column, value): (Column, Option<f64>),

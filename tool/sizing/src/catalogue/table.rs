@@ -11,7 +11,7 @@ use super::cell::Cell;
 use super::column::{Column, Kind, Unit};
 use super::row::{Cells, Form, Row};
 
-/// A CSV file, its header understood.
+/// A CSV file with its parsed header.
 pub(super) struct Table<'t> {
     kind: Kind,
     columns: [Option<(usize, Unit)>; Column::COUNT],
@@ -20,7 +20,7 @@ pub(super) struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    /// Reads the header; `None` if there is none.
+    /// Reads the header; `None` if it is missing.
     pub(super) fn read(text: &'t str, kind: Kind) -> Result<Option<Self>, Problem> {
         let mut table = Self {
             kind,
@@ -60,7 +60,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// Calls `take` with every row and the number of its line, or with what makes it unreadable.
+    /// Calls `take` with every row and its line number, or with the fault that makes it unreadable.
     pub(super) fn each(mut self, mut take: impl FnMut(Result<(Row<'_>, usize), Problem>)) -> usize {
         let mut count = 0;
         while let Some(read) = self.csv.advance() {
@@ -71,7 +71,7 @@ impl<'t> Table<'t> {
     }
 }
 
-/// The fault of a name that is no column of this table.
+/// The fault of a name that is not a column of this table.
 pub(super) fn unknown(name: &str, kind: Kind, form: Form, at: Range<usize>) -> Problem {
     let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
     let near = did_you_mean(name, &names);

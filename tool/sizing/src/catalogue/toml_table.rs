@@ -42,7 +42,7 @@ impl Cells for TomlRow {
         found.map_or(self.at.clone(), |cell| cell.at.clone())
     }
 
-    /// A key that is not there can always be added to its table.
+    /// A missing key can always be added to its table.
     fn has(&self, _column: Column) -> bool {
         true
     }
@@ -64,7 +64,7 @@ impl Cells for TomlRow {
     }
 }
 
-/// Calls `take` with every row of every table, or with what makes it unreadable.
+/// Calls `take` with every row of every table, or with the fault that makes it unreadable.
 pub(super) fn each(
     text: &str,
     mut take: impl FnMut(Result<(Row<'_>, usize), Problem>),
@@ -132,14 +132,14 @@ fn read_cell(column: Column, item: &Item, currency: &mut String) -> Result<TomlC
             cell.text = number;
         }
     } else if !holds.kinds().is_empty() && !words.starts_with(char::is_alphabetic) {
-        // Words may stand among quantities, such as back_driving = "friction".
+        // Words may occur among quantities, such as back_driving = "friction".
         let (number, unit) = number_and_unit(&words, holds).map_err(|fault| item.fault(fault))?;
         (cell.text, cell.unit) = (number, Some(unit));
     }
     Ok(cell)
 }
 
-/// Numbers of lines for rising places, each part of the text looked at once.
+/// Line numbers of increasing offsets, in one pass.
 struct Lines<'t> {
     bytes: &'t [u8],
     at: usize,

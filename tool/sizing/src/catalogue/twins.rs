@@ -1,5 +1,5 @@
-//! One part in two rows: the same maker and model, written alike or not, with figures that differ. One of the rows must be wrong, or
-//! the two are variants that a buyer cannot tell apart by their designation.
+//! One part in two rows: the same maker and model, in the same or another spelling, with different figures. Either one row is wrong, or the rows are
+//! variants that a buyer cannot distinguish by their designation.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,10 @@ use super::gearbox::Gearbox;
 use super::motor::Motor;
 use super::{Amplifier, Resistor};
 
-/// A figure by the name of its column.
+/// A figure with its column.
 type Figure = (Column, Option<f64>);
 
-/// The rows read so far, by what they are rows of.
+/// The rows read so far, by kind and designation.
 #[derive(Debug, Default)]
 pub(super) struct Twins {
     seen: HashMap<(Kind, String), Seen>,
@@ -28,7 +28,7 @@ struct Seen {
     figures: Vec<Figure>,
 }
 
-/// A designation in small letters and digits: a comma or a p between digits is a decimal point, other marks say nothing.
+/// A designation in small letters and digits: a comma or a p between digits is a decimal point, other punctuation is dropped.
 fn plain(name: &str) -> String {
     let letters: Vec<char> = name.chars().flat_map(char::to_lowercase).collect();
     let digit = |at: Option<usize>| {
@@ -39,7 +39,7 @@ fn plain(name: &str) -> String {
         let between = digit(k.checked_sub(1)) && digit(Some(k + 1));
         match letter {
             '.' | ',' | 'p' if between => Some('.'),
-            // Two numbers stay two.
+            // Keeps two numbers apart.
             _ if !letter.is_alphanumeric() => between.then_some(' '),
             _ => Some(*letter),
         }
@@ -86,7 +86,7 @@ impl Twins {
             (Column::Mass, g.mass),
         ];
         let name = [g.maker.as_str(), &g.model];
-        // A model is often a series of several ratios.
+        // A model is often a series with several ratios.
         let ratio = figure(g.ratio);
         self.check(
             remarks,

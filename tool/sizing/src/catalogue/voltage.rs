@@ -1,38 +1,38 @@
-//! Which supply motors and amplifiers are made for: largest voltage of the DC bus, from what their data sheets state.
+//! The supply that motors and amplifiers are made for: the largest voltage of the DC bus, from their data sheets.
 
 use jred_machine::model::supply::{MAINS_TOLERANCE, rectified};
 
 use super::{Amplifier, Motor};
 use jred_machine::number::rounding::short;
 
-/// Classes of mains (V): what is made for any of the voltages of a class is made for the highest of them, because makers build for
-/// the class and state one of its voltages (nominal voltages: IEC 60038).
+/// Classes of mains (V). A device for any voltage of a class is made for the highest one, because makers build for the class and state one of its
+/// voltages (nominal voltages: IEC 60038).
 const CLASSES: [[f64; 2]; 3] = [[100.0, 127.0], [200.0, 240.0], [380.0, 480.0]];
 
-/// Extra-low voltage (V DC, decisive voltage class A of IEC 61800-5-1): insulation is the same up to here.
+/// Extra-low voltage (V DC, decisive voltage class A of IEC 61800-5-1): insulation is the same up to this voltage.
 const EXTRA_LOW: f64 = 60.0;
 
 /// Largest ratio of voltages of one class: 24 and 28 V, 282 and 325 V, 540 and 680 V are in one class; 48 and 325 V, or 325
 /// and 560 V, are not.
 pub(crate) const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
 
-/// Where the largest voltage of the DC bus comes from.
+/// Source of the largest voltage of the DC bus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Basis {
-    /// The data sheet states it.
+    /// The data sheet.
     Stated,
     /// A mains voltage of the data sheet, and the highest of its class (V).
     Mains([f64; 2]),
-    /// The bus voltage of the figures (V), and the highest mains voltage of its class (V); `None`: extra-low voltage.
+    /// The bus voltage of the data (V), and the highest mains voltage of its class (V); `None`: extra-low voltage.
     Figures(f64, Option<f64>),
 }
 
-/// The largest voltage of the DC bus that something is made for, without that of braking.
+/// The largest voltage of the DC bus without braking that a device is made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MadeFor {
     /// The voltage (V).
     pub largest: f64,
-    /// Where it comes from.
+    /// Its source.
     pub basis: Basis,
 }
 
@@ -47,7 +47,7 @@ impl MadeFor {
     }
 }
 
-/// The highest mains voltage of the class of `mains` (V); of no class: itself.
+/// The highest mains voltage of the class of `mains` (V); without a class, `mains` itself.
 fn class(mains: f64) -> f64 {
     let of = |[least, most]: &[f64; 2]| (least / MAINS_TOLERANCE..=*most).contains(&mains);
     CLASSES
@@ -65,7 +65,7 @@ impl MadeFor {
         }
     }
 
-    /// Of the bus voltage that figures are valid for.
+    /// From the bus voltage of the data.
     fn figures(bus: f64) -> Self {
         if bus <= EXTRA_LOW {
             return Self {
@@ -82,8 +82,8 @@ impl MadeFor {
 }
 
 impl Motor {
-    /// The largest bus voltage that the motor is made for: what its insulation withstands, else the mains that it is made for, else
-    /// those that the voltage of its figures belongs to. `None`: none of them is given.
+    /// The largest bus voltage that the motor is made for: the limit of its insulation, else its mains, else the mains of its data's voltage; `None`
+    /// if no voltage is given.
     pub fn made_for(&self) -> Option<MadeFor> {
         let stated = self.max_bus_voltage.map(|largest| MadeFor {
             largest,
@@ -94,15 +94,15 @@ impl Motor {
             .or_else(|| self.bus_voltage.map(MadeFor::figures))
     }
 
-    /// Voltage of the DC bus that the figures are valid for (V): stated, or behind a rectifier on the stated mains.
+    /// Bus voltage for which the data are valid (V): given, or behind a rectifier on the given mains.
     pub fn figures_voltage(&self) -> Option<f64> {
         self.bus_voltage.or(self.mains_voltage.map(rectified))
     }
 }
 
 impl Amplifier {
-    /// The largest bus voltage that the amplifier is made for by its supply: the mains, else those that its nominal bus voltage
-    /// belongs to, else the voltage at which it switches off. `None`: none of them is given.
+    /// The largest supply bus voltage that the amplifier is made for: from its mains, else from the class of its nominal bus voltage, else the
+    /// voltage at which it switches off; `None` if no voltage is given.
     pub fn made_for(&self) -> Option<MadeFor> {
         let mains = self.mains_voltage.map(MadeFor::mains);
         mains
@@ -115,7 +115,7 @@ impl Amplifier {
             })
     }
 
-    /// Nominal voltage of its DC bus (V): stated, or behind a rectifier on the stated mains.
+    /// Nominal voltage of its DC bus (V): given, or behind a rectifier on the given mains.
     pub fn nominal_voltage(&self) -> Option<f64> {
         self.bus_voltage.or(self.mains_voltage.map(rectified))
     }
@@ -127,8 +127,8 @@ impl Amplifier {
     }
 }
 
-/// Whether motor and amplifier are for supplies of one class: the amplifier's bus is at most a quarter below that of the motor's
-/// figures, and at most a third above, or within what the motor is stated to be made for. Missing figures exclude nothing.
+/// Whether motor and amplifier are for supplies of one class: the amplifier's bus voltage is at most a quarter below the voltage of the motor's data,
+/// and at most a third above it or within the voltage that the motor is stated to be made for. Missing data exclude nothing.
 pub(super) fn of_one_class(motor: &Motor, amplifier: &Amplifier) -> bool {
     let Some(bus) = amplifier.nominal_voltage() else {
         return true;

@@ -1,5 +1,4 @@
-//! Whether the peak of a cycle stays within a share of an envelope, as far as bounds can decide it without a search for the
-//! peak.
+//! Whether the peak of a cycle stays within a share of an envelope, as far as bounds can decide it without searching for the peak.
 
 use super::Sample;
 use super::extremes::Stretches;
@@ -14,7 +13,7 @@ pub(crate) enum Against {
     Below,
     /// Above the upper share: an instant uses at least this much.
     Beyond {
-        /// |T| as a share of the envelope's torque there, rounding allowed for.
+        /// |T| as a share of the envelope's torque there, with an allowance for rounding.
         used: f64,
     },
     /// Bounds cannot decide.
@@ -38,7 +37,7 @@ impl Stretches<'_> {
         };
         let front = self.front;
         let [start, slope] = line;
-        // The bounds are those of the samples; the peak between them may be higher.
+        // The bounds apply to samples; the peak between them may be higher.
         let least = low * (1.0 - NEAR) / (1.0 + MOST_RAISED);
         if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
             return Against::Below;
@@ -68,15 +67,15 @@ impl Stretches<'_> {
         }
     }
 
-    /// A line over the speed at the gearbox output, torque at rest and slope, that the envelope does not fall below at any speed
-    /// of the cycle; `None` where there is none above zero.
+    /// A line over the speed at the gearbox output (torque at rest, slope) that is not above the envelope at any speed of the cycle; `None` if no
+    /// such line is positive.
     fn floor_line(self, ratio: f64, envelope: &Envelope) -> Option<[f64; 2]> {
         let fastest = self.tree.nodes.first()?.speed[1];
         let floor = |driving| envelope.floor(driving, [0.0, fastest * ratio]);
         let [driving, braking] = [floor(true), floor(false)];
         let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
         let slope = (end - start) / fastest;
-        // An infinite limit means that no limit is known.
+        // An infinite limit means that there are no data.
         let known = driving[0].max(braking[0]).is_finite() && slope.is_finite();
         let usable = known && start > 0.0 && end > 0.0;
         usable.then_some([start, slope])

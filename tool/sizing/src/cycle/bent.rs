@@ -1,13 +1,13 @@
-//! Integrals of functions of torque and speed that bend: a current beyond the knee of saturation, what an S1 torque loses to speed.
+//! Integrals of functions of torque and speed that have bends: a current beyond the knee of saturation, the loss of S1 torque with speed.
 //!
-//! Between the samples of a panel torque and speed are polynomials. Where the rule of the panel does not know the integral of the function well
-//! enough, that is where it bends within the panel, the panel is halved until it does.
+//! Between the samples of a panel torque and speed are polynomials. Where the function bends within a panel, the panel's quadrature is not accurate
+//! enough; the panel is then halved until it is.
 
 use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
 use jred_machine::analysis::duty::Panel;
 
-/// Error of the integral over a panel, as a share of it, and as a share of what the whole is compared with.
+/// Allowed error of the integral over a panel, as a share of it, and as a share of the reference value.
 const SHARE: f64 = 1e-10;
 const OF_WHOLE: f64 = 1e-10;
 
@@ -60,7 +60,7 @@ impl<'c> Bent<'c> {
         sum
     }
 
-    /// What the integral of a function over the panels of these samples, which are in order, is more than their weighted sum.
+    /// The integral of a function over the panels of these samples (in order), less their weighted sum.
     pub(crate) fn more(&self, samples: &[usize], whole: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let mut sum = 0.0;
         let mut done = 0;
@@ -76,14 +76,14 @@ impl<'c> Bent<'c> {
         sum
     }
 
-    /// The integral over the panel of a sample, or its own share of a sum where it has none; the sample after that.
+    /// The integral over the panel of a sample, or the sample's own term of a sum if it has no panel; and the next sample.
     fn part(&self, k: usize, whole: f64, f: &impl Fn(f64, f64) -> f64) -> (f64, usize) {
         if let Some((panel, end)) = self.panel(k) {
             return (self.exact(&panel, whole, f), end);
         }
         let weight = self.stretches.samples[k].weight;
         let [torque, speed] = self.at(k);
-        // A sample without weight adds nothing, even where the function has no value.
+        // A sample without weight adds nothing, even if the function has no value there.
         (
             if weight > 0.0 {
                 weight * f(torque, speed)
@@ -127,13 +127,13 @@ impl<'c> Bent<'c> {
         let sum = panel
             .rule()
             .adaptive([-1.0, 1.0], (SHARE, least / half), &between);
-        // Between the samples a torque may be one that no current gives.
+        // Between the samples there may be a torque that no current gives.
         half * if sum.is_finite() { sum } else { found.integral }
     }
 }
 
 impl Stretches<'_> {
-    /// Samples, in order, of all panels in whose range of speeds (rad/s, at the gearbox output, without sign) something `is_open`.
+    /// Samples, in order, of all panels for whose range of speeds (rad/s, at the gearbox output, without sign) `is_open` is true.
     pub(super) fn at_speeds(self, is_open: &impl Fn([f64; 2]) -> bool) -> Vec<usize> {
         let mut found = Vec::new();
         if !self.tree.nodes.is_empty() {
@@ -157,7 +157,7 @@ impl Stretches<'_> {
             return;
         }
         self.look_at_speeds(is_open, index + 1, found);
-        // The bend may be between the samples of both halves.
+        // The bend may lie between the samples of both halves.
         let last = self.tree.nodes[index + 1].last as usize;
         let [a, b] = [last, last + 1].map(|k| self.samples[k].speed().abs());
         if is_open([a.min(b), a.max(b)]) {

@@ -1,12 +1,12 @@
-//! Extremes over a cycle without looking at every sample: branch and bound over the [tree](super::tree) of stretches.
+//! Extremes over a cycle without visiting every sample: branch and bound over the [tree](super::tree) of stretches.
 //!
-//! A stretch is looked into only if its bound exceeds the best sample found so far. Where loads are smooth the bound's excess
-//! over the true largest value falls with the square of a stretch's length, so around a peak the stretches that must be looked
-//! into are a few at each size: their number grows with the logarithm of the number of samples, times the number of peaks of
-//! nearly the same height. Bounds hold for any course; jumps, noise and corners only cost time.
+//! A stretch is examined only if its bound exceeds the best sample found so far. Where loads are smooth, the bound's excess over the true maximum
+//! falls with the square of a stretch's length. So around a peak only a few stretches of each size must be examined: their number grows with the
+//! logarithm of the number of samples, times the number of peaks of nearly equal height. The bounds are valid for any course; jumps, noise and
+//! corners only cost time.
 //!
-//! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed
-//! over: else a constant torque would be looked at sample by sample.
+//! A sample that exceeds the best by less than rounding (64 units of the last place of the terms of the torque) may be skipped. Otherwise a constant
+//! torque would be examined sample by sample.
 
 use std::ops::Range;
 
@@ -32,15 +32,14 @@ pub(super) struct Stretches<'c> {
 }
 
 impl Stretches<'_> {
-    /// Where the cycle comes closest to the envelope, or is beyond it by most; the first sample that has no limit at all, if there
-    /// is one.
+    /// The closest approach of the cycle to the envelope, or its largest excess; if some samples have no limit torque at all, the first of them.
     pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
         let (sample, peak) = self.sampled_peak(c, ratio, envelope)?;
         let used = |torque, speed| envelope.peak_used(torque, speed);
         Some(self.between(sample, c, ratio, used).unwrap_or(peak))
     }
 
-    /// The sample of that.
+    /// The sample of the peak.
     fn sampled_peak(
         self,
         c: &Coefficients,
@@ -145,8 +144,8 @@ impl Stretches<'_> {
         between.map_or(best.1, |peak| peak.torque)
     }
 
-    /// The peak between the samples next to the sample `k`, at which `used` of torque and speed of the motor is largest; `None`
-    /// where it is that sample. What was computed through a change of the speed's sign or of the power's would be no torque.
+    /// The peak between the samples next to the sample `k`, where `used` of the motor's torque and speed is largest; `None` if the sample itself is
+    /// the peak. Panels in which the speed or the power changes sign are skipped: a polynomial across it would not be a torque.
     pub(super) fn between(
         self,
         k: usize,
@@ -157,14 +156,14 @@ impl Stretches<'_> {
         if !self.smooth.knows_peaks() {
             return None;
         }
-        // The last sample of a panel is where the next one begins, and the peak may lie on either side.
+        // The last sample of a panel is the start of the next one, and the peak may lie on either side.
         let panels = self.smooth.panels_beside(k, self.samples.len());
         let panels = panels.filter_map(|range| self.panel(range));
         let peaks = panels.filter_map(|panel| self.peak_in(&panel, k, c, ratio, &used));
         peaks.max_by(|a, b| a.used.total_cmp(&b.used))
     }
 
-    /// That in one of the panels.
+    /// The peak in one panel.
     fn peak_in(
         self,
         panel: &Panel,
@@ -225,7 +224,7 @@ struct Search<'s, F> {
     floor: F,
     slack: f64,
     best: Peak,
-    /// Index of the sample of the best.
+    /// Index of the best sample.
     at: u32,
 }
 
@@ -340,9 +339,8 @@ impl<'s, F: Floor> Search<'s, F> {
         }
     }
 
-    /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing
-    /// better where that is not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear
-    /// form of the loads.
+    /// An upper bound of |T| − u·M over a stretch, with u the best share so far and M the limit. If it is not positive, the stretch contains nothing
+    /// better. For one sign of the torque, with M replaced by a chord below it, this is a linear form of the loads.
     fn excess(&self, node: &Node) -> f64 {
         let u = self.best.used;
         if u < 0.0 {
@@ -370,7 +368,7 @@ impl<'s, F: Floor> Search<'s, F> {
             };
             let [mut low, mut high] = self.floor.chord(driving, speeds);
             if node.direction == Direction::Any || !driving && least == 0.0 {
-                // Both directions of power, rest counting as driving: the lower of all.
+                // Both directions of power, rest counting as driving: the lowest limit.
                 let [other_low, other_high] = self.floor.chord(!driving, speeds);
                 low = low.min(high).min(other_low).min(other_high);
                 high = low;
@@ -400,18 +398,18 @@ impl<'s, F: Floor> Search<'s, F> {
     }
 }
 
-/// The search for the first sample that has no limit at all.
+/// The search for the first sample without any limit torque.
 struct First<'s> {
     stretches: Stretches<'s>,
     c: &'s Coefficients,
     ratio: f64,
     envelope: &'s Envelope,
-    /// Speed at the gearbox output below which there is some torque in all directions.
+    /// Speed at the gearbox output below which the limit is positive in all directions.
     positive_below: f64,
 }
 
 impl First<'_> {
-    /// The first sample in a stretch at whose speed there is no torque.
+    /// The first sample in a stretch at whose speed no torque is available.
     fn visit(&self, index: usize) -> Option<(usize, Peak)> {
         let node = &self.stretches.tree.nodes[index];
         if node.speed[1] < self.positive_below {

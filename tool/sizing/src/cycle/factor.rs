@@ -6,18 +6,17 @@ use crate::cycle::form::LOADS;
 /// Rows of a block.
 const BLOCK: usize = 64;
 
-/// A row of loads, weighed.
+/// A weighted row of loads.
 type Row = [f64; LOADS];
 /// An upper triangle, row by row.
 type Triangle = [Row; LOADS];
 
 /// R of the QR factorization of the rows √w·x: ∑ w·(c·x)² = ‖R·c‖² for every c.
 ///
-/// The sum itself would need ∑ w·x·xᵀ, whose digits are lost twice over where the terms of c·x cancel. Householder's
-/// reflections keep each column to some units of its own last place, so the root is as exact as the terms of c·x are.
-/// One pass; the factors of blocks are joined in pairs, pairs of pairs and so on, so that rounding grows with the
-/// logarithm of their number only (Demmel, Grigori, Hoemmen, Langou 2012, "Communication-optimal parallel and sequential
-/// QR and LU factorizations").
+/// The direct sum would need ∑ w·x·xᵀ, which loses twice the digits where the terms of c·x cancel. Householder reflections keep each column to some
+/// units of its own last place, so the root is as exact as the terms of c·x. One pass; the factors of blocks are joined in pairs, pairs of pairs and
+/// so on, so that rounding grows only with the logarithm of their number (Demmel, Grigori, Hoemmen, Langou 2012, "Communication-optimal parallel and
+/// sequential QR and LU factorizations").
 #[derive(Clone, Debug)]
 pub(super) struct Factor(Triangle);
 
@@ -37,7 +36,7 @@ impl Factor {
     }
 
     fn new(rows: impl Iterator<Item = (f64, Row)>) -> Self {
-        // At place k of the row: the factor of 2^k blocks, or none.
+        // Place k of the row: the factor of 2^k blocks, or `None`.
         let mut joined: Vec<Option<Triangle>> = Vec::new();
         let mut add = |block: &mut [Row]| {
             let mut sum = triangle(block);
@@ -85,14 +84,14 @@ fn join(above: &Triangle, below: &Triangle) -> Triangle {
     triangle(&mut both)
 }
 
-/// R of the QR factorization of the rows by Householder's reflections, which are made in place.
+/// R of the QR factorization of the rows by Householder reflections, in place.
 fn triangle(rows: &mut [Row]) -> Triangle {
     let mut triangle = Triangle::default();
     for k in 0..LOADS.min(rows.len()) {
         let rest = &mut rows[k..];
         let length = rest.iter().map(|row| row[k] * row[k]).sum::<f64>().sqrt();
         if length > 0.0 {
-            // The mirror takes column k to (diagonal, 0, …); of the two signs the one that cancels nothing.
+            // The reflection maps column k to (diagonal, 0, …); of the two signs the one without cancellation.
             let diagonal = -length.copysign(rest[0][k]);
             let normal = rest[0][k] - diagonal;
             for column in k + 1..LOADS {

@@ -4,12 +4,12 @@ use crate::motor::envelope::Envelope;
 
 /// A lower bound of the torque limit.
 pub(super) trait Floor: Copy {
-    /// A chord that the limit does not fall below at any speed of the cycle, whatever the direction of power: its torque at rest
-    /// and its slope over the magnitude of the speed at the gearbox output.
+    /// A chord that is not above the limit at any speed of the cycle, for any direction of power: its torque at rest, and its slope by the magnitude
+    /// of the speed at the gearbox output.
     fn line(&self) -> [f64; 2];
     /// Its least value at all speeds of the cycle, in both directions of power.
     fn least(&self) -> f64;
-    /// The values at both ends of a chord that the limit does not fall below between the two speeds of the motor.
+    /// End values of a chord that is not above the limit between the two speeds of the motor.
     fn chord(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2];
     /// The limit in the direction of a torque at a speed of the motor.
     fn limit(&self, torque: f64, speed: f64) -> f64;
@@ -37,7 +37,7 @@ impl Floor for Level {
     }
 }
 
-/// A straight line over speed where the motor drives, and another where it brakes: that of a voltage.
+/// A straight line over speed while the motor drives, and another while it brakes: the limit by a voltage.
 #[derive(Clone, Copy)]
 pub(super) struct Straight {
     /// Torque at rest and slope, driving and braking.

@@ -1,4 +1,4 @@
-//! What the motor of a drive does: its torque as a linear form in the loads of an instant.
+//! The torque of a drive's motor as a linear form in the loads of an instant.
 
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ pub struct MotorPoint {
     pub speed: f64,
 }
 
-/// The duty seen by the motor.
+/// The duty at the motor.
 #[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
 pub struct MotorDuty {
     /// Motor torque (N·m).

@@ -7,17 +7,17 @@ use super::kernels::{Above, Bounds, Signs};
 use super::tree::{Direction, Node, Tree};
 use crate::cycle::form::LOADS;
 
-/// Number of stretches. At this number the chords of a smooth cycle are some parts in a thousand from its loads.
+/// Number of stretches. With this number the chords of a smooth cycle deviate from its loads by some parts in a thousand.
 pub(super) const WIDTH: usize = 32;
 
 const _: () = assert!(WIDTH <= u32::BITS as usize, "a bit for each stretch");
 
-/// The stretches: where they are in the tree, and what bounds a torque on them. Each array holds one figure of all stretches:
-/// the compiler makes vector instructions of the loops, the widest that the processor has.
+/// The stretches: their positions in the tree, and bounds of a torque on them. Each array contains one figure of all stretches, so that the compiler
+/// vectorises the loops with the widest instructions of the processor.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
     vectors: Arch,
-    /// Indices of the nodes in the order of time; those beyond `len` are not used.
+    /// Indices of the nodes in order of time; those beyond `len` are unused.
     pub(super) nodes: [u32; WIDTH],
     /// Number of stretches.
     pub(super) len: usize,
@@ -26,7 +26,7 @@ pub(super) struct Front {
     pub(super) reach: [[f64; WIDTH]; LOADS],
     /// Direction of speed: 1 or −1; 0 for both or rest.
     pub(super) direction: [f64; WIDTH],
-    /// Those at the first and at the last sample.
+    /// The directions at the first and at the last sample.
     pub(super) directions: [[f64; WIDTH]; 2],
     /// Least and largest magnitude of the speed at the gearbox output.
     pub(super) speeds: [[f64; WIDTH]; 2],
@@ -101,8 +101,8 @@ impl Front {
         bounds
     }
 
-    /// Whether a torque c·x is against the speed anywhere, by more than `slack`: known where an end of a stretch shows it, or no
-    /// stretch can hold it; else the stretches that can, a bit for each.
+    /// Whether a torque c·x opposes the speed anywhere, by more than `slack`. It is decided if an end of a stretch shows it, or if no stretch can
+    /// contain it; otherwise the error is a bit for each stretch that can.
     pub(super) fn against_speed(&self, c: &[f64; LOADS], slack: f64) -> Result<bool, u32> {
         let mut least = [0.0; WIDTH];
         let lowest = self.vectors.dispatch(Signs {
@@ -116,7 +116,7 @@ impl Front {
         let mut open = 0;
         for (k, least) in least.iter().enumerate().take(self.len) {
             let rests = self.speeds[1][k] == 0.0;
-            // Both directions: the bound holds for neither.
+            // With both directions the bound is valid for neither.
             let both = self.direction[k] == 0.0 && !rests;
             open |= u32::from(!rests && (both || *least < -slack)) << k;
         }
@@ -132,13 +132,13 @@ impl Front {
         })
     }
 
-    /// Where a line of this slope has its least on each stretch: one end of the speeds has it, the same one on every stretch.
+    /// The end of the speed range at which a line of this slope is smallest, for each stretch; it is the same end on all.
     pub(super) const fn speeds_of_least(&self, slope: f64) -> &[f64; WIDTH] {
         let [least, most] = &self.speeds;
         if slope < 0.0 { most } else { least }
     }
 
-    /// The least of a line over the speed, its value at rest and its slope, on each stretch.
+    /// The minimum of a line over speed (value at rest, slope) on each stretch.
     pub(super) fn floors(&self, [start, slope]: [f64; 2]) -> [f64; WIDTH] {
         let speeds = self.speeds_of_least(slope);
         let mut floors = [0.0; WIDTH];

@@ -1,4 +1,4 @@
-//! The loops over all stretches of the [front](super::front), compiled once for each width of vectors that processors have.
+//! The loops over all stretches of the [front](super::front), compiled once for each vector width of processors.
 
 #![expect(
     clippy::inline_always,
@@ -55,7 +55,7 @@ impl NullaryFnOnce for Above<'_> {
     }
 }
 
-/// The kernel of [`Front::against_speed`]: the least T·sgn n at an end of a stretch, and what it does not fall below on each.
+/// The kernel of [`Front::against_speed`]: the least T·sgn n at an end of a stretch, and a lower bound on each stretch.
 pub(super) struct Signs<'a> {
     pub(super) front: &'a Front,
     pub(super) c: &'a [f64; LOADS],

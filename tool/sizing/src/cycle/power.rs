@@ -1,4 +1,4 @@
-//! Signs of the power over a cycle: energy put in and taken back, by stretches of the [tree](super::tree).
+//! Signs of the power over a cycle: energy supplied and returned, by stretches of the [tree](super::tree).
 
 use std::convert::Infallible;
 
@@ -8,18 +8,18 @@ use super::tree::Direction;
 use crate::cycle::form::{Coefficients, LOADS};
 use jred_machine::number::numerics;
 
-/// Work put in and taken back (J), in the order of time.
+/// Work supplied and returned (J), in order of time.
 #[derive(Default)]
 struct Work {
     sums: [f64; 2],
-    /// The first sample of the last panel in which the power changes its sign.
+    /// The first sample of the last panel in which the power changes sign.
     mended: Option<usize>,
 }
 
 impl Stretches<'_> {
-    /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its
-    /// sign over a stretch its work is a linear form; samples are looked at only around its zeros. In a panel with a zero the rule does not hold for
-    /// either part: those of the polynomial through its samples are taken.
+    /// Work that the motor supplies and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its sign over a stretch, its
+    /// work is a linear form; samples are visited only around its zeros. In a panel with a zero the quadrature is valid for neither part; the
+    /// polynomial through its samples is integrated instead.
     pub(super) fn energies(self, c: &Coefficients, ratio: f64) -> [f64; 2] {
         let mut work = Work::default();
         if !self.tree.nodes.is_empty() {
@@ -58,21 +58,20 @@ impl Stretches<'_> {
         }
     }
 
-    /// Where the power changes its sign between the sample `k` and the next: adds to both parts what they differ by from what the rule of the panel
-    /// makes of them.
+    /// Where the power changes sign between the sample `k` and the next: adds the difference to the panel's quadrature to both parts.
     fn mend(self, c: &Coefficients, k: usize, work: &mut Work) {
         let power = |k: usize| self.samples[k].power(c);
         let [before, after] = [power(k), power(k + 1)];
-        // Zero itself may be a sample.
+        // A sample itself may be zero.
         if (before > 0.0) == (after > 0.0) {
             return;
         }
         let count = self.samples.len();
-        // Between a panel's left border, which is the last sample of the one before, and its first sample too.
+        // The zero may also lie between a panel's left border, which is the last sample of the previous panel, and its first sample.
         let Some(range) = self.smooth.panel_of(k + 1, count) else {
             return;
         };
-        // Once for a panel.
+        // Once per panel.
         if work.mended.replace(range.start) == Some(range.start) {
             return;
         }
@@ -111,7 +110,7 @@ impl Stretches<'_> {
         }
     }
 
-    /// Whether any sample's power is negative, by more than rounding; `first` are looked at first.
+    /// Whether any sample's power is negative, by more than rounding; `first` are checked first.
     pub(super) fn regenerates(self, c: &Coefficients, first: [Option<usize>; 2]) -> bool {
         fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
             let node = &stretches.tree.nodes[index];

@@ -1,4 +1,4 @@
-//! A cycle without its repeats: the many turns of a constant speed have one peak, and a search that looks at all of them cannot exclude any.
+//! A cycle without its repeats: the many turns at constant speed have one peak each, and a search over all of them could not exclude any.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -9,22 +9,22 @@ use super::tree::Tree;
 use crate::cycle::form::LOADS;
 use jred_machine::analysis::duty::Smooth;
 
-/// Two values are one if they differ by less than this share of the largest: rounding of a position after many turns.
+/// Two values are equal if they differ by less than this share of the largest: rounding of a position after many turns.
 const SAME: f64 = 1e-10;
 
-/// Panels are compared where their values are one when rounded to this share: so coarse that rounding seldom parts two that are one.
+/// Panels are compared if their values are equal after rounding to this share, so coarse that rounding seldom separates equal panels.
 const ALIKE: f64 = 1e-5;
 
-/// Mixes the values of a panel into one number (D. Knuth's 2⁶⁴/golden ratio).
+/// Multiplier of the hash of a panel's values (D. Knuth's 2⁶⁴/golden ratio).
 const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The most panels that one is compared with.
+/// The most panels that one panel is compared with.
 const COMPARED: usize = 8;
 
-/// Share of the samples that may be left if it is to be worth a tree of its own.
+/// Largest share of the remaining samples for which a separate tree is worthwhile.
 const WORTH: f64 = 0.5;
 
-/// What is left of a cycle whose panels repeat: whatever is sought of one sample, not of a sum, is found there.
+/// The rest of a cycle whose panels repeat. Any result that depends on a single sample, not on a sum, is found in it.
 #[derive(Clone, Debug)]
 pub(super) struct Distinct {
     pub(super) tree: Tree,
@@ -32,7 +32,7 @@ pub(super) struct Distinct {
 }
 
 impl Distinct {
-    /// `None`: little is repeated.
+    /// The cycle without repeats; `None` if little is repeated.
     pub(super) fn of(samples: &[Sample], smooth: &Smooth, largest: &[f64; LOADS]) -> Option<Self> {
         let left = left(samples, smooth);
         let count: usize = left.iter().map(Range::len).sum();
@@ -47,7 +47,7 @@ impl Distinct {
     }
 }
 
-/// The samples without the panels that repeat one before them.
+/// The samples without the panels that repeat an earlier one.
 fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
     let values = |s: &Sample| [s.alpha, s.output_torque, s.speed];
     let mut largest = [0.0_f64; 3];
@@ -56,7 +56,7 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
             *most = most.max(value.abs());
         }
     }
-    // At a constant speed the acceleration is a rounding.
+    // At constant speed the acceleration is only rounding.
     largest[0] = largest[0].max(largest[2] * largest[2]);
     let shares = |sample: &Sample| {
         let values = values(sample);

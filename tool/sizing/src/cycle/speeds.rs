@@ -1,10 +1,9 @@
 //! Distribution of speed over the cycle: sums of a function of speed without iterating over the samples.
 //!
-//! The samples in order of |n|, halved again and again. Of each part are known its weight W = ∑w, its mean speed c = ∑w·|n|/W, and
-//! ∑w·(|n| − c)² and ∑w/n². The square of a straight line l then sums up to W·l(c)² + l′²·∑w·(|n| − c)², in which nothing
-//! cancels; parts are joined by the rule of Chan, Golub and LeVeque (1983, "Algorithms for computing the sample variance",
-//! American Statistician 37). A function of a few such pieces costs, for each end of a piece, a part of each size:
-//! the logarithm of the number of samples.
+//! The samples in order of |n| are halved repeatedly. Each part keeps its weight W = ∑w, its mean speed c = ∑w·|n|/W, and ∑w·(|n| − c)² and ∑w/n².
+//! The weighted square of a straight line l is then W·l(c)² + l′²·∑w·(|n| − c)², without cancellation. Parts are joined by the rule of Chan, Golub
+//! and LeVeque (1983, "Algorithms for computing the sample variance", American Statistician 37). For a function of a few pieces, each end of a piece
+//! costs one part of each size: the logarithm of the number of samples.
 
 use super::Sample;
 
@@ -14,15 +13,15 @@ const LEAF: usize = 16;
 /// Form of a function of speed between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Form {
-    /// Nothing.
+    /// Zero.
     Zero,
-    /// 1 − l², l being the straight line with these values at both ends.
+    /// 1 − l², with l the straight line with these values at both ends.
     LessLine([f64; 2]),
     /// 1 − (k/|n|)².
     LessInverse(f64),
 }
 
-/// A sample with some weight.
+/// A sample with positive weight.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     /// |n| at the gearbox output (rad/s).
@@ -30,12 +29,12 @@ struct Entry {
     weight: f64,
 }
 
-/// Samples next to each other in the order of speed.
+/// Samples adjacent in the order of speed.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     first: u32,
     last: u32,
-    /// Index of the second half, the first being the next part; zero: not halved.
+    /// Index of the second half; the first half is the next part. Zero: not halved.
     second: u32,
     sums: Sums,
 }
@@ -47,7 +46,7 @@ struct Sums {
     mean: f64,
     /// ∑w·(|n| − mean)².
     spread: f64,
-    /// ∑w/n²; infinite with rest.
+    /// ∑w/n²; infinite if it includes rest.
     inverse: f64,
 }
 
@@ -101,7 +100,7 @@ impl Speeds {
         speeds
     }
 
-    /// Adds the samples from `first` to `last`, both included; what is known of them.
+    /// Adds the samples from `first` to `last`, both included; returns their sums.
     fn build(&mut self, first: usize, last: usize) -> Sums {
         let own = self.parts.len();
         let known = Sums::of(&self.entries[first]);
@@ -127,8 +126,8 @@ impl Speeds {
         sums
     }
 
-    /// ∑w·g(|n|) (s). `on` says what g is between two speeds (rad/s, at the gearbox output), `None` if that is none of the
-    /// [`Form`]s; `at` is g at one speed. Where `on` never says anything every sample is looked at.
+    /// ∑w·g(|n|) (s). `on` gives g between two speeds (rad/s, at the gearbox output), `None` if it is not one of the [`Form`]s; `at` is g at one
+    /// speed. If `on` always returns `None`, every sample is visited.
     pub(crate) fn sum(
         &self,
         on: impl Fn([f64; 2]) -> Option<Form>,
@@ -188,7 +187,7 @@ mod tests {
 
     use super::{Form, LEAF, Sample, Speeds};
 
-    /// Lines and a hyperbola over a million samples: a few dozen of them are looked at, and the sum is theirs.
+    /// Lines and a hyperbola over a million samples: a few dozen of them are visited, and the sum is correct.
     #[test]
     fn few_samples_are_looked_at() {
         let count = 1_000_000;

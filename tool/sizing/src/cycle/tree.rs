@@ -8,17 +8,17 @@ use crate::cycle::form::LOADS;
 /// Most samples of a stretch that is not cut further.
 const LEAF: usize = 16;
 
-/// A step this many times larger than its neighbours is a jump (of an acceleration, or at a stop). Stretches are cut at
-/// jumps, since no chord follows a jump.
+/// A step this many times larger than its neighbours is a jump (of an acceleration, or at a stop). Stretches are cut at jumps, because no chord
+/// follows a jump.
 const JUMP: f64 = 4.0;
 
 /// Smallest step that can be a jump, as a share of the largest loads.
 const SMALLEST_JUMP: f64 = 1e-6;
 
-/// Which directions of speed occur in a stretch.
+/// Directions of speed in a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
-    /// None above zero in one of the directions: that sign of the speed, and perhaps rest.
+    /// One direction (this sign of the speed), and perhaps rest.
     One(bool),
     /// Both, or only rest.
     Any,
@@ -26,16 +26,16 @@ pub(super) enum Direction {
 
 /// A stretch of samples.
 ///
-/// Each load of a sample at the time t lies no further than `reach` from the chord between the first and the last sample of the
-/// stretch. For a linear form c·x that means: its largest value on the stretch is at most the larger of the two at its
-/// ends, plus ∑ |c_k|·reach_k. Where loads are smooth the reach falls with the square of the stretch's length.
+/// Each load of a sample at time t differs from the chord between the first and the last sample of the stretch by at most `reach`. So the largest
+/// value of a linear form c·x on the stretch is at most the larger of its two end values, plus ∑ |c_k|·reach_k. Where loads are smooth the reach
+/// falls with the square of the stretch's length.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// Index of the first sample.
     pub(super) first: u32,
     /// Index of the last sample.
     pub(super) last: u32,
-    /// Index of the second half, the first half being the next node; zero: the stretch is not cut.
+    /// Index of the second half; the first half is the next node. Zero: the stretch is not cut.
     pub(super) second: u32,
     /// Directions of speed.
     pub(super) direction: Direction,
@@ -43,7 +43,7 @@ pub(super) struct Node {
     pub(super) reach: [f64; LOADS],
     /// Least and largest magnitude of the speed.
     pub(super) speed: [f64; 2],
-    /// ∑ w·n·x, of which the energy is a linear form.
+    /// ∑ w·n·x; the energy is a linear form in it.
     pub(super) energy: [f64; LOADS],
 }
 
@@ -58,7 +58,7 @@ impl Tree {
         Self::of_parts(samples, std::slice::from_ref(&(0..samples.len())), largest)
     }
 
-    /// Of some of the samples: ranges in order.
+    /// A tree of some of the samples, given as ranges in order.
     pub(super) fn of_parts(
         samples: &[Sample],
         parts: &[Range<usize>],
@@ -77,7 +77,7 @@ impl Tree {
         tree
     }
 
-    /// Adds the stretches of some ranges; the index of that of all of them.
+    /// Adds the stretches of some ranges; returns the index of the stretch that contains all.
     fn join(&mut self, samples: &[Sample], cuts: &[u32], parts: &[Range<usize>]) -> usize {
         if let [part] = parts {
             return self.build(samples, cuts, part.start, part.end - 1);
@@ -92,7 +92,7 @@ impl Tree {
         own
     }
 
-    /// Adds the stretch from `first` to `last`, both included; its index.
+    /// Adds the stretch from `first` to `last`, both included; returns its index.
     fn build(&mut self, samples: &[Sample], cuts: &[u32], first: usize, last: usize) -> usize {
         let own = self.nodes.len();
         let inside = {
@@ -144,7 +144,7 @@ fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
     cuts
 }
 
-/// How far a sample is from the chord between two others.
+/// Deviation of a sample from the chord between two others.
 fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
     let span = to.t - from.t;
     let part = if span > 0.0 {
@@ -194,7 +194,7 @@ impl Node {
 
     fn of_halves(samples: &[Sample], one: &Self, two: &Self, second: usize) -> Self {
         let (from, to) = (&samples[one.first as usize], &samples[two.last as usize]);
-        // Each half's chord leaves that of the whole linearly, so by most at the cut.
+        // The deviation of each half's chord from the whole chord is linear, so it is largest at the cut.
         let left = astray(from, to, &samples[one.last as usize]);
         let right = astray(from, to, &samples[two.first as usize]);
         let rest = |node: &Self| node.speed[1] == 0.0;

@@ -1,14 +1,14 @@
 //! The duty of an altered machine: slower, lighter, or under other process loads.
 //!
-//! All three alterations are exact, without sampling the machine again. At the same positions, a cycle that takes s times as
-//! long has speeds 1/s and accelerations 1/s² of those before, so that
+//! All three alterations are exact and need no new sampling of the machine. At the same positions, a cycle that takes s times as long has 1/s times
+//! the speeds and 1/s² times the accelerations, so that
 //!
 //! ```text
 //! T(s, m, p) = m·(J·α + ½·J′·ω²)/s² + m·U′_weight + U′_springs + p·process + b·ω/s + c·sgn ω
 //! ```
 //!
-//! m scales every mass and inertia of the mechanism, of what it carries and of its flywheel, p every force and moment of given direction. The
-//! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
+//! m scales every mass and inertia of the mechanism, its payload and its flywheel; p every force and moment of given direction. The drive train keeps
+//! its inertia and its losses, which are computed again at every instant.
 
 use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
@@ -23,11 +23,11 @@ use jred_machine::model::schedule::Now;
 /// Factors on parts of the machine and its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alteration {
-    /// On the cycle time.
+    /// Of the cycle time.
     pub time: f64,
-    /// On the moving masses and inertias, flywheel included.
+    /// Of the moving masses and inertias, flywheel included.
     pub mass: f64,
-    /// On the process loads.
+    /// Of the process loads.
     pub process: f64,
 }
 
@@ -48,11 +48,11 @@ pub struct Altered<'a> {
     duty: &'a Duty,
     /// U′ of the weight at every instant (N·m).
     weights: Vec<f64>,
-    /// Torque against the loads that always act, at every instant at rest (N·m).
+    /// Torque against the constant loads, at every instant at rest (N·m).
     constant: Vec<f64>,
-    /// The instants of an [outline](Self::outline), if others can be left out.
+    /// The instants of an [outline](Self::outline), if some can be omitted.
     outline: Option<Vec<usize>>,
-    /// [U′ of the weight, U′ of the rest] at positions over the range, and at instants at which something is carried (N·m).
+    /// [U′ of the weight, U′ of the rest] at positions over the range, and at instants with a payload (N·m).
     range: Vec<[f64; 2]>,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Altered<'a> {
     /// Prepares a duty.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// The mechanism cannot be placed somewhere.
     pub fn new(file: &'a MachineFile, duty: &'a Duty) -> Result<Self, Error> {
         let machine = &file.machine;
         let bare = |machine: &Machine<AnyMechanism>| -> Result<Machine<AnyMechanism>, Error> {
@@ -101,7 +101,7 @@ impl<'a> Altered<'a> {
         })
     }
 
-    /// The duty as it is.
+    /// The original duty.
     pub const fn original(&self) -> &'a Duty {
         self.duty
     }
@@ -114,9 +114,9 @@ impl<'a> Altered<'a> {
         }
     }
 
-    /// The altered duty without most of the instants that only resolve a peak; `None` if there are none of them. Its integrals, its
-    /// moves and the extremes of its inertia are those of the whole duty, and no peak of it is higher: what violates a rule that
-    /// needs no time course violates it over all instants.
+    /// The altered duty without the instants that only resolve a peak; `None` if there are no such instants. Its integrals, its moves and the
+    /// extremes of its inertia equal those of the whole duty, and no peak is higher. So if it violates a rule that needs no time course, the whole
+    /// duty does too.
     pub fn outline(&self, by: Alteration) -> Option<Duty> {
         let some = self.outline.as_ref()?;
         Some(Duty {
@@ -198,7 +198,7 @@ impl<'a> Altered<'a> {
     }
 }
 
-/// The instants that have a weight in the integrals, and those of the extremes; `None`: that is all of them.
+/// The instants with a weight in the integrals, and those of the extremes; `None` if these are all.
 fn outline(instants: &[Instant]) -> Option<Vec<usize>> {
     let figures: [fn(&Instant) -> f64; 4] =
         [|i| i.inertia, |i| i.omega, |i| i.alpha, |i| i.input_torque];

@@ -1,6 +1,6 @@
 //! Contributions to the motor torque and to the inertia at the motor.
 //!
-//! At every instant the motor torque is a sum of contributions, one for each part of the machine and each effect that it has:
+//! At every instant the motor torque is a sum of contributions, one for each part of the machine and each of its effects:
 //!
 //! ```text
 //! T = Σ links, flywheel (J_k·α + ½·J_k′·ω²)/(i_t·i) + Σ links U_k′/(i_t·i) + Σ springs + Σ loads + Σ dampers
@@ -8,12 +8,11 @@
 //!   + motor friction
 //! ```
 //!
-//! i_t is the ratio of the machine's drive train, i that of the gearbox, τ the torque at the input of the drive train. A loss
-//! is what a stage asks for beyond its lossless torque. The contributions of an instant add up to the motor torque (test
-//! `tests/explain.rs`, 1e-12 of the largest).
+//! i_t is the ratio of the machine's drive train, i the ratio of the gearbox, τ the torque at the input of the drive train. A loss is the torque of a
+//! stage beyond its lossless torque. The contributions of an instant add up to the motor torque (test `tests/explain.rs`, 1e-12 of the largest).
 //!
-//! Each one's share of the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be
-//! negative: without that one the RMS torque would be greater.
+//! The share of each in the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be negative: without that
+//! contribution the RMS torque would be greater.
 
 use jred::Error;
 use serde::Serialize;
@@ -35,19 +34,19 @@ pub struct Share {
     /// Torque at the motor over the cycle (N·m).
     #[serde(rename = "torque [N m]")]
     pub torque: Figures,
-    /// Share of the mean square torque; all add up to one, or are zero where there is no torque.
+    /// Share of the mean square torque; all add up to one, or are zero without a torque.
     #[serde(rename = "share of mean square")]
     pub mean_square: f64,
     /// Torque (N·m) at the instant of the largest motor torque.
     #[serde(rename = "at peak [N m]")]
     pub at_peak: f64,
-    /// Energy over a cycle that it takes from the motor (J).
+    /// Energy that it takes from the motor in a cycle (J).
     #[serde(rename = "energy [J]")]
     pub energy: f64,
 }
 
 impl Share {
-    /// With zero for what is only rounding beside the whole, and beside the energy that flows forth and back (J).
+    /// Clears figures that are only rounding relative to the whole, or to the energy that flows back and forth (J).
     fn cleared(self, whole: &Self, stored: f64) -> Self {
         Self {
             torque: self.torque.cleared(whole.torque.peak()),
@@ -77,13 +76,13 @@ pub struct InertiaShare {
 pub struct Breakdown {
     /// Name of the drive.
     pub drive: String,
-    /// What its figures are called and shown in.
+    /// Names and units of its figures.
     #[serde(skip)]
     pub words: &'static Vocabulary,
-    /// When the motor torque is largest (s).
+    /// Time of the largest motor torque (s).
     #[serde(rename = "peak at [s]")]
     pub peak_time: f64,
-    /// Energy that flows forth and back in a cycle (J).
+    /// Energy that flows back and forth in a cycle (J).
     #[serde(skip)]
     stored: f64,
     /// Total.
@@ -102,7 +101,7 @@ impl Breakdown {
     /// The figures of every part and every effect.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// The mechanism cannot be placed somewhere.
     pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
         Ok(Self::of(
             duty,
@@ -119,7 +118,7 @@ impl Breakdown {
             .max(self.stored)
     }
 
-    /// The figures of contributions that are there already.
+    /// The figures of existing contributions.
     pub fn of(duty: &Duty, drive: &Drive, contributions: &Contributions) -> Self {
         let words = drive.motor.kind.vocabulary();
         let coefficients = drive.coefficients();

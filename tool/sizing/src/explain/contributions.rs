@@ -1,4 +1,4 @@
-//! The torque of a drive, divided by parts and by effects, at every instant of its cycle.
+//! The torque of a drive, split by parts and by effects, at every instant of its cycle.
 
 use jred::Error;
 use jred::machine::Mechanism as _;
@@ -23,7 +23,7 @@ pub struct Contribution {
     pub torque: Vec<f64>,
 }
 
-/// What a part does to the motor torque, in the order of reports.
+/// Effect of a part on the motor torque, in the order of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// J·α of the machine.
@@ -95,7 +95,7 @@ impl Effect {
     }
 }
 
-/// Kind of a part, since a link and a load may have the same name.
+/// Kind of a part, because a link and a load may have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PartKind {
     Link,
@@ -110,26 +110,26 @@ pub struct Contributions {
     /// The torques.
     pub torques: Vec<Contribution>,
     pub(super) inertias: Vec<(String, Vec<f64>)>,
-    /// Places of the next torque and the next inertia while an instant is filled in: every instant has the same.
+    /// Positions of the next torque and the next inertia while an instant is filled in: all instants have the same order.
     next: usize,
     next_inertia: usize,
 }
 
 impl Contributions {
-    /// Divides the torque of a drive. Cost: one evaluation of the mechanism per instant.
+    /// Splits the torque of a drive. Cost: one evaluation of the mechanism per instant.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// The mechanism cannot be placed somewhere.
     pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
         let mut contributions = Self::default();
         let own = file.motion.as_ref().map_or(duty.duration, Motion::duration);
         let share = own / duty.duration;
         for instant in &duty.instants {
             (contributions.next, contributions.next_inertia) = (0, 0);
-            // The cycle may take longer than that of the file.
+            // The cycle may take longer than the file's.
             let t = instant.t * share;
             let starts = instant.omega == 0.0 && instant.direction != 0.0;
-            // At the pace of the file, which is that of its carriages.
+            // At the pace of the file, so that its carriages are in step.
             let now = if starts {
                 Now::starting(t, instant.direction)
             } else {
@@ -174,7 +174,7 @@ fn machine(
     let mechanism = machine.mechanism();
     let total = file.drive_train.ratio() * drive.ratio();
     let (omega, alpha) = (instant.omega, instant.alpha);
-    // That of the move that begins where static friction is overcome.
+    // Sign of the move that begins when static friction is overcome.
     let sign = if instant.direction == 0.0 {
         0.0
     } else {
@@ -182,7 +182,7 @@ fn machine(
     };
     let frames = mechanism.frames(instant.phi)?;
     let names = mechanism.names();
-    // A carriage's share is its own, not that of the link that carries it.
+    // A carriage has its own share, apart from the link that carries it.
     let unladen = file.machine_among(now).mechanism();
     let links = unladen.links().iter().copied().zip(&frames).zip(names);
     let links = links.map(|((link, frame), name)| (link, frame, (PartKind::Link, name.as_str())));
@@ -231,7 +231,7 @@ fn machine(
         let slope = element.length(&frames).d1;
         let still = element.effort(&frames, 0.0);
         let moving = element.effort(&frames, omega);
-        // The effort acts on the element's end; the drive gives the opposite.
+        // The effort acts on the element's end; the drive applies the opposite.
         let part = (PartKind::Element, named.name.as_str());
         contributions.add(part, Effect::Springs, -still * slope / total);
         contributions.add(part, Effect::Viscous, (still - moving) * slope / total);

@@ -1,4 +1,4 @@
-//! Every rule's share of its limit over the gear ratio.
+//! Use of every rule's limit over the gear ratio.
 
 use super::remedy::with_ratio;
 use crate::catalogue::Drive;
@@ -6,8 +6,8 @@ use crate::judge::{Context, Findings};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 
-/// The shares of their limits that the rules use at each ratio, all else of the drive kept, NaN where a figure is not known. Rules that
-/// follow time are left out, and so are rules without a limit. A drive without gearbox gets one without losses and inertia.
+/// The shares of their limits that the rules use at each ratio, with the rest of the drive unchanged; NaN without data. Rules that follow time and
+/// rules without a limit are omitted. A drive without gearbox gets one without losses and inertia.
 pub fn ratio_course(context: &Context, rules: &RuleSet, ratios: &[f64]) -> Vec<(Rule, Vec<f64>)> {
     let findings: Vec<Findings> = ratios
         .iter()

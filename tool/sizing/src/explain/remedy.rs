@@ -1,13 +1,16 @@
-//! The changes that would make a drive satisfy every rule, or how far each quantity may change before it violates one.
+//! The changes that would make a drive satisfy every rule, or how far each quantity may change before a rule is violated.
 //!
-//! One quantity is changed at a time, all else kept: the gear ratio (the gearbox's other data as they are), the cycle time,
-//! the moving masses, the process loads. For a drive that is refused only values are tried that somebody would choose
-//! ([`Lever::choices`]); for one that fits, far more, because the range shows how much it has left. The range in which every rule is
-//! satisfied is searched on a grid, outwards from the current value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than
-//! the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule
-//! uses least. Cost: up to some hundred judgements of one drive for each quantity. Where instants were added only to resolve peaks,
-//! most judgements do without them: what is violated without them is violated ([`Altered::outline`]), and between the values of the
-//! grid nothing is sought where the result rises at once to both sides.
+//! One quantity is changed at a time, with all others fixed: the gear ratio (with the gearbox's other data), the cycle time, the moving masses, the
+//! process loads. For a refused drive only practical values are tried ([`Lever::choices`]). For a drive that fits, many more are tried, because the
+//! range shows its margin.
+//!
+//! The range in which every rule is satisfied is searched on a grid, outwards from the current value, and its ends by bisection to 1e-10. The duty at
+//! every value is exact ([`Altered`]). A range narrower than the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the
+//! value at which the worst rule uses least.
+//!
+//! Cost: up to some hundred judgements of one drive for each quantity. Where instants were added only to resolve peaks, most judgements omit them: a
+//! rule that is violated without them is violated ([`Altered::outline`]). Between two values of the grid there is no search if the result is worse on
+//! both sides.
 
 use jred::Error;
 use serde::Serialize;
@@ -27,13 +30,13 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
 use jred_machine::units::Vocabulary;
 
-/// The quantity that is changed.
+/// The quantity to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lever {
     /// Ratio of the gearbox.
     GearRatio,
-    /// Ratio of a gearbox without losses, inertia and limits, for a motor that has none.
+    /// Ratio of a gearbox without losses, inertia and limits, for a motor without a gearbox.
     IdealGearbox,
     /// Cycle time, as a factor.
     CycleTime,
@@ -52,7 +55,7 @@ impl Lever {
         Self::ProcessLoad,
     ];
 
-    /// In words.
+    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::GearRatio => "gear ratio",
@@ -63,8 +66,8 @@ impl Lever {
         }
     }
 
-    /// The values that somebody would choose to make a refused drive suitable, from `now`: a third to three times the gear ratio, a
-    /// gearbox of 1 to 100, half to twice the cycle time, masses and process loads down to a half.
+    /// Practical values that could make a refused drive suitable, from `now`: a third to three times the gear ratio, a gearbox of 1 to 100, half to
+    /// twice the cycle time, masses and process loads down to a half.
     pub const fn choices(self, now: f64) -> [f64; 2] {
         match self {
             Self::GearRatio => [now / 3.0, now * 3.0],
@@ -74,7 +77,7 @@ impl Lever {
         }
     }
 
-    /// The values that are tried, rising.
+    /// The values of the grid, rising.
     pub(super) fn grid(self) -> Vec<f64> {
         let log = |from: f64, to: f64, steps: u32| {
             (0..=steps).map(move |k| from * (to / from).powf(f64::from(k) / f64::from(steps)))
@@ -95,7 +98,7 @@ impl Lever {
 pub struct Edge {
     /// The value.
     pub value: f64,
-    /// The rule that is at its limit there; `None`: beyond, nothing was tried.
+    /// The rule at its limit there; `None`: the end of the tried values.
     pub rule: Option<Rule>,
 }
 
@@ -104,10 +107,9 @@ pub struct Edge {
 pub struct Remedy {
     /// The quantity that is changed.
     pub lever: Lever,
-    /// Its value as it is: the ratio, or 1.
+    /// Its current value: the ratio, or 1.
     pub now: f64,
-    /// Range in which every rule is satisfied: the one that contains the current value, or the closest one. `None`: no value
-    /// that somebody would choose helps.
+    /// Range in which every rule is satisfied: the one that contains the current value, or the closest one; `None` if no practical value helps.
     pub range: Option<[Edge; 2]>,
     /// If no value helps: the best value tried, and the rule violated there.
     pub best: Option<Edge>,
@@ -120,11 +122,11 @@ pub struct Remedy {
 pub struct Miss {
     /// The rule.
     pub rule: Rule,
-    /// The share of its limit that is used; `None`: the limit is zero there, or the rule only asks yes or no.
+    /// The share of its limit that is used; `None` if the limit is zero there, or for a yes-or-no rule.
     pub used: Option<f64>,
     /// The limit as a share of the rating.
     pub limit: f64,
-    /// The limit that the drive would satisfy; `None`: no limit would be sufficient, or the rule only asks yes or no.
+    /// The limit that the drive would satisfy; `None` if no limit would be sufficient, or for a yes-or-no rule.
     pub needed: Option<f64>,
 }
 
@@ -133,7 +135,7 @@ pub struct Miss {
 pub struct Remedies {
     /// The drive.
     pub drive: String,
-    /// What its figures are called and shown in.
+    /// Names and units of its figures.
     #[serde(skip)]
     pub words: &'static Vocabulary,
     /// Whether it already satisfies every rule; the ranges then show how far each quantity may change.
@@ -144,7 +146,7 @@ pub struct Remedies {
     pub remedies: Vec<Remedy>,
 }
 
-/// Judges a drive by all rules, or by some.
+/// Judges a drive by all rules, or by some of them.
 type Rules = fn(&Context, &RuleSet) -> State;
 
 impl Remedies {
@@ -224,7 +226,7 @@ impl Remedies {
     /// The `count` closest refused drives of a selection, each with its changes.
     ///
     /// # Errors
-    /// Those of the machine.
+    /// The mechanism cannot be placed somewhere.
     pub fn of_nearest(
         selection: &Selection,
         altered: &Altered,
@@ -251,8 +253,8 @@ impl Lever {
     }
 }
 
-/// The rules that a drive violates, the most violated first. As in the ranking, rules that follow time are not evaluated if
-/// another rule is violated.
+/// The rules that a drive violates, the most violated first. As in the ranking, rules that follow time are only evaluated if no other rule is
+/// violated.
 fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let (findings, _) = context.ranked(rules);
     let broken = findings
@@ -261,7 +263,7 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let mut misses: Vec<Miss> = broken
         .filter_map(|(rule, finding)| {
             let limit = rules.limit(rule).fail?;
-            // Another limit would make no part fit for a supply that it is not made for.
+            // Another limit does not make a part fit for a supply that it is not made for.
             let share = |x: f64| Some(x).filter(|x| x.is_finite() && !rule.is_yes_or_no());
             Some(Miss {
                 rule,

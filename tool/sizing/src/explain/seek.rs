@@ -12,17 +12,17 @@ use jred_machine::number::numerics::golden_section;
 /// Steps of the search by the golden section.
 const SECTIONS: u32 = 40;
 
-/// What violating a limit of zero adds to a score.
+/// Score of violating a limit of zero.
 const BEYOND: f64 = 1e6;
 
 /// Result of a drive at one value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct State {
-    /// The rule violated by most.
+    /// The most violated rule.
     rule: Option<Rule>,
-    /// The share of its limit that it uses; without a violated rule the largest share of all.
+    /// Its share of the limit; without a violated rule the largest share of all.
     used: f64,
-    /// A rule is violated whose limit is zero.
+    /// Whether a rule with a limit of zero is violated.
     beyond: bool,
 }
 
@@ -38,7 +38,7 @@ impl State {
         Self::worst(&findings, rules)
     }
 
-    /// The rules that need no time course, alone.
+    /// Evaluates only the rules that need no time course.
     pub(super) fn direct(context: &Context, rules: &RuleSet) -> Self {
         let mut findings = Findings::default();
         context.measure_directly(rules, &mut findings);
@@ -78,7 +78,7 @@ impl State {
         self.used + if self.beyond { BEYOND } else { 0.0 }
     }
 
-    /// No score is less of which this is the result over some of the instants: over all of them any limit may be zero.
+    /// A lower bound of the score over all instants, if this is the result over some of them: any limit may become zero over all of them.
     const fn bound(&self) -> f64 {
         if self.beyond {
             BEYOND
@@ -92,7 +92,7 @@ impl State {
 pub(super) struct Judge<S, O> {
     /// The result at a value.
     pub(super) state: S,
-    /// Where it costs less, a result that is no worse: of the rules that need no time course, over fewer instants.
+    /// A cheaper result that is no worse: only rules without a time course, over fewer instants.
     pub(super) at_best: O,
 }
 
@@ -127,10 +127,10 @@ impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Judge<S, O> {
     }
 }
 
-/// Share of the way to the next value of the grid at which a result is compared with that of a value.
+/// Share of the distance to the next grid value at which a result is compared with that of the grid value.
 const BESIDE: f64 = 1e-4;
 
-/// The values of a grid with their results, as far as they are known.
+/// The values of a grid with the results computed so far.
 struct Tried<'j, S, O> {
     judge: &'j Judge<S, O>,
     grid: &'j [f64],
@@ -157,7 +157,7 @@ impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Tried<'_, S, O> {
         self.at_best(k).holds() && self.state(k).holds()
     }
 
-    /// The value at which the worst rule uses least; of equal ones the first in this order.
+    /// The value at which the worst rule uses least; of equal values the first in this order.
     fn least(&mut self, order: &[usize]) -> Option<(usize, State)> {
         let mut promising: Vec<(f64, usize)> = (order.iter().enumerate())
             .map(|(place, &k)| (self.at_best(k).bound(), place))
@@ -230,7 +230,7 @@ impl Remedy {
             let high = edge(above, above.map_or(0, |k| k - 1), grid.len() - 1);
             return remedy(Some([low, high]), None);
         }
-        // Of equal ones the first, which is the nearest.
+        // Of equal values the first, which is the nearest.
         let Some((least, first)) = tried.least(&outwards) else {
             return remedy(None, None);
         };
@@ -238,7 +238,7 @@ impl Remedy {
             grid[least.saturating_sub(1)],
             grid[(least + 1).min(grid.len() - 1)],
         ];
-        // Where it rises at once to both sides, there is nothing to seek between the values of the grid.
+        // If the result is worse on both sides, there is no search between the values of the grid.
         let falls = |end: &f64| {
             let beside = grid[least] + BESIDE * (end - grid[least]);
             judge.state(beside).score() < first.score()

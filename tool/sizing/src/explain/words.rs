@@ -1,12 +1,11 @@
-//! Remedies in words.
+//! Messages about remedies.
 
 use super::remedy::{Edge, Lever, Miss, Remedy};
 use jred_machine::number::rounding::{short, told_apart};
 use jred_machine::units::Vocabulary;
 
 impl Remedy {
-    /// The closest value at which every rule is satisfied, and the rule at its limit there; `None` if no value helps or the
-    /// current one is suitable.
+    /// The closest value at which every rule is satisfied, and the rule at its limit there; `None` if no value helps or the current one is suitable.
     pub fn change(&self) -> Option<Edge> {
         let [low, high] = self.range?;
         if self.now < low.value {
@@ -18,7 +17,7 @@ impl Remedy {
         }
     }
 
-    /// In words; `duration` is the cycle time as it is (s).
+    /// The message; `duration` is the current cycle time (s).
     pub fn sentence(&self, duration: f64, words: &Vocabulary) -> String {
         let shown = |value: f64| match self.lever {
             Lever::GearRatio | Lever::IdealGearbox => short(value),
@@ -34,7 +33,7 @@ impl Remedy {
         let (name, now) = (self.lever.name(), shown(self.now));
         if let Some([low, high]) = &self.range {
             if self.change().is_some() {
-                // Of a drive that is refused nothing is known beyond the values that were tried.
+                // For a refused drive nothing is known beyond the tried values.
                 return format!("{name} {now}: suitable at {} to {}", at(low), at(high));
             }
             let range = match (low.rule, high.rule) {
@@ -78,7 +77,7 @@ impl Miss {
     }
 }
 
-/// A share that is used; beyond ten times the limit its digits say nothing, as in [`Check::used`](crate::judge::check::Check::used).
+/// A used share; beyond ten times the limit its digits mean nothing, as in [`Check::used`](crate::judge::check::Check::used).
 fn percent(used: f64) -> String {
     if used > 1.0 && used < 1.000_5 {
         "a little more than 100 %".to_owned()

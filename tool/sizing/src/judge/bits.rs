@@ -1,8 +1,8 @@
-//! Some of the rules, a bit for each.
+//! A set of rules, one bit each.
 
 use jred_machine::model::rule::Rule;
 
-/// Some of the rules.
+/// A set of rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RuleBits(u32);
 
@@ -17,12 +17,12 @@ impl RuleBits {
         self.0 |= 1 << rule as u32;
     }
 
-    /// Whether a rule is one of them.
+    /// Whether it contains a rule.
     pub const fn has(self, rule: Rule) -> bool {
         self.0 & 1 << rule as u32 != 0
     }
 
-    /// Whether there is none.
+    /// Whether it contains no rule.
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }

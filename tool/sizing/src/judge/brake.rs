@@ -1,4 +1,4 @@
-//! The holding brake: what it holds, and what it takes to stop the machine when the supply fails.
+//! The holding brake: its holding torque, and the stop of the machine when the supply fails.
 
 use std::fmt::Write as _;
 
@@ -26,7 +26,7 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     }
 }
 
-/// The worst stop by the brake alone; `None`: its closing time is not given.
+/// The worst stop by the brake alone; `None` if its closing time is not given.
 fn stop(context: &Context, brake: &Brake) -> Option<Stopped> {
     let closing = Closing::new(
         [
@@ -101,7 +101,7 @@ fn of_work(context: &Context, finding: Finding, words: &Vocabulary) -> Words {
     }
 }
 
-/// How far the machine runs on when the supply fails.
+/// Distance that the machine continues to run when the supply fails.
 fn run_on(context: &Context, stop: &Stopped) -> String {
     let mechanics = context.cycle.mechanics();
     let (slides, slope, of) = match (mechanics.tool_slope, &context.site.tool) {

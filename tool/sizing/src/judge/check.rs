@@ -16,20 +16,20 @@ pub struct Check {
     pub id: Rule,
     /// The value, in `unit`; `None` if unknown.
     pub value: Option<f64>,
-    /// Its limit, in `unit`; `None` if the catalogue lacks data for it.
+    /// Its limit, in `unit`; `None` without data in the catalogue.
     pub limit: Option<f64>,
     /// Unit of figure and limit.
     pub unit: &'static str,
-    /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
+    /// The used share of the limit; zero without a limit. JSON has it as the margin.
     #[serde(skip)]
     pub used: f64,
-    /// Margin as a share of the limit; `None` if there is no limit, or if the rule only asks yes or no.
+    /// Margin as a share of the limit; `None` without a limit, or for a yes-or-no rule.
     pub margin: Option<f64>,
     /// Verdict.
     pub verdict: Verdict,
-    /// How the limit is computed, or what is missing.
+    /// How the limit is computed, or the missing data.
     pub note: String,
-    /// Where the limit comes from.
+    /// Source of the limit.
     pub source: String,
 }
 
@@ -102,12 +102,12 @@ impl Check {
         }
     }
 
-    /// The figure as a share of its limit; zero if there is no limit, infinite where the limit is zero.
+    /// The figure as a share of its limit; zero without a limit, infinite for a limit of zero.
     pub const fn use_of_limit(&self) -> f64 {
         self.used
     }
 
-    /// Margin as a share of the limit; `None` if there is no limit.
+    /// Margin as a share of the limit; `None` without a limit.
     pub const fn margin(&self) -> Option<f64> {
         self.margin
     }
@@ -116,7 +116,7 @@ impl Check {
         format!("{figure} {}", self.unit).trim_end().to_owned()
     }
 
-    /// Figure and limit with four digits; where the one exceeds the other by less, with as many as show it.
+    /// Figure and limit with four digits; with more digits where those would not show that the limit is exceeded.
     fn figures(&self) -> Option<[String; 2]> {
         let pair = [self.value?, self.limit?];
         Some(if self.verdict == Verdict::Fail {
@@ -147,7 +147,7 @@ impl Check {
         text.map_or("–".to_owned(), |text| self.with_unit(&text))
     }
 
-    /// Its limit with its unit; `None`: there is none.
+    /// Its limit with its unit; `None` without a limit.
     pub fn bound(&self) -> Option<String> {
         let text = match self.figures() {
             Some([_, limit]) => limit,
@@ -156,7 +156,7 @@ impl Check {
         Some(self.with_unit(&text))
     }
 
-    /// Figure, limit and what the limit is, as one sentence.
+    /// Figure, limit and the limit's description, as one sentence.
     pub fn sentence(&self) -> String {
         let value = self.figure();
         match self.bound() {

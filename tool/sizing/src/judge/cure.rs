@@ -1,8 +1,8 @@
-//! Which data a rule needs that is not checked, and where they belong.
+//! The data missing for a rule that is not checked, and where to add them.
 
 use jred_machine::model::rule::Rule;
 
-/// Keys that let a rule be checked: columns of the catalogue (docs/catalogue.md), or keys of the machine file.
+/// Keys with which a rule can be checked: columns of the catalogue (docs/catalogue.md), or keys of the machine file.
 pub const fn cure(rule: Rule) -> &'static str {
     match rule {
         Rule::RmsTorque => "the S1 rating of the motor in the catalogue",

@@ -11,7 +11,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::number::rounding::short;
 
-/// Currents; returns the largest (A), if the rules need it; NaN if the current of a torque is unknown.
+/// Measures currents; returns the largest (A) if the rules need it; NaN if the current of a torque is unknown.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f64> {
     let motor_peak = context.drive.motor.winding.peak_current;
     let Some(amplifier) = context.drive.amplifier else {
@@ -37,8 +37,7 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f
     Some(peak)
 }
 
-/// Largest current (A); NaN if the current of a torque is unknown. It is that of the largest torque,
-/// unless the field is weakened.
+/// Largest current (A); NaN if the current of a torque is unknown. It occurs at the largest torque, unless the field is weakened.
 fn peak_current(context: &Context) -> f64 {
     let Context {
         cycle,
@@ -67,7 +66,7 @@ fn peak_current(context: &Context) -> f64 {
     })
 }
 
-/// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].
+/// Overload, bus and brake resistor; [`measure`] provides the largest current (A).
 pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
     let Fed { data, .. } = fed(context);
@@ -86,14 +85,14 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         }
         return;
     }
-    // The course of the bus is a pass over the cycle: only where all data are there.
+    // The course of the bus takes a pass over the cycle, so it needs all data.
     let known = match missing(&data) {
         None => figures(context, &data),
         Some(_) => None,
     };
     let Some(figures) = known else {
         findings.set(Rule::BusVoltage, Finding::UNKNOWN);
-        // What a resistor has to bear follows from the bus: without its figures none of its rules is checked.
+        // The load of a resistor follows from the bus: without data of the bus, its rules are not checked.
         if data.resistor.is_some() {
             for rule in [Rule::ResistorPower, Rule::ResistorPeak, Rule::ResistorPulse] {
                 findings.set(rule, Finding::UNKNOWN);
@@ -156,7 +155,7 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     findings.set(Rule::Overload, Finding::against(largest, allowed));
 }
 
-/// That the site reduces the currents of the amplifier.
+/// Note that the site reduces the amplifier's currents.
 fn reduced(context: &Context) -> String {
     let derated = (context.drive.amplifier).map(|a| a.derated(&context.site.surroundings));
     match derated.map(|derated| derated.factor) {
@@ -167,16 +166,16 @@ fn reduced(context: &Context) -> String {
     }
 }
 
-/// The bus of a drive with its brake resistor: that of the machine file, or one chosen from the catalogue.
+/// The bus of a drive with its brake resistor, from the machine file or chosen from the catalogue.
 struct Fed<'a> {
     data: BusData,
     chosen: Option<&'a Resistor>,
-    /// What a resistor must do, where one is needed and the file gives none.
+    /// Requirements for a resistor, if one is needed and the file gives no resistor.
     need: Option<Need>,
 }
 
-/// The bus of a drive. If it rises too far without a brake resistor, or nothing is known of its capacitance, the smallest resistor of
-/// the catalogue that fits is connected to it.
+/// The bus of a drive. If it rises too far without a brake resistor, or its capacitance is unknown, the smallest suitable resistor of the catalogue
+/// is connected to it.
 fn fed<'a>(context: &Context<'a>) -> Fed<'a> {
     let site = context.site;
     let drive = &context.drive;
@@ -204,7 +203,7 @@ fn fed<'a>(context: &Context<'a>) -> Fed<'a> {
     fed
 }
 
-/// The brake resistor that is chosen for a drive.
+/// The brake resistor chosen for a drive.
 pub(super) fn chosen_resistor<'a>(context: &Context<'a>) -> Option<&'a Resistor> {
     fed(context).chosen
 }
@@ -343,7 +342,7 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     words
 }
 
-/// Voltage of the bus over a cycle once it repeats, \[time (s), voltage (V)\]; empty if data are missing.
+/// Voltage of the bus over a cycle in the periodic state, \[time (s), voltage (V)\]; empty if data are missing.
 pub(super) fn trace(context: &Context) -> Vec<[f64; 2]> {
     let bus = fed(context).data.bus();
     bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&power(context)))

@@ -12,7 +12,7 @@ use jred_machine::units::RPM;
 /// Seconds of an hour.
 const HOUR: f64 = 3600.0;
 
-/// The rules that depend on gearbox and cycle alone, whatever the motor.
+/// The rules that depend only on gearbox and cycle, not on the motor.
 pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut impl Record) {
     let Some(gearbox) = context.drive.gearbox else {
         return;
@@ -57,14 +57,14 @@ pub(super) fn measure_stop(context: &Context, findings: &mut impl Record) {
     findings.set(Rule::GearboxEmergency, stop.unwrap_or(Finding::UNKNOWN));
 }
 
-/// Moves of the drive link in an hour: each loads the teeth with an acceleration torque.
+/// Moves of the drive link per hour: each loads the teeth with an acceleration torque.
 fn cycles_per_hour(context: &Context) -> f64 {
     context.cycle.mechanics().move_rate * HOUR
 }
 
-/// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor
-/// brakes with the larger of its peak torque at standstill and its brake torque. `None` if that torque is unknown, or
-/// if the gearbox is self-locking: then its stiffness stops the machine.
+/// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there. The motor brakes with the larger of its
+/// peak torque at standstill and its brake torque. `None` if that torque is unknown, or if the gearbox is self-locking: then its stiffness stops the
+/// machine.
 fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
     let motor = context.drive.motor;
     let mechanics = context.cycle.mechanics();

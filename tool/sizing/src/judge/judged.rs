@@ -1,4 +1,4 @@
-//! A drive checked against every rule, with words.
+//! A drive checked against every rule, with messages.
 
 use super::{Context, motor};
 use crate::catalogue::{Drive, Resistor};
@@ -12,20 +12,20 @@ use jred_machine::model::rules::{RuleSet, Verdict};
 pub struct Judged<'c> {
     /// The drive.
     pub drive: Drive<'c>,
-    /// The brake resistor that was chosen for it from the catalogue.
+    /// The brake resistor chosen for it from the catalogue.
     pub resistor: Option<&'c Resistor>,
     /// Its duty.
     pub duty: MotorDuty,
     /// Every rule.
     pub checks: Vec<Check>,
-    /// The least torque of a holding brake (N·m), if one is needed and the catalogue states none of this motor.
+    /// The least torque of a holding brake (N·m), if one is needed and the catalogue gives no brake of this motor.
     pub least_brake: Option<f64>,
     /// Assumptions about motor and gearbox, and second-hand data.
     pub assumptions: Vec<String>,
 }
 
 impl<'c> Judged<'c> {
-    /// Checks a drive against every rule, with words for reports.
+    /// Checks a drive against every rule, with messages for reports.
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {
             drive: context.drive,
@@ -71,7 +71,7 @@ impl<'c> Judged<'c> {
         check.map_or(String::new(), Check::used)
     }
 
-    /// Price of its parts with the chosen brake resistor, in the currency of the catalogue; `None`: one of them has no data.
+    /// Price of its parts with the chosen brake resistor, in the currency of the catalogue; `None` if one has no data.
     pub fn price(&self) -> Option<f64> {
         price(&self.drive, self.resistor)
     }
@@ -82,7 +82,7 @@ impl<'c> Judged<'c> {
     }
 }
 
-/// Price of motor, gearbox, amplifier and the chosen brake resistor; `None`: one of them has no data.
+/// Price of motor, gearbox, amplifier and the chosen brake resistor; `None` if one has no data.
 pub(crate) fn price(drive: &Drive, resistor: Option<&Resistor>) -> Option<f64> {
     Some(drive.price()? + resistor.map_or(Some(0.0), |resistor| resistor.price)?)
 }

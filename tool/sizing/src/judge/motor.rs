@@ -14,12 +14,12 @@ use jred_machine::units::Vocabulary;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
-/// A rating that is known if it is finite.
+/// A rating, NaN if it is infinite (no data).
 fn known(rating: f64) -> f64 {
     if rating.is_finite() { rating } else { f64::NAN }
 }
 
-/// The largest speed; nothing but the ratio is needed of the drive.
+/// The largest speed; of the drive it needs only the ratio.
 pub(super) fn measure_speed(
     cycle: &Cycle,
     motor: &Prepared,
@@ -73,7 +73,7 @@ pub(super) fn measure_peak(context: &Context, findings: &mut impl Record) {
     );
 }
 
-/// A peak torque that is only known to use at least this share of the envelope.
+/// Records a peak torque that uses at least this share of the envelope, where only that is known.
 pub(super) fn set_peak_use(used: f64, findings: &mut impl Record) {
     findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
 }
@@ -90,17 +90,16 @@ pub(super) fn locks(context: &Context) -> bool {
         .is_some_and(|g| g.back_efficiency <= 0.0)
 }
 
-/// Thermal time constant of a winding (s) that the catalogue does not give: that of a small servo motor.
+/// Default thermal time constant of a winding (s): that of a small servo motor.
 const WINDING_TIME: f64 = 10.0;
 
-/// Time (s) beyond which a torque at rest counts as one without end: the winding then comes near its steady temperature.
+/// Time (s) beyond which a torque at rest counts as permanent: the winding then approaches its steady temperature.
 fn lasts(context: &Context) -> f64 {
     (context.drive.motor.thermal.winding_time).unwrap_or(WINDING_TIME)
 }
 
-/// Torque at rest that the motor may have to hold without end (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine
-/// would begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does.
-/// A self-locking gearbox needs no torque.
+/// Permanent holding torque of the motor (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine would begin to drive back, to
+/// τ/(i·η), where it would begin to move on. The larger end is used, as in the time course. A self-locking gearbox needs no torque.
 pub(super) fn holding(context: &Context) -> f64 {
     if locks(context) {
         return 0.0;
@@ -110,7 +109,7 @@ pub(super) fn holding(context: &Context) -> f64 {
     most / (context.ratio * efficiency)
 }
 
-/// Torque that the brake must hold (N·m): τ/i, without the help of friction, which is not to be relied on.
+/// Torque that the brake must hold (N·m): τ/i, without the help of friction, which is not reliable.
 pub(super) fn braked(context: &Context) -> f64 {
     if locks(context) {
         0.0
@@ -124,7 +123,7 @@ pub(super) fn falls(context: &Context) -> bool {
     context.cycle.mechanics().falls && !locks(context)
 }
 
-/// A warning for a motor without a brake, if the machine does not stay where it is without current.
+/// A warning for a motor without a brake, if the machine moves when the motor is without current.
 pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
     let words = context.vocabulary();
     least_brake(context, rules).map(|least| {
@@ -137,20 +136,19 @@ pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
     })
 }
 
-/// The least torque (N·m) of a holding brake for a motor of which the catalogue states none, if the machine does not stay where it is.
+/// The least torque (N·m) of a holding brake, if the machine moves without current and the catalogue gives no brake of this motor.
 pub(super) fn least_brake(context: &Context, rules: &RuleSet) -> Option<f64> {
     let share = rules.limit(Rule::BrakeTorque).fail.unwrap_or(1.0);
     let unheld = context.drive.motor.brake.is_none() && falls(context);
     unheld.then(|| braked(context) / share)
 }
 
-/// Torque of weight, springs and friction at the motor (N·m), the motor's and the gearbox's friction included at the largest
-/// speed.
+/// Torque of weight, springs and friction at the motor (N·m), including the motor's and the gearbox's friction at the largest speed.
 fn constant(context: &Context) -> f64 {
     let [resisting, driving] = context.cycle.mechanics().constant;
     let [_, forth, back, viscous, coulomb] = context.coefficients.0;
     let own = coulomb + viscous * context.cycle.peak_speed();
-    // Where the load drives, friction helps: no more of it is relied on than there is at any speed.
+    // Where the load drives, friction helps: only the friction present at any speed is counted.
     (resisting * forth + own).max(driving * back - coulomb)
 }
 

@@ -11,20 +11,20 @@ use jred_machine::model::rules::Verdict;
 pub struct Outcome {
     /// The worst verdict.
     pub verdict: Verdict,
-    /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
-    /// rule for the speed says by how much.
+    /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed), the rule for the speed gives the
+    /// excess.
     pub worst_use: f64,
-    /// The rule with this use of its limit; of several, the first in the order of reports.
+    /// The rule with this share; of several, the first in the order of reports.
     pub worst_rule: Option<Rule>,
     /// Number of rules with a warning.
     pub warnings: u8,
-    /// The rules that could not be checked: data missing.
+    /// The rules that could not be checked because data are missing.
     pub not_checked: RuleBits,
-    /// Whether nobody states what voltage the motor or the amplifier is made for.
+    /// Whether the voltage that the motor or the amplifier is made for is not given.
     pub voltage_unknown: bool,
-    /// Number of rules violated of which no share of the limit can be given: the limit is zero, or a part is not made for the supply.
+    /// Number of violated rules without a share of the limit: the limit is zero, or a part is not made for the supply.
     pub beyond_all_limits: u8,
-    /// The rules that are violated, as far as they were judged.
+    /// The violated rules, as far as they were judged.
     pub violated: RuleBits,
 }
 
@@ -96,11 +96,11 @@ impl Record for Tally<'_> {
             outcome.violated.add(rule);
         }
         let mut used = self.rules.use_of_limit(rule, finding);
-        // What a brake resistor mends is nearer than anything that another motor or gearbox must mend.
+        // A violation that a brake resistor cures ranks before one that needs another motor or gearbox.
         if fails && rule == Rule::BusVoltage {
             used = 1.0;
         }
-        // No change of machine or motion brings a part nearer to a supply that it is not made for.
+        // No change of machine or motion makes a part fit for a supply that it is not made for.
         let by_parts = rule.is_of_voltage() || rule == Rule::BrakeResistance;
         if used.is_infinite() || fails && by_parts {
             outcome.beyond_all_limits += 1;

@@ -1,26 +1,26 @@
 //! The overload integral I²t of a servo amplifier.
 //!
-//! An amplifier counts how much its squared current exceeds the rated one, never below nothing:
+//! An amplifier integrates the excess of its squared current over the rated one, never below zero:
 //!
 //! ```text
 //! q′ = I² − I_r²,  q ≥ 0;   q ≤ (I_p² − I_r²)·t_p
 //! ```
 //!
-//! with rated current I_r, and peak current I_p that may flow for t_p from cold. The current runs in a straight line between
-//! two instants; within one the integral is exact.
+//! with rated current I_r, and peak current I_p that may flow for t_p from cold. The current is linear between two instants, where the integral is
+//! exact.
 
 /// Current (A, signed) at a time (s).
 pub type Point = [f64; 2];
 
-/// The largest value (A²·s) of the integral over a cycle that repeats without end. Infinite: the RMS current is above the
-/// rated one, and the integral grows from cycle to cycle.
+/// The largest value (A²·s) of the integral over an endlessly repeated cycle. It is infinite if the RMS current exceeds the rated one, because the
+/// integral then grows from cycle to cycle.
 pub fn largest(points: &[Point], duration: f64, rated: f64) -> f64 {
     if points.iter().all(|[_, current]| current.abs() <= rated) {
         return 0.0;
     }
     let mut whole = 0.0;
     pieces(points, duration, rated, |part| whole += part);
-    // A cycle whose RMS current is the rated one to rounding neither fills nor empties the integral.
+    // A cycle whose RMS current equals the rated one to rounding neither fills nor empties the integral.
     let scale = rated * rated * duration;
     if whole > 1e-12 * scale {
         return f64::INFINITY;

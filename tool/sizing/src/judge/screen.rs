@@ -1,11 +1,10 @@
-//! Checking many drives against one cycle, each only as far as necessary.
+//! Checks many drives against one cycle, each only as far as necessary.
 //!
-//! Every drive needs a verdict, but only the few that rank first need the exact use of their limits. The rules that settle
-//! the verdict of a drive also bound its rank. The rules of a gearbox do not depend on the motor and are judged once for all
-//! drives that have it; whether the peak torque fits is mostly settled by [bounds](crate::cycle::Cycle::peak_against)
-//! without a search for where the peak is.
+//! Every drive needs a verdict, but only the few that rank first need the exact use of their limits. The rules that decide the verdict of a drive
+//! also bound its rank. The rules of a gearbox do not depend on the motor and are judged once for all drives with it. The peak torque is mostly
+//! decided by [bounds](crate::cycle::Cycle::peak_against), without a search for the peak.
 //!
-//! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
+//! The verdicts are those of [`Context::outcome`], and so is the order of the first drives (`tests/cycle/screen.rs`).
 
 use super::outcome::Tally;
 use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
@@ -22,15 +21,15 @@ pub(crate) struct Screen<'c> {
     cycle: &'c Cycle,
     site: &'c Site,
     rules: &'c RuleSet,
-    /// Brake resistors that one is chosen from.
+    /// Brake resistors to choose from.
     resistors: &'c [Resistor],
-    /// Outcome of the gearbox rules for each gearbox, and for none.
+    /// Outcome of the gearbox rules for each gearbox.
     alone: Vec<Outcome>,
     direct: Outcome,
 }
 
 impl<'c> Screen<'c> {
-    /// Judges each gearbox by itself. `motors`: the motors that they are to be joined to, with their limits.
+    /// Judges each gearbox by itself. `motors`: the motors for them, with their limits.
     pub(crate) fn new(
         cycle: &'c Cycle,
         site: &'c Site,
@@ -64,9 +63,8 @@ impl<'c> Screen<'c> {
         Self { resistors, ..self }
     }
 
-    /// Whether a drive fits, and its outcome as far as that took. The verdict is the drive's own; if it fits, so is whether a rule
-    /// gives a warning, and which could not be checked. No share of a limit is larger than in [`Context::outcome`], nor
-    /// are more limits of zero passed.
+    /// Whether a drive fits, with its outcome as far as that needed. The verdict is exact. If the drive fits, the warnings and the rules without data
+    /// are exact too. Shares of limits and the number of violated limits of zero are at most those of [`Context::outcome`].
     pub(crate) fn judge(&self, id: DriveId, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
         let alone = match id.gearbox() {
             Some(index) => self.alone[index],

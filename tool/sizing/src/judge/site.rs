@@ -1,7 +1,7 @@
-//! Whether motor and amplifier are made for the heat and the thin air of the site.
+//! Whether motor and amplifier are made for the ambient temperature and altitude of the site.
 //!
-//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`Derated`]) and the other rules judge
-//! them; these rules judge whether that range reaches.
+//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`Derated`]) and the other rules judge them. The rules here
+//! judge whether the site is within that range.
 
 use super::{Context, Record, Words};
 use crate::catalogue::{Derated, DeratingBasis};
@@ -10,7 +10,7 @@ use jred_machine::model::rules::Finding;
 use jred_machine::model::surroundings::{LOW, REFERENCE};
 use jred_machine::number::rounding::short;
 
-/// Nothing of cycle and gearbox is needed. A site that reduces no rating has nothing to judge.
+/// Measures the site, without cycle and gearbox. A site that reduces no rating needs no check.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let site = &context.site.surroundings;
     let motor = context.drive.motor.derated(site);
@@ -123,10 +123,10 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
     }
 }
 
-/// Where the general rule for motors ends (°C), if the winding does not bear less.
+/// End of the general rule for motors (°C), unless the winding limits it.
 const HOTTEST: f64 = 60.0;
 
-/// Where a factor for the temperature comes from.
+/// Source of a factor for the temperature.
 const fn heat(basis: DeratingBasis, practice: &'static str) -> &'static str {
     match basis {
         DeratingBasis::Maker => "temperature_derating of the catalogue",

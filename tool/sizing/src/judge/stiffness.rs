@@ -1,8 +1,8 @@
-//! Whether the machine is rigid enough to be sized as a rigid body (VDI 2149), and its play.
+//! Whether the machine is rigid enough to be sized as a rigid body (VDI 2149), and its backlash.
 //!
-//! The gearbox and the shafts are springs in series between two masses, the rotor and the machine. A motor that holds its
-//! position is a fixed end, and the machine swings with f_1 = √(c/J)/2π; with a free rotor it is higher, √(c/J + c/(i²·J_1))/2π.
-//! The first one is checked, since it is lower, at the largest J of the cycle, where it is lowest.
+//! The gearbox and the shafts are springs in series between two masses, the rotor and the machine. A motor that holds its position is a fixed end,
+//! and the machine oscillates with f_1 = √(c/J)/2π. With a free rotor the frequency is higher, √(c/J + c/(i²·J_1))/2π. The first, lower one is
+//! checked, at the largest J of the cycle, where it is lowest.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use jred_machine::number::rounding::short;
 use jred_machine::units::DEGREE;
 use jred_machine::units::Vocabulary;
 
-/// Both depend on gearbox, machine and cycle alone, whatever the motor.
+/// Measures both; they depend only on gearbox, machine and cycle, not on the motor.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let frequency = stiffness(context).map_or(Finding::UNKNOWN, |stiffness| {
         let fixed = frequency(stiffness, 1.0 / context.cycle.inertia().max);
@@ -29,8 +29,8 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     }
 }
 
-/// Stiffness between rotor and machine at the gearbox output (N·m/rad): gearbox and shafts in series; shafts that the machine
-/// file does not give are rigid. `None` where nothing is known, or a gearbox's is not.
+/// Stiffness between rotor and machine at the gearbox output (N·m/rad): gearbox and shafts in series. Shafts not given in the machine file are rigid.
+/// `None` without data, or if the gearbox has no data.
 fn stiffness(context: &Context) -> Option<f64> {
     let shafts = context.site.shaft_stiffness;
     match context.drive.gearbox {
@@ -42,7 +42,7 @@ fn stiffness(context: &Context) -> Option<f64> {
     }
 }
 
-/// Lowest natural frequencies (Hz) over the cycle: the motor holding its position, and its rotor free.
+/// Lowest natural frequencies (Hz) over the cycle: with the motor holding its position, and with its rotor free.
 fn frequencies(context: &Context) -> Option<[f64; 2]> {
     let stiffness = stiffness(context)?;
     let inertia = context.cycle.inertia().max;
@@ -53,13 +53,13 @@ fn frequencies(context: &Context) -> Option<[f64; 2]> {
     ])
 }
 
-/// f = √(c/J)/2π (Hz), of a stiffness (N·m/rad) and one over an inertia (kg·m²).
+/// f = √(c/J)/2π (Hz), from a stiffness (N·m/rad) and the inverse of an inertia (kg·m²).
 fn frequency(stiffness: f64, per_inertia: f64) -> f64 {
     (stiffness * per_inertia).sqrt() / TAU
 }
 
-/// Play at the tool (m or rad): that of the gearbox through the drive train, and the drive train's own, by the largest
-/// transfer function of the motion. `None` where the gearbox's is not known.
+/// Backlash at the tool (m or rad): of the gearbox through the drive train, and of the drive train, by the largest transfer function of the motion;
+/// `None` if the gearbox has no data.
 fn play(context: &Context) -> Option<f64> {
     let mechanics = context.cycle.mechanics();
     let gearbox = match context.drive.gearbox {

@@ -131,8 +131,8 @@ fn place(context: &Context, found: Heating) -> String {
     parts.join(", ")
 }
 
-/// Time (s) and rises of winding and housing (K) over a cycle that repeats without pause; `None` where the motor's data do not
-/// allow to follow them, or where the machine pauses.
+/// Time (s) and rises of winding and housing (K) over a cycle that repeats without pause; `None` if data of the motor are missing, or if the machine
+/// pauses.
 pub(super) fn course(context: &Context) -> Option<Vec<(f64, [f64; 2])>> {
     let load = load(context);
     let surroundings = &context.site.surroundings;

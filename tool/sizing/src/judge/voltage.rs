@@ -7,7 +7,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
 use jred_machine::number::rounding::short;
 
-/// Both rules; they need nothing of cycle and gearbox.
+/// Both rules; they do not need cycle and gearbox.
 pub(super) fn measure(limits: &Prepared, findings: &mut impl Record) {
     findings.set(Rule::MotorVoltage, limits.voltages.motor);
     if let Some(amplifier) = limits.voltages.amplifier {
@@ -54,7 +54,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
     }
 }
 
-/// What the largest voltage is.
+/// Description of the largest voltage.
 fn largest(part: &str, basis: Basis) -> String {
     match basis {
         Basis::Stated => format!("largest bus voltage of the {part}"),
@@ -75,7 +75,7 @@ fn largest(part: &str, basis: Basis) -> String {
     }
 }
 
-/// What the supply is.
+/// Description of the supply.
 fn supply(context: &Context, highest: f64) -> String {
     let site = context.site;
     let mains = |volts: f64| format!("{} V mains + 10 %, rectified", short(volts));

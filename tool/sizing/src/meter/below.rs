@@ -2,26 +2,26 @@
 
 use jred::duty::MAX_POINTS;
 
-/// Speeds, evenly spread from rest to the largest, at which points may lie; corners of the limit come on top, and speeds between
-/// them as long as the line between two is loose …
+/// Number of equally spaced speeds from rest to the largest at which points may lie. Corners of the limit are added, and midpoints while the bound
+/// between two speeds is too loose …
 const EVEN: u32 = 32;
 
-/// … by more than this share of the largest torque …
+/// … that is, by more than this share of the largest torque …
 const LOOSE: f64 = 2e-4;
 
-/// … and there are fewer than this many.
+/// … up to this number of speeds.
 const MOST_SPEEDS: usize = 192;
 
-/// Parts of the way between two such speeds that are bounded one by one.
+/// Parts of an interval between two such speeds that are bounded separately.
 const PARTS: u32 = 16;
 
 /// Number of steps below the limit that are tried as torques at each speed.
 const STEPS: usize = 4;
 
-/// A shortfall that no further point is spent on, as a share of the largest torque.
+/// Shortfall, as a share of the largest torque, that needs no further point.
 const ENOUGH: f64 = 1e-3;
 
-/// The least shortfall that is asked for: roundings.
+/// The least requested shortfall (rounding).
 const ROUNDING: f64 = 1e-7;
 
 /// Final reduction as a share: more than the rounding of a line in `f32`, 4 units in the last place.
@@ -30,44 +30,44 @@ const MARGIN: f64 = 1e-6;
 /// A curve of straight lines that never rises and never exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Below {
-    /// Speed (rad/s) and torque (N·m) of its points, as [`jred::duty::Curve::new`] takes them.
+    /// Speed (rad/s) and torque (N·m) of its points, for [`jred::duty::Curve::new`].
     pub points: Vec<[f32; 2]>,
-    /// By how much it lies below the limit at most, as a share of the limit's largest torque.
+    /// Largest distance below the limit, as a share of the limit's largest torque.
     pub shortfall: f64,
 }
 
 /// Bounds of the limit between two speeds.
 struct Interval {
-    /// The line that the limit does not fall below, at both ends.
+    /// End values of a line that is nowhere above the limit.
     ends: [f64; 2],
-    /// By how much the line lies below the limit at most (N·m).
+    /// Largest distance of the line below the limit (N·m).
     loose: f64,
 }
 
-/// Fewest points up to a place and step, and the place and step before.
+/// Fewest points up to a speed and step (as indices), and the speed and step before.
 type Reached = (usize, Option<(usize, usize)>);
 
 /// The limit at the speeds where points may lie.
 struct Tunnel {
     speeds: Vec<f32>,
     between: Vec<Interval>,
-    /// The most that a point may be.
+    /// Upper bound of a point.
     most: Vec<f64>,
 }
 
-/// The curve of at most [`MAX_POINTS`] points below a limit that ends at the speed `end` (rad/s) and bends or jumps at
-/// `corners` only. `floor` is a chord that the limit does not fall below between two speeds, the limit itself between equal
-/// ones. Where the limit rises with the speed the curve stays level. `None`: no limit is known at any speed.
+/// The curve of at most [`MAX_POINTS`] points below a limit that ends at the speed `end` (rad/s) and bends or jumps only at `corners`. `floor` gives
+/// a chord that is not above the limit between two speeds, and the limit itself for equal ones. Where the limit rises with the speed the curve stays
+/// level. `None` without data for the limit at any speed.
 ///
-/// It has no more points than a shortfall of 0.1 % needs, and with so many points the least shortfall that is found with points
-/// at the speeds looked at (at most 192 and the corners), at the limit or in four steps below it.
+/// It has at most as many points as a shortfall of 0.1 % needs. With that number it has the least shortfall for points at the evaluated speeds (at
+/// most 192 and the corners), at the limit or in four steps below it.
 pub fn below(end: f64, corners: &[f64], floor: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Below> {
     let tunnel = Tunnel::new(speeds(end, corners), &floor)?;
     let largest = tunnel.most.first().copied().unwrap_or(0.0);
     let fewest = tunnel.path(ENOUGH).map(|path| path.len());
     let count = fewest.map_or(MAX_POINTS, |n| n.min(MAX_POINTS));
     let fits = |shortfall: f64| tunnel.path(shortfall).filter(|path| path.len() <= count);
-    // A shortfall of 1 allows a level curve, and so one point.
+    // A shortfall of 1 allows a level curve, which needs one point.
     let (mut low, mut high) = (ROUNDING, 1.0);
     let mut path = fits(low);
     if path.is_none() {
@@ -91,7 +91,7 @@ pub fn below(end: f64, corners: &[f64], floor: impl Fn([f64; 2]) -> [f64; 2]) ->
     })
 }
 
-/// The curve through points, as [`jred::duty::Curve::at`] has it, in double precision.
+/// The curve through points, as [`jred::duty::Curve::at`] interpolates it, in double precision.
 pub(super) fn at(points: &[[f32; 2]], speed: f64) -> f64 {
     let points = points.iter().map(|point| point.map(f64::from));
     let mut before: Option<[f64; 2]> = None;
@@ -107,7 +107,7 @@ pub(super) fn at(points: &[[f32; 2]], speed: f64) -> f64 {
     0.0
 }
 
-/// The speeds at which points may lie: from rest to the last one in single precision that is not beyond the end.
+/// The speeds at which points may lie: from rest to the largest single-precision number not beyond the end.
 fn speeds(end: f64, corners: &[f64]) -> Vec<f32> {
     let last = rounded_down(end);
     let mut speeds: Vec<f32> = (0..EVEN).map(|k| last * (k as f32 / EVEN as f32)).collect();
@@ -123,7 +123,7 @@ fn speeds(end: f64, corners: &[f64]) -> Vec<f32> {
     speeds
 }
 
-/// The largest number of single precision that is not above `x`.
+/// The largest single-precision number not above `x`.
 pub(super) fn rounded_down(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) > x {
@@ -148,7 +148,7 @@ impl Tunnel {
         if largest < 0.0 {
             return None;
         }
-        // Never rising; what is not known at low speeds is at least what is known further up.
+        // Never rising; an unknown limit at low speeds is at least the known one at higher speeds.
         let mut most = largest;
         for interval in &mut between {
             for end in &mut interval.ends {
@@ -165,18 +165,18 @@ impl Tunnel {
         })
     }
 
-    /// The least that the curve may be at a speed.
+    /// Lower bound of the curve at a speed.
     fn least(&self, place: usize, shortfall: f64) -> f64 {
         let (here, largest) = (self.most[place], self.most[0]);
         (here - 0.5 * shortfall * (here + largest)).max(0.0)
     }
 
-    /// By how much a curve lies below the limit at most (N·m), between the speeds where points may lie as well.
+    /// Largest distance of a curve below the limit (N·m), also between the speeds where points may lie.
     fn missed(&self, points: &[[f32; 2]], floor: &impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
         let mut most = self.most.first().copied().unwrap_or(0.0);
         let mut missed = 0.0f64;
         let mut look = |speed: f64| {
-            // A rise of the limit that the curve does not follow is no shortfall.
+            // A rise of the limit that the curve does not follow is not a shortfall.
             most = most.min(floor([speed; 2])[0]);
             missed = missed.max(most - at(points, speed));
         };
@@ -190,7 +190,7 @@ impl Tunnel {
         missed
     }
 
-    /// The curve of the fewest points that keeps within a shortfall; \[speed, torque\]. `None`: more than can be had.
+    /// The curve of the fewest points within a shortfall, as \[speed, torque\]; `None` if that is impossible.
     fn path(&self, shortfall: f64) -> Option<Vec<[f64; 2]>> {
         let count = self.speeds.len();
         let torque = |place: usize, step: usize| {
@@ -233,8 +233,7 @@ impl Tunnel {
         Some(path).filter(|path| !path.is_empty())
     }
 
-    /// Every place that a line from here can reach: with the least and the largest slope that keep it between the bounds on
-    /// the way, and the distance.
+    /// Every place that a line from here can reach: with the least and the largest slope that keep it within the bounds, and the distance.
     fn reach(
         &self,
         from: usize,
@@ -262,7 +261,7 @@ impl Tunnel {
     }
 }
 
-/// Speeds in the middle between those where the line between is loose, the loosest first. `None`: none is, or there are enough.
+/// Midpoints of the intervals whose bound is loose, the loosest first; `None` if there are no loose ones, or already enough speeds.
 fn closer(speeds: &[f32], between: &[Interval]) -> Option<Vec<f32>> {
     let ends = between.iter().flat_map(|interval| interval.ends);
     let largest = ends.filter(|end| end.is_finite()).fold(0.0, f64::max);
@@ -292,7 +291,7 @@ impl Interval {
         let next = from.next_up() >= to;
         let [from, to] = [from, to].map(f64::from);
         if next {
-            // No speed of single precision lies between.
+            // No single-precision speed lies between.
             return Self {
                 ends: [from, to].map(|speed| floor([speed; 2])[0]),
                 loose: 0.0,

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::{Bound, Entry, Field, MeterLimits, below};
 
 impl MeterLimits<'_> {
-    /// The source. `machine`: where the drive was sized for, in words.
+    /// The source. `machine`: description of the machine that the drive was sized for.
     pub fn source(&self, machine: &str) -> String {
         let mut text = self.provenance(machine);
         for entry in &self.entries {
@@ -71,7 +71,7 @@ impl MeterLimits<'_> {
         text
     }
 
-    /// A limit's constant, or a comment that says why there is none.
+    /// A limit's constant, or a comment with the reason why there is no limit.
     fn constant(&self, entry: &Entry, text: &mut String) {
         let (name, words) = (entry.field.word().to_uppercase(), &entry.words);
         let unit = self.unit(entry.field);
@@ -103,7 +103,7 @@ impl MeterLimits<'_> {
         }
     }
 
-    /// Lengths of time that a window may be chosen by.
+    /// Times that help to choose a window.
     fn times(&self, text: &mut String) {
         let thermal = &self.drive().motor.thermal;
         let times = [
@@ -131,7 +131,7 @@ impl MeterLimits<'_> {
         }
     }
 
-    /// The figures of the cycle, as the meter would have them after one.
+    /// The figures of the cycle, as the meter would have them after one cycle.
     fn sized(&self, text: &mut String) {
         let context = self.context;
         let (cycle, c, ratio) = (context.cycle, &context.coefficients, context.ratio);
@@ -170,7 +170,7 @@ impl MeterLimits<'_> {
         );
     }
 
-    /// The cycle's largest torque as a share of the curve that is written.
+    /// The cycle's largest torque as a share of the exported curve.
     fn peak_share(&self) -> Option<f64> {
         let peak = self
             .entries
@@ -207,7 +207,7 @@ impl MeterLimits<'_> {
     }
 }
 
-/// Points as rustfmt writes them.
+/// Points, formatted like rustfmt.
 fn array(points: &[[f32; 2]]) -> String {
     const ARRAY_WIDTH: usize = 60;
     let point = |[speed, torque]: &[f32; 2]| format!("[{}, {}]", literal(*speed), literal(*torque));
@@ -220,7 +220,7 @@ fn array(points: &[[f32; 2]]) -> String {
     }
 }
 
-/// A number of single precision as Rust writes it: every digit that it needs, in groups of three.
+/// A single-precision number as Rust writes it: all significant digits, in groups of three.
 fn literal(x: f32) -> String {
     let text = format!("{x:?}");
     let (number, exponent) = match text.split_once('e') {

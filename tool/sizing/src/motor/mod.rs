@@ -1,4 +1,4 @@
-//! What a motor can do at a supply, from the figures of its data sheet.
+//! The limits of a motor at a supply, from its data sheet.
 
 pub mod envelope;
 pub(crate) mod supply;

@@ -1,7 +1,7 @@
-//! The voltage of the supply against the largest that motor and amplifier are made for.
+//! The voltage of the supply against the largest voltage that motor and amplifier are made for.
 //!
-//! Figure: the highest voltage that the supply gives the DC bus, rectified mains at the upper end of their tolerance. Rating: what
-//! the data sheet is for ([`Motor::made_for`]). What braking adds is judged by the rule for the bus voltage.
+//! Figure: the highest voltage of the DC bus from the supply, rectified mains at their upper tolerance. Rating: the voltage of the data sheet
+//! ([`Motor::made_for`]). The rule for the bus voltage judges the additional rise by braking.
 
 use crate::catalogue::{Amplifier, Motor};
 use jred_machine::model::rules::Finding;
@@ -10,9 +10,9 @@ use jred_machine::model::site::Site;
 /// The findings of a motor on an amplifier at a supply; neither depends on the rest of the drive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Voltages {
-    /// The motor at the machine file's supply, else at that of the amplifier.
+    /// The motor at the machine file's supply, else at the amplifier's.
     pub(crate) motor: Finding,
-    /// The amplifier at the machine file's supply; `None`: no amplifier.
+    /// The amplifier at the machine file's supply; `None` without an amplifier.
     pub(crate) amplifier: Option<Finding>,
 }
 

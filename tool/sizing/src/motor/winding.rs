@@ -1,8 +1,8 @@
 //! The winding of a motor: current of a torque, copper loss, and the voltage for current and speed.
 //!
-//! Two kinds of data sheet are in use, told apart by [`Commutation`]. For a three-phase motor on sine currents the catalogue
-//! holds RMS currents and line-to-line figures, and per phase of the star R/2, L/2 and k_e/√3 hold. With i_q the current in
-//! phase with the voltage of the magnets (it makes the torque) and i_d across it, at the electrical frequency p·n:
+//! Two kinds of data sheet are in use, distinguished by [`Commutation`]. For a three-phase motor with sine currents the catalogue has RMS currents
+//! and line-to-line values; per phase of the star R/2, L/2 and k_e/√3 apply. i_q is the current in phase with the induced voltage (it makes the
+//! torque) and i_d the current perpendicular to it, at the electrical frequency p·n:
 //!
 //! ```text
 //! T = k_t·i_q             k_t = √3·k_e
@@ -11,9 +11,9 @@
 //! P = 3/2·R·I²
 //! ```
 //!
-//! in line-to-line RMS volts; U is the voltage of the DC bus, and U/√2 what a bridge makes of it with space-vector modulation
-//! (Schröder, *Elektrische Antriebe – Regelung von Antriebssystemen*). A motor on direct current, block commutation included
-//! (the data sheets of small brushless motors state it so), has T = k_t·I, k_t = k_e, V = k_e·n + R·I ≤ U, P = R·I².
+//! in line-to-line RMS volts; U is the voltage of the DC bus, and U/√2 the output of a bridge with space-vector modulation (Schröder, *Elektrische
+//! Antriebe – Regelung von Antriebssystemen*). For a direct-current motor, including block commutation (as data sheets of small brushless motors have
+//! it), T = k_t·I, k_t = k_e, V = k_e·n + R·I ≤ U, P = R·I².
 
 use crate::catalogue::{Commutation, Motor, Winding};
 
@@ -24,7 +24,7 @@ pub const COPPER: f64 = 0.00393;
 pub const REFERENCE_TEMPERATURE: f64 = 20.0;
 
 impl Commutation {
-    /// k_t/k_e: what power balance asks for.
+    /// k_t/k_e from the power balance.
     pub const fn torque_per_voltage_constant(self) -> f64 {
         match self {
             Self::Sine => SQRT_3,
@@ -48,7 +48,7 @@ impl Commutation {
         }
     }
 
-    /// The largest voltage that can be had from a DC bus, as a multiple of the bus voltage.
+    /// The largest voltage available from a DC bus, as a multiple of the bus voltage.
     pub const fn voltage_share(self) -> f64 {
         match self {
             Self::Sine => std::f64::consts::FRAC_1_SQRT_2,
@@ -59,7 +59,7 @@ impl Commutation {
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
-/// A figure of a data sheet that can be reckoned with, far beyond any motor's.
+/// A usable figure of a data sheet; the range is far beyond any motor's.
 fn usable(figure: Option<f64>) -> Option<f64> {
     figure.filter(|x| (1e-15..=1e15).contains(x))
 }
@@ -71,20 +71,20 @@ impl Winding {
         Some(usable(self.resistance)? * factor.max(0.0))
     }
 
-    /// Copper loss over the square of the current (W/A² = Ω) at a temperature (°C): 3/2·R of three phases on sine currents,
-    /// R of direct current. `None`: no resistance stated.
+    /// Copper loss over the square of the current (W/A² = Ω) at a temperature (°C): 3/2·R for three phases with sine currents, R for direct current;
+    /// `None` if no resistance is given.
     pub fn loss_resistance(&self, temperature: f64) -> Option<f64> {
         Some(self.commutation.loss_factor() * self.resistance_at(temperature)?)
     }
 
-    /// Copper loss (W) of a current (A) at a temperature (°C).
+    /// Copper loss (W) for a current (A) at a temperature (°C).
     pub fn copper_loss(&self, current: f64, temperature: f64) -> Option<f64> {
         Some(self.loss_resistance(temperature)? * current * current)
     }
 }
 
-/// Current of a torque. Straight with 1/k_t up to the S1 torque; from there a second straight line to peak torque and peak
-/// current, where the data sheet's peak current is more than peak torque/k_t: the iron saturates.
+/// Current of a torque. It is linear with 1/k_t up to the S1 torque. If the data sheet's peak current exceeds peak torque/k_t, a second line leads
+/// from there to peak torque and peak current: the iron saturates.
 ///
 /// ```
 /// # use jred_sizing::motor::winding::CurrentCurve;
@@ -96,17 +96,17 @@ impl Winding {
 pub struct CurrentCurve {
     /// Amperes per newton metre up to the knee.
     slope: f64,
-    /// Torque of the knee (N·m); infinite: no saturation known.
+    /// Torque of the knee (N·m); infinite: no saturation given.
     knee: f64,
     /// Amperes per newton metre beyond it.
     steep: f64,
 }
 
 impl CurrentCurve {
-    /// From the torque constant (N·m/A, positive), a point \[current, torque\] of saturation (A, N·m), and the torque up to
-    /// which the constant holds. A point that does not lie beyond k_t's line and beyond the knee is left out.
+    /// From the torque constant (N·m/A, positive), a point \[current, torque\] of saturation (A, N·m), and the torque up to which the constant is
+    /// valid. A point that is not beyond k_t's line and beyond the knee is ignored.
     pub fn new(torque_constant: f64, saturated: Option<[f64; 2]>, knee: f64) -> Self {
-        // A rounding of the data sheet is no saturation.
+        // Rounding in the data sheet is not saturation.
         const ROUNDING: f64 = 1.001;
         let slope = 1.0 / torque_constant;
         let straight = Self {
@@ -128,7 +128,7 @@ impl CurrentCurve {
         }
     }
 
-    /// The curve of a motor. `None`: neither torque constant nor a torque with its current is stated.
+    /// The curve of a motor; `None` if neither a torque constant nor a torque with its current is given.
     pub fn of(motor: &Motor) -> Option<Self> {
         let winding = &motor.winding;
         let peak = usable(winding.peak_current).zip(usable(motor.peak_torque));
@@ -155,18 +155,17 @@ impl CurrentCurve {
         1.0 / self.slope
     }
 
-    /// Current from which on the iron saturates (A); infinite: no saturation known.
+    /// Current from which the iron saturates (A); infinite: no saturation given.
     pub const fn knee_current(&self) -> f64 {
         self.knee * self.slope
     }
 
-    /// Torque from which on the iron saturates (N·m); infinite: no saturation known. Up to there the current is proportional to
-    /// the torque.
+    /// Torque from which the iron saturates (N·m); infinite: no saturation given. Up to it the current is proportional to the torque.
     pub const fn knee(&self) -> f64 {
         self.knee
     }
 
-    /// Whether saturation is known of.
+    /// Whether saturation is given.
     pub const fn saturates(&self) -> bool {
         self.knee.is_finite()
     }

@@ -15,7 +15,7 @@ pub struct Filter {
     pub makers: Vec<Pattern>,
     /// Keys of motors, as patterns; empty: any.
     pub motors: Vec<Pattern>,
-    /// Keys of gearboxes, as patterns; empty: any, and none.
+    /// Keys of gearboxes, as patterns; empty: any gearbox, or none.
     pub gearboxes: Vec<Pattern>,
     /// Smallest and largest ratio; a direct drive has 1.
     pub ratio: Option<[f64; 2]>,
@@ -25,7 +25,7 @@ pub struct Filter {
     pub max_mass: Option<f64>,
     /// Largest price, in the currency of the catalogue.
     pub max_price: Option<f64>,
-    /// This drive alone, by its name as [`named`] reads it.
+    /// Only this drive, by a name for [`named`].
     pub drive: Option<String>,
 }
 
@@ -48,10 +48,10 @@ fn matches(patterns: &[Pattern], text: &str) -> bool {
 }
 
 impl Filter {
-    /// Removes the motors and gearboxes that no drive may have.
+    /// Removes the motors and gearboxes that no passing drive has.
     ///
     /// # Errors
-    /// Nothing left; no drive of that name.
+    /// Nothing remains; no drive has that name.
     pub fn thin(&self, catalogue: &mut Catalogue) -> Result<()> {
         if let Some(name) = &self.drive {
             let (_, drive) = named(catalogue, name)?;
@@ -100,7 +100,7 @@ impl Filter {
             return unknown;
         }
         let mut sifted = [Vec::new(), Vec::new()];
-        // Only the first drives are sorted so far, and which of them remain is not known in advance.
+        // So far only the first drives are sorted, and it is not known in advance which of them remain.
         selection.complete();
         for (kept, from) in sifted.iter_mut().zip([&selection.fit, &selection.refused]) {
             for candidate in from.known() {

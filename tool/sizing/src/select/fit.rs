@@ -1,4 +1,4 @@
-//! Motors that fit the machine's input: turning ones, or linear ones.
+//! Motors that fit the machine's input: rotary or linear.
 
 use miette::{Result, miette};
 
@@ -19,7 +19,7 @@ pub fn input_kind(file: &MachineFile) -> MotorKind {
 /// Keeps only the motors for the input of the machine: rotary or linear.
 ///
 /// # Errors
-/// There are none.
+/// The catalogue has no such motor.
 pub fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
     let kind = input_kind(file);
     catalogue.keep_kind(kind);

@@ -22,10 +22,10 @@ fn keys(text: &str) -> (&str, Option<&str>, Option<&str>) {
     }
 }
 
-/// Number of drives that a message names.
+/// Number of drives listed in a message.
 const SHOWN: usize = 6;
 
-/// Whether a drive has this name; without an amplifier in it, on any.
+/// Whether a drive has this name; a name without an amplifier matches any amplifier.
 pub fn is_named(drive: &Drive, text: &str) -> bool {
     let (motor, gearbox, amplifier) = keys(text);
     drive.motor.key == motor
@@ -33,7 +33,7 @@ pub fn is_named(drive: &Drive, text: &str) -> bool {
         && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
 }
 
-/// The drive whose name differs from a text in capitals alone, if there is but one.
+/// The drive whose name differs from a text only in capitals, if there is exactly one.
 fn alike<'c>(catalogue: &'c Catalogue, text: &str) -> Option<(DriveId, Drive<'c>)> {
     let (motor, gearbox, amplifier) = keys(text);
     let one = |mut keys: Box<dyn Iterator<Item = &'c str> + 'c>, word: &str| {
@@ -59,7 +59,7 @@ fn alike<'c>(catalogue: &'c Catalogue, text: &str) -> Option<(DriveId, Drive<'c>
     catalogue.drives().find(|(_, drive)| is_named(drive, &name))
 }
 
-/// The error for a drive whose parts are there but are not combined.
+/// The error for a drive whose parts exist but are not combined.
 fn not_combined(catalogue: &Catalogue, [motor, text]: [&str; 2]) -> miette::Report {
     let drives = catalogue
         .drives()
@@ -80,11 +80,11 @@ fn not_combined(catalogue: &Catalogue, [motor, text]: [&str; 2]) -> miette::Repo
     )
 }
 
-/// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
-/// the first that goes with the motor); in any case of its letters where that is clear.
+/// The drive named by a text: MOTOR+GEARBOX or MOTOR, followed by " on AMPLIFIER" if the catalogue has amplifiers (otherwise the motor's first
+/// amplifier is used). Letter case is ignored where that is unambiguous.
 ///
 /// # Errors
-/// A drive that the catalogue does not have.
+/// The catalogue does not have this drive.
 pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive<'c>)> {
     let (motor, gearbox, amplifier) = keys(text);
     if let Some(found) = catalogue.drives().find(|(_, drive)| is_named(drive, text)) {

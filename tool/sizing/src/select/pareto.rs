@@ -11,9 +11,9 @@ use jred_machine::number::words::counted;
 pub struct Point<'c> {
     /// The drive.
     pub candidate: Candidate<'c>,
-    /// Its mass (kg), if the catalogue has it.
+    /// Its mass (kg), if in the catalogue.
     pub mass: Option<f64>,
-    /// Its price, if the catalogue has it.
+    /// Its price, if in the catalogue.
     pub price: Option<f64>,
     /// Its values.
     pub values: Vec<f64>,
@@ -65,7 +65,7 @@ impl<'c> Front<'c> {
                 .map(|(objective, value)| objective.cost(*value))
                 .collect()
         };
-        // In this order no point is beaten by one that follows.
+        // In this order no point is dominated by a later one.
         points.sort_by(|a, b| {
             let pairs = costs(a).into_iter().zip(costs(b));
             pairs.fold(std::cmp::Ordering::Equal, |order, (a, b)| {

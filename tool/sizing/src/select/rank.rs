@@ -49,7 +49,7 @@ impl Objective {
         }
     }
 
-    /// How drives are ranked by it, in words for reports.
+    /// Description of the ranking by it, for reports.
     pub const fn ranking(self) -> Sentence {
         match self {
             Self::Power => |Vocabulary { torque, .. }| {
@@ -74,7 +74,7 @@ impl Objective {
         }
     }
 
-    /// Its value for a drive; `None` if the catalogue lacks data.
+    /// Its value for a drive; `None` without data in the catalogue.
     pub fn value(self, selection: &Selection, candidate: &Candidate) -> Option<f64> {
         let drive = &candidate.drive;
         let known = match self {
@@ -106,7 +106,7 @@ impl Objective {
     }
 }
 
-/// Ranks the suitable drives by an objective, the more certain first. Of equal certainty, drives without data come last in their previous order; equal ones keep their
+/// Ranks the suitable drives by an objective, within each certainty. Drives without data come last in their previous order; equal ones keep their
 /// order; if no drive has data, the ranking does not change. Returns the number of drives without data.
 pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     selection.complete();

@@ -6,20 +6,18 @@
 //! T = i·A + B/i + C,   A = J·a + b·n,   B = τ₊/η + τ₋·η_back,   C = c·sgn n
 //! ```
 //!
-//! a, n and τ: acceleration, speed and torque at the gearbox output (τ does not depend on i, whatever the inertia does over
-//! the cycle); J: inertia of rotor, brake and gearbox input; b and c: viscous and Coulomb friction of the motor. So the mean
-//! square is
+//! a, n and τ: acceleration, speed and torque at the gearbox output (τ does not depend on i, even if the inertia varies over the cycle); J: inertia
+//! of rotor, brake and gearbox input; b and c: viscous and Coulomb friction of the motor. So the mean square is
 //!
 //! ```text
 //! T_rms²(i) = ⟨A²⟩·i² + 2⟨AC⟩·i + 2⟨AB⟩ + ⟨C²⟩ + 2⟨BC⟩/i + ⟨B²⟩/i²
 //! ```
 //!
-//! Without Coulomb friction it is smallest at i* = √(B_rms/A_rms), which for b = 0 is √(τ_rms/(J·a_rms)), and there
-//! T_rms² = J·β with the load factor β = 2(a_rms·τ_rms + ⟨a·τ⟩). A motor whose rated torque is T_N can do the duty with some
-//! ratio if its accelerating factor T_N²/J is not below β, and the ratios that do follow from the biquadratic
-//! ⟨A²⟩·i⁴ + (2⟨AB⟩ − T_N²)·i² + ⟨B²⟩ = 0 (Giberti, Cinquemani, Legnani: Effects of transmission mechanical characteristics
-//! on the choice of a motor-reducer, Mechatronics 20, 2010). With Coulomb friction i* and the ends of the range are found
-//! numerically, and β stands for T_rms²(i*)/J.
+//! Without Coulomb friction it is smallest at i* = √(B_rms/A_rms), which for b = 0 is √(τ_rms/(J·a_rms)). There T_rms² = J·β with the load factor β =
+//! 2(a_rms·τ_rms + ⟨a·τ⟩). A motor of rated torque T_N can do the duty with some ratio if its accelerating factor T_N²/J is not below β. These ratios
+//! follow from the biquadratic ⟨A²⟩·i⁴ + (2⟨AB⟩ − T_N²)·i² + ⟨B²⟩ = 0 (Giberti, Cinquemani, Legnani: Effects of transmission mechanical
+//! characteristics on the choice of a motor-reducer, Mechatronics 20, 2010). With Coulomb friction i* and the ends of the range are found
+//! numerically, and β is T_rms²(i*)/J.
 
 pub mod obstacle;
 pub mod ranges;
@@ -39,7 +37,7 @@ pub struct Gear {
 }
 
 impl Gear {
-    /// Without inertia and losses.
+    /// A gearbox without inertia and losses.
     pub const IDEAL: Self = Self {
         inertia: 0.0,
         efficiency: 1.0,
@@ -109,8 +107,8 @@ impl Moments {
         self.mean_square(ratio).max(0.0).sqrt()
     }
 
-    /// The ratio i* with the smallest RMS torque; `None`: the larger the better (nothing accelerates), or the smaller the
-    /// better (nothing loads the output).
+    /// The ratio i* with the smallest RMS torque. `None` if there is no minimum: a larger ratio is always better (nothing accelerates), or a smaller
+    /// one (nothing loads the output).
     pub fn best_ratio(&self) -> Option<f64> {
         if self.aa <= 0.0 || self.bb <= 0.0 {
             return None;
@@ -133,14 +131,14 @@ impl Moments {
         found.ok()
     }
 
-    /// The load factor β (W/s): the accelerating factor that a motor needs at least, whatever the ratio.
+    /// The load factor β (W/s): the least accelerating factor of a suitable motor, for any ratio.
     pub fn load_factor(&self) -> Option<f64> {
         self.best_ratio()
             .map(|ratio| self.mean_square(ratio) / self.inertia)
     }
 
-    /// The ratios around i* with which the RMS torque is at most `torque` (N·m); `None`: with no ratio. Where there is no i*
-    /// the range is open, up to infinity or down to zero.
+    /// The ratios around i* with which the RMS torque is at most `torque` (N·m); `None` if there are no such ratios. Without i* the range extends to
+    /// infinity or to zero.
     pub fn range(&self, torque: f64) -> Option<Range> {
         let Some(best) = self.best_ratio() else {
             return self.open_range(torque);
@@ -168,8 +166,7 @@ impl Moments {
         Some([end(0.5)?, end(2.0)?])
     }
 
-    /// The range where nothing accelerates, ⟨C²⟩ + 2⟨BC⟩/i + ⟨B²⟩/i² ≤ T², or nothing loads the output,
-    /// ⟨A²⟩·i² + 2⟨AC⟩·i + ⟨C²⟩ ≤ T².
+    /// The range if nothing accelerates, ⟨C²⟩ + 2⟨BC⟩/i + ⟨B²⟩/i² ≤ T², or nothing loads the output, ⟨A²⟩·i² + 2⟨AC⟩·i + ⟨C²⟩ ≤ T².
     fn open_range(&self, torque: f64) -> Option<Range> {
         let left = torque * torque - self.cc;
         if left <= 0.0 {

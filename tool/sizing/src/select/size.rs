@@ -21,7 +21,7 @@ pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
 pub use order::{Certainty, Order};
 
-/// How drives are ranked unless something else was asked for.
+/// Default ranking of drives.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
     format!(
         "the smallest motor first (rated {torque} times rated speed, then rated {torque}); equal motors: without warnings first, then the smallest \
@@ -29,7 +29,7 @@ fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
     )
 }
 
-/// What comes first in every ranking.
+/// The first criterion of every ranking.
 const FIRST_OF_ALL: &str = "drives with the makers' own figures first, then those with figures of others, then those whose amplifier nobody \
                             pairs with the motor, then those of unknown voltage; among each of them ";
 
@@ -45,17 +45,17 @@ pub struct Candidate<'c> {
     pub motor: &'c Prepared,
     /// Result.
     pub outcome: Outcome,
-    /// Which one of the catalogue; the order of equal drives.
+    /// Identifies it in the catalogue; breaks ties.
     id: DriveId,
 }
 
 impl Candidate<'_> {
-    /// How certain it is that the drive can be bought as it is; `None`: it is refused.
+    /// How certain it is that the drive can be bought as it is; `None` if it is refused.
     pub fn certainty(&self) -> Option<Certainty> {
         (!self.outcome.fails()).then(|| Certainty::of(&self.drive, &self.outcome))
     }
 
-    /// Which drive of the catalogue it is.
+    /// Identifies the drive in the catalogue.
     pub const fn id(&self) -> DriveId {
         self.id
     }
@@ -69,13 +69,13 @@ impl Candidate<'_> {
 /// The suitable drives of one certainty.
 #[derive(Clone, Copy, Debug)]
 pub struct Class<'c> {
-    /// How certain they are.
+    /// Their certainty.
     pub certainty: Certainty,
     /// Number of drives.
     pub count: usize,
     /// Rank of the first of them.
     pub rank: usize,
-    /// The first of them: the smallest, unless they are ranked by something else.
+    /// The first of them: the smallest, unless another ranking applies.
     pub first: Candidate<'c>,
 }
 
@@ -86,7 +86,7 @@ pub struct Gap {
     pub rule: Rule,
     /// Number of drives.
     pub count: usize,
-    /// What is missing for one of them.
+    /// The missing data of one of them.
     pub missing: String,
 }
 
@@ -99,37 +99,36 @@ pub struct Violation<'c> {
     pub count: usize,
     /// Number of those that violate nothing else.
     pub alone: usize,
-    /// The one of them that is refused by least.
+    /// The one of them that violates its limits least.
     pub closest: Candidate<'c>,
 }
 
 /// All drives with their results.
 ///
-/// Every drive is checked against every rule. The values that drives are sorted by are computed only for the first [`FIRST`]
-/// suitable and refused drives, which is a small part of the work for a large catalogue. [`Selection::complete`] computes
-/// them for all.
+/// Every drive is checked against every rule. The sort keys are computed only for the first [`FIRST`] suitable and refused drives, which is a small
+/// part of the work for a large catalogue. [`Selection::complete`] computes them for all.
 #[derive(Clone, Debug)]
 pub struct Selection<'c> {
     /// The prepared duty.
     pub cycle: &'c Cycle,
     /// Site of the drives.
     pub site: &'c Site,
-    /// The rules they were checked against.
+    /// The rules that they were checked against.
     pub rules: &'c RuleSet,
-    /// How the drives that fit are ranked, if not by the size of their motors.
+    /// The ranking of the suitable drives, if not by the size of their motors.
     pub ranking: Option<Sentence>,
-    /// Drives that break no rule, best first: see [`Selection::ranking()`].
+    /// Drives that violate no rule, best first: see [`Selection::ranking()`].
     pub fit: Group<'c>,
     /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
     motors: &'c [Prepared],
-    /// Brake resistors that one is chosen from.
+    /// Brake resistors to choose from.
     resistors: &'c [Resistor],
 }
 
 impl<'c> Selection<'c> {
-    /// Judges every drive of the catalogue on this thread. The time for a drive does not depend on the number of the cycle's
-    /// instants, but for rules that follow time: docs/performance.md.
+    /// Judges every drive of the catalogue on this thread. The time for a drive does not depend on the number of the cycle's instants, except for
+    /// rules that follow time: docs/performance.md.
     pub fn new(
         catalogue: &'c Catalogue,
         motors: &'c [Prepared],
@@ -193,7 +192,7 @@ impl<'c> Selection<'c> {
         }
     }
 
-    /// How the drives that fit are ranked, for a kind of motor.
+    /// Description of the ranking, for a kind of motor.
     pub fn ranking(&self, words: &Vocabulary) -> String {
         FIRST_OF_ALL.to_owned() + &self.ranking.unwrap_or(by_size)(words)
     }
@@ -243,7 +242,7 @@ impl<'c> Selection<'c> {
         self
     }
 
-    /// Judges every drive in full and puts all in order.
+    /// Judges every drive in full and sorts all.
     pub fn complete(&mut self) {
         self.fit = self.completed(&self.fit);
         self.refused = self.completed(&self.refused);
@@ -251,7 +250,7 @@ impl<'c> Selection<'c> {
 
     fn completed(&self, group: &Group<'c>) -> Group<'c> {
         if group.rest.is_empty() {
-            // Perhaps in another order than this one.
+            // Perhaps sorted differently.
             return group.clone();
         }
         let mut all = group.known().to_vec();
@@ -276,7 +275,7 @@ impl<'c> Selection<'c> {
         self.first(&self.fit, count)
     }
 
-    /// The first drive of each motor that has one that fits, each with its rank among all that fit: the first `count` of them.
+    /// The first suitable drive of each motor, with its rank among all suitable drives: the first `count`.
     pub fn first_of_motors(&self, count: usize) -> Vec<(usize, Candidate<'c>)> {
         let of = |ranked: &[Candidate<'c>]| {
             let mut seen = HashSet::new();
@@ -291,8 +290,8 @@ impl<'c> Selection<'c> {
         of(self.completed(&self.fit).known())
     }
 
-    /// The rules that refused drives violate, the most frequent first. As in the ranking, rules that follow time are judged only where
-    /// all others are satisfied.
+    /// The rules that refused drives violate, the most frequent first. As in the ranking, rules that follow time are judged only if all others are
+    /// satisfied.
     pub fn violations(&self) -> Vec<Violation<'c>> {
         let all = self.first_refused(usize::MAX);
         let of = |rule: Rule| {
@@ -310,7 +309,7 @@ impl<'c> Selection<'c> {
         found
     }
 
-    /// The first `count` refused drives, those that miss by least first.
+    /// The first `count` refused drives, those closest to their limits first.
     pub fn first_refused(&self, count: usize) -> Vec<Candidate<'c>> {
         self.first(&self.refused, count)
     }
@@ -336,7 +335,7 @@ impl<'c> Selection<'c> {
         })
     }
 
-    /// The suitable drives of each certainty that there are any of, the most certain first, which is the order of the ranking.
+    /// The suitable drives of each certainty that occurs, in the order of the ranking (the most certain first).
     pub fn classes(&self) -> Vec<Class<'c>> {
         let mut rank = 1;
         let mut classes = Vec::new();
@@ -371,14 +370,14 @@ impl<'c> Selection<'c> {
         gaps.collect()
     }
 
-    /// The refused drive with the motor of the next smaller rated power below every motor that fits, the one that misses by
-    /// least if it has several; `None` where none fits, or none is smaller.
+    /// The refused drive with the next smaller rated power below all suitable motors; if there are several, the one closest to its limits. `None` if
+    /// no drive is suitable, or no power is smaller.
     pub fn next_smaller(&self) -> Option<Candidate<'c>> {
         let power = |drive: Drive<'c>| drive.motor.rated_power();
         let least = self.fit.drives().filter_map(power).reduce(f64::min)?;
         let smaller = self.refused.drives().filter_map(power);
         let next = smaller.filter(|power| *power < least).reduce(f64::max)?;
-        // No drive that fits has this power.
+        // No suitable drive has this power.
         self.find(|drive| drive.motor.rated_power() == Some(next))
     }
 
@@ -387,12 +386,12 @@ impl<'c> Selection<'c> {
         self.fit.survey().partly_checked()
     }
 
-    /// A candidate by every rule, in words.
+    /// A candidate checked against every rule, with messages.
     pub fn judged(&self, candidate: &Candidate<'c>) -> Judged<'c> {
         Judged::new(&self.context(candidate), self.rules)
     }
 
-    /// What judging a candidate looks at.
+    /// The context for judging a candidate.
     pub fn context(&self, candidate: &Candidate<'c>) -> Context<'c> {
         self.context_of(candidate.drive, candidate.motor)
     }

@@ -20,7 +20,7 @@ const MOST_STEPS: u32 = 1_000_000;
 pub struct Axis {
     /// Index of the quantity in the document.
     pub quantity: usize,
-    /// Its path, in full.
+    /// Its full path.
     pub path: String,
     /// Unit of the values.
     pub unit: String,
@@ -36,7 +36,7 @@ impl Axis {
     /// Reads one `--vary`.
     ///
     /// # Errors
-    /// A quantity that is not there, a unit of another kind, a range without values.
+    /// The quantity does not exist, the unit is of another kind, or the range has no values.
     pub fn parse(document: &Document, text: &str) -> Result<Self> {
         let wrong = |why: String| {
             miette!(
@@ -99,7 +99,7 @@ impl Axis {
     }
 }
 
-/// The start of a range: a number, with the unit of the end or none.
+/// The start of a range: a number, with the unit of the end or without one.
 fn start(text: &str, end: &literal::Literal) -> Result<f64, String> {
     let from =
         literal::read(text).map_err(|why| format!("the start {} {why}", plain::quoted(text)))?;
@@ -162,7 +162,7 @@ fn tidy(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 
-/// A list of values; those before the last may leave the unit out.
+/// A list of values; those before the last may omit the unit.
 fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
     let (front, last) = text.rsplit_once(',').unwrap_or(("", text));
     let end = literal::read(last).map_err(|why| format!("{} {why}", plain::quoted(last)))?;
@@ -174,7 +174,7 @@ fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
     Ok((values, end))
 }
 
-/// Every combination of the values of some axes, the last axis running fastest.
+/// Every combination of the values of several axes; the last axis varies fastest.
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// The axes.
@@ -189,7 +189,7 @@ impl Grid {
     /// The combinations of the axes.
     ///
     /// # Errors
-    /// Too many combinations, or a quantity that is varied twice.
+    /// There are too many combinations, or a quantity is varied twice.
     pub fn new(axes: Vec<Axis>) -> Result<Self> {
         for (k, axis) in axes.iter().enumerate() {
             if axes

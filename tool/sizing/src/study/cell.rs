@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-/// How JSON has an infinite number, for which it has no form of its own.
+/// An infinite number in JSON, which has no form for it.
 const INFINITE: &str = "inf";
 
 /// A cell of a row.
@@ -35,7 +35,7 @@ impl Cell {
         }
     }
 
-    /// The cell of a value that [`Cell::json`] wrote; `None`: it did not.
+    /// The cell of a value that [`Cell::json`] wrote; `None` for any other value.
     pub fn of_json(value: &Value) -> Option<Self> {
         match value {
             Value::Null => Some(Self::Empty),
@@ -45,7 +45,7 @@ impl Cell {
         }
     }
 
-    /// The words, if it has any.
+    /// The words, if it is a text.
     pub const fn text(&self) -> Option<&str> {
         match self {
             Self::Text(text) => Some(text.as_str()),

@@ -16,15 +16,15 @@ pub struct ChosenDrive {
     motor: Motor,
     gearbox: Option<Gearbox>,
     amplifier: Option<Amplifier>,
-    /// Brake resistors of its catalogue, of which one is chosen for each machine that gives none.
+    /// Brake resistors of its catalogue, to choose from for each machine that gives no resistor.
     resistors: Vec<Resistor>,
 }
 
 impl ChosenDrive {
-    /// The drive of this name; without a name the best one for the nominal machine, or the closest one.
+    /// The drive of this name; without a name the best one for the nominal machine, or else the closest one.
     ///
     /// # Errors
-    /// No such drive.
+    /// There is no such drive.
     pub fn choose(
         study: &Study,
         name: Option<&str>,
@@ -47,7 +47,7 @@ impl ChosenDrive {
         Ok(Self::of(&first.drive, &study.catalogue))
     }
 
-    /// A drive of a catalogue, to be kept without it.
+    /// A copy of a catalogue's drive that does not need the catalogue.
     pub fn of(drive: &Drive, catalogue: &Catalogue) -> Self {
         Self {
             motor: drive.motor.clone(),

@@ -23,17 +23,17 @@ pub struct Study {
     pub name: String,
     /// The files that the machine file names.
     files: Box<dyn Files + Send + Sync>,
-    /// The file with the places of its quantities.
+    /// The file with the positions of its quantities.
     pub document: Document,
-    /// The machine as the file says.
+    /// The machine as given in the file.
     pub nominal: MachineFile,
-    /// What drives are chosen from.
+    /// The catalogue to choose drives from.
     pub catalogue: Catalogue,
-    /// Rule set instead of the file's.
+    /// Rule set to use instead of the file's.
     rules: Option<RuleSet>,
     /// How finely a cycle is sampled.
     pub sampling: Sampling,
-    /// The cycle of the machine as the file says, once it was asked for.
+    /// The cycle of the nominal machine, computed on demand.
     cycle: OnceLock<Arc<Cycle>>,
 }
 
@@ -46,12 +46,12 @@ pub struct PreparedMachine {
     pub cycle: Arc<Cycle>,
 }
 
-/// Sections of a machine file that drives are judged by, and that neither machine nor motion depends on: the cycle is the same
-/// whatever they say (test `some_sections_do_not_reach_the_cycle`).
+/// Sections of a machine file that affect the judgement of drives but not machine and motion, so that the cycle does not depend on them (test
+/// `some_sections_do_not_reach_the_cycle`).
 const AROUND: [&str; 5] = ["supply.", "surroundings.", "stiffness.", "duty.", "rules."];
 
 impl Study {
-    /// How exact its figures are, for the header of its rows.
+    /// The accuracy of its figures, for the header of its rows.
     pub(crate) fn accuracy(&self) -> String {
         let Sampling { steps, tolerance } = self.sampling;
         format!("steps = {steps}, tolerance = {tolerance:e}")
@@ -60,7 +60,7 @@ impl Study {
     /// The study of the machine file at `path`: see [`Study::new`].
     ///
     /// # Errors
-    /// A file that cannot be read, or whose machine cannot be sized.
+    /// The file cannot be read, or its machine cannot be sized.
     #[cfg(feature = "fs")]
     pub fn open(
         path: &std::path::Path,
@@ -73,11 +73,11 @@ impl Study {
         Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }
 
-    /// Reads the `text` of a machine file, which must be one that can be sized, and what it names from `files`; `rules` are a set
-    /// to judge by instead of its own. The `name` is for messages.
+    /// Reads the `text` of a machine file that can be sized, and the files that it names from `files`. `rules` replaces its own rule set. The `name`
+    /// is for messages.
     ///
     /// # Errors
-    /// A machine file that is wrong, or whose machine cannot be sized.
+    /// The machine file is wrong, or its machine cannot be sized.
     pub fn new(
         name: String,
         text: String,
@@ -104,15 +104,15 @@ impl Study {
         })
     }
 
-    /// Digest of the machine file and of all that was read with it.
+    /// Digest of the machine file and of all files read with it.
     pub fn machine_digest(&self) -> String {
         crate::study::header::digest(&(self.document.text(), &self.nominal))
     }
 
-    /// The drive that a text names: see [`named`].
+    /// The drive named by a text: see [`named`].
     ///
     /// # Errors
-    /// A drive that the catalogue does not have.
+    /// The catalogue does not have this drive.
     pub fn drive(&self, text: &str) -> Result<(DriveId, Drive<'_>)> {
         named(&self.catalogue, text)
     }
@@ -139,13 +139,13 @@ impl Study {
             None => Arc::new(cycle(&file, self.sampling)?),
         };
         if around {
-            // Another thread may have been first: the cycles are the same.
+            // Another thread may have been first, with the same cycle.
             let _ = self.cycle.set(Arc::clone(&cycle));
         }
         Ok(PreparedMachine { file, cycle })
     }
 
-    /// Whether a quantity is one that the cycle does not depend on.
+    /// Whether the cycle does not depend on a quantity.
     fn is_around(&self, quantity: usize) -> bool {
         let quantity = self.document.quantities().get(quantity);
         quantity.is_some_and(|q| AROUND.iter().any(|section| q.path.starts_with(section)))
@@ -155,7 +155,7 @@ impl Study {
 /// The prepared duty of a machine.
 ///
 /// # Errors
-/// A machine without a motion, or one that cannot follow it.
+/// The machine has no motion, or cannot follow it.
 pub fn cycle(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Cycle> {
     let motion = file.required_motion()?;
     let duty = Duty::new(file, motion, sampling).into_diagnostic()?;
@@ -165,14 +165,14 @@ pub fn cycle(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Cycle>
 /// Refuses machines that cannot be sized over the catalogue.
 ///
 /// # Errors
-/// A machine with a variator, or no motion.
+/// The machine has a variator, or no motion.
 pub fn sizeable(file: &MachineFile) -> Result<()> {
     jred_machine::model::variator::refuse(file, "size")?;
     file.required_motion()?;
     Ok(())
 }
 
-/// A report as one line of a table: its sentence, without line breaks.
+/// A report on one line, for a table: its sentence without line breaks.
 pub fn sentence(report: &Report) -> String {
     let text = report.to_string();
     text.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -1,31 +1,31 @@
-//! How far a step may go before something no longer holds, with few trials, each of which is dear.
+//! How far a step may go before a condition becomes false, with few trials, each of which is expensive.
 
-/// What a trial shows.
+/// Result of a trial.
 pub(super) struct Trial<T> {
-    /// The whole of it.
+    /// The trial's data.
     pub(super) what: T,
-    /// Whether it holds.
+    /// Whether the condition is true.
     pub(super) holds: bool,
-    /// Below zero where it holds, above where it does not; not a number where nobody knows how far from it.
+    /// Below zero where the condition is true, above where it is false; NaN if the distance is unknown.
     pub(super) height: f64,
 }
 
-/// A step, divided as halving it again and again does.
+/// A step, divided like repeated halving.
 pub(super) struct Grid {
-    /// The beginning, where it holds.
+    /// The start, where the condition is true.
     pub(super) from: f64,
-    /// The end, where it does not.
+    /// The end, where it is false.
     pub(super) to: f64,
 }
 
-/// A place of the grid, and the height there.
+/// A grid index, and the height there.
 type Place = (u32, f64);
 
 impl Grid {
     const HALVINGS: u32 = 16;
     const CELLS: u32 = 1 << Self::HALVINGS;
 
-    /// Place number `k` of the grid, rounded as halving comes to it.
+    /// The position of grid index `k`, rounded exactly as repeated halving does.
     fn place(&self, k: u32) -> f64 {
         let (mut low, mut high) = ((0, self.from), (Self::CELLS, self.to));
         while k > low.0 && k < high.0 {
@@ -39,11 +39,11 @@ impl Grid {
         if k <= low.0 { low.1 } else { high.1 }
     }
 
-    /// The last place where it holds before one where it does not, and what it is there, given the height at the beginning and
-    /// what is at the end.
+    /// The last grid place where the condition is true before one where it is false, with the trial there; given are the height at the start and the
+    /// trial at the end.
     ///
-    /// A height that goes smoothly through zero is found in about a third of the trials that halving needs: each is put where a
-    /// curve through those before it leads. After as many as halving needs, the rest is halved.
+    /// For a height with a smooth zero it needs about a third of the trials of bisection: each is placed by a curve through the previous ones. After
+    /// as many trials as bisection needs, it bisects the rest.
     pub(super) fn last_held<T>(
         &self,
         height: f64,
@@ -73,9 +73,9 @@ impl Grid {
     }
 }
 
-/// The place to try between two: on the parabola x(y) through them and the one `before`, which the newer of them has replaced, where
-/// that is sure to rise from one to the other; else in the middle. T. R. Chandrupatla, *A new hybrid quadratic/bisection
-/// algorithm*, Advances in Engineering Software 28 (1997), p. 145.
+/// The next place between two: on the parabola x(y) through them and `before`, which the newer of them has replaced, if that is sure to be monotonic
+/// between them; otherwise the middle. T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm*, Advances in Engineering Software 28 (1997),
+/// p. 145.
 fn next(low: Place, high: Place, before: Option<Place>) -> u32 {
     let real = |(k, y): Place| (f64::from(k), y);
     let [a, b] = [low, high].map(real);
@@ -96,7 +96,7 @@ fn next(low: Place, high: Place, before: Option<Place>) -> u32 {
     if !guess.is_finite() {
         return u32::midpoint(low.0, high.0);
     }
-    // Below the guess: from there the next place above, most often, ends the search.
+    // Below the guess: then the next place above mostly ends the search.
     (guess.max(0.0) as u32).clamp(low.0 + 1, high.0 - 1)
 }
 
@@ -106,7 +106,7 @@ mod tests {
 
     use super::*;
 
-    /// Plain halving, which the grid stands for.
+    /// Plain bisection, the reference.
     fn halved(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
         let (mut held, mut tried) = (from, to);
         for _ in 0..16 {
@@ -141,7 +141,7 @@ mod tests {
         (held, trials.get())
     }
 
-    /// Where a smooth height passes zero, the place is that of halving to the bit, with fewer than half the trials.
+    /// For a smooth height, the place equals that of bisection to the bit, with fewer than half the trials.
     #[test]
     fn a_smooth_height_is_found_where_halving_finds_it() {
         let heights: [fn(f64) -> f64; 6] = [
@@ -165,7 +165,7 @@ mod tests {
         }
     }
 
-    /// A jump, one to where nobody knows how far beyond it is, and a kink beside a cliff: as halving, with twice its trials at most.
+    /// A jump, a jump to an unknown height, and a kink next to a cliff: the same place as bisection, with at most twice its trials.
     #[test]
     fn a_jump_is_found_as_well() {
         let heights: [fn(f64) -> f64; 4] = [

@@ -1,8 +1,8 @@
 //! The quantities of a machine file by path, and the file with some of them changed.
 //!
-//! A path is the keys from the top of the file, joined by points: `mechanism.slider.mass`, `motion.segment.1.duration`.
-//! An element of a list is called by its number, from 1 as in messages, or by its `name`: `load.guide friction.opposing_force`. Keys at
-//! the front may be left out while one quantity answers to the rest: `slider.mass`.
+//! A path consists of the keys from the top of the file, joined by points: `mechanism.slider.mass`, `motion.segment.1.duration`. An element of a list
+//! is named by its number, from 1 as in messages, or by its `name`: `load.guide friction.opposing_force`. Leading keys may be omitted while the rest
+//! identifies one quantity: `slider.mass`.
 //!
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
 
@@ -32,11 +32,11 @@ enum Written {
 /// One quantity of the file.
 #[derive(Clone, Debug)]
 pub struct Quantity {
-    /// Its path, in full.
+    /// Its full path.
     pub path: String,
     /// Number and unit.
     pub(crate) literal: Literal,
-    /// The words that each step of the path answers to.
+    /// The words that match each step of the path.
     steps: Vec<Vec<String>>,
     span: Range<usize>,
     written: Written,
@@ -63,7 +63,7 @@ impl Quantity {
         self.written == Written::Whole
     }
 
-    /// `number` in `unit`, as it is put in the quantity's place.
+    /// `number` in `unit`, as written in place of the quantity.
     fn text(&self, number: f64, unit: &str) -> String {
         match self.written {
             Written::Text => format!("\"{}\"", format!("{number:?} {unit}").trim_end()),
@@ -77,18 +77,18 @@ impl Quantity {
     }
 }
 
-/// A new value for a quantity: its place in [`Document::quantities`], number and unit.
+/// A new value for a quantity of [`Document::quantities`].
 #[derive(Clone, Debug)]
 pub struct Edit<'a> {
     /// Index of the quantity.
     pub quantity: usize,
     /// The new number.
     pub number: f64,
-    /// In this unit.
+    /// The unit of the number.
     pub unit: &'a str,
 }
 
-/// A machine file as text, with the places of its quantities.
+/// A machine file as text, with the positions of its quantities.
 #[derive(Clone, Debug)]
 pub struct Document {
     text: String,
@@ -99,7 +99,7 @@ impl Document {
     /// Finds the quantities of a machine file that was read without error.
     ///
     /// # Errors
-    /// A text that is not TOML.
+    /// The text is not TOML.
     pub fn parse(text: String) -> Result<Self> {
         let toml = Toml::parse(text.as_str()).map_err(|error| miette!("{error}"))?;
         let mut finder = Finder::default();
@@ -109,7 +109,7 @@ impl Document {
         Ok(Self { text, quantities })
     }
 
-    /// The text as it is.
+    /// The original text.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -119,7 +119,7 @@ impl Document {
         &self.quantities
     }
 
-    /// The text with some quantities changed; of two edits of one quantity the last counts.
+    /// The text with some quantities changed; of two edits of one quantity the last applies.
     pub fn with(&self, edits: &[Edit]) -> String {
         let mut ordered: Vec<&Edit> = edits.iter().collect();
         ordered.sort_by_key(|edit| edit.quantity);
@@ -142,10 +142,10 @@ impl Document {
         text + self.text.get(end..).unwrap_or_default()
     }
 
-    /// The index of the quantity that a path names.
+    /// The index of the quantity with this path.
     ///
     /// # Errors
-    /// A path that names none, or several.
+    /// The path matches no quantity, or several.
     pub fn find(&self, path: &str) -> Result<usize> {
         let wanted = steps(path);
         let answers: Vec<usize> = (0..self.quantities.len())
@@ -212,7 +212,7 @@ impl Document {
     }
 }
 
-/// The steps of a path. Points between double quotes do not part.
+/// The steps of a path. Points inside double quotes do not separate.
 fn steps(path: &str) -> Vec<String> {
     let (mut steps, mut quoted) = (vec![String::new()], false);
     for c in path.chars() {
@@ -226,7 +226,7 @@ fn steps(path: &str) -> Vec<String> {
 }
 
 impl Quantity {
-    /// Whether the last steps of its path are these.
+    /// Whether the last steps of its path match these.
     fn answers(&self, wanted: &[String]) -> bool {
         let spare = self.steps.len().checked_sub(wanted.len());
         spare.is_some_and(|spare| {

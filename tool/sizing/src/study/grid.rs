@@ -14,18 +14,18 @@ use jred_machine::number::words::counted;
 /// Machines of a grid, to be sized.
 #[derive(Debug)]
 pub struct GridStudy<'s> {
-    /// What they share.
+    /// Their common part.
     pub study: &'s Study,
-    /// What differs.
+    /// The varied quantities.
     pub grid: Grid,
-    /// Which drives are considered.
+    /// Filter for the drives.
     pub filter: Filter,
     /// Ranking objective; `None`: the ranking of `jred size`.
     pub rank: Option<Objective>,
 }
 
 jred_machine::words! {
-    /// How a machine of a study came out: the words of the column `verdict`.
+    /// Result for a machine of a study: the words of the column `verdict`.
     pub enum Verdict {
         /// A drive satisfies every rule.
         Fits = "fits",
@@ -36,7 +36,7 @@ jred_machine::words! {
     }
 }
 
-/// Columns behind those of the axes.
+/// Columns after those of the axes.
 const COLUMNS: [&str; 13] = [
     "verdict",
     "drives that fit",
@@ -154,7 +154,7 @@ impl GridStudy<'_> {
     }
 }
 
-/// Motor to energy.
+/// Cells from motor to energy.
 fn drive_cells(selection: &Selection, candidate: &Candidate) -> Vec<Cell> {
     let drive = &candidate.drive;
     let outcome = &candidate.outcome;

@@ -1,4 +1,4 @@
-//! What the rows of a study are rows of.
+//! Identity of a study's rows.
 
 use std::fmt::Write as _;
 
@@ -14,13 +14,13 @@ pub struct Header {
     pub jred: String,
     /// Version of the tool.
     pub version: String,
-    /// The machine file as it was named.
+    /// The machine file as named by the user.
     pub machine: String,
-    /// Digest of the machine file and of what it refers to.
+    /// Digest of the machine file and of the files that it refers to.
     pub machine_digest: String,
     /// Digest of the catalogue.
     pub catalogue_digest: String,
-    /// Everything else that the rows depend on.
+    /// Everything else that affects the rows.
     pub options: Vec<String>,
     /// Number of rows of the whole study.
     pub rows: u64,
@@ -49,7 +49,7 @@ pub fn digest(value: &dyn std::fmt::Debug) -> String {
 }
 
 impl Header {
-    /// How another header differs; `None` if it differs at most in the share.
+    /// How another header differs; `None` if only the share differs.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let parts = [
             (
@@ -65,7 +65,7 @@ impl Header {
             (self.options != other.options, "the options"),
             (self.rows != other.rows, "the number of rows"),
             (self.columns != other.columns, "the columns"),
-            // Written into the header, so that merged files are what one run would have written.
+            // Part of the header, so that merged files equal the output of a single run.
             (
                 self.machine != other.machine,
                 "the name of the machine file",

@@ -1,10 +1,8 @@
-//! Studies of many machines: quantities of a machine file are varied over ranges, and every machine is sized with the
-//! catalogue.
+//! Studies of many machines: quantities of a machine file are varied over ranges, and every machine is sized with the catalogue.
 //!
-//! A machine file is changed as a text ([`edit`]) and read by the ordinary reader, so that every check of a machine file
-//! applies to every machine of a study; one that is refused is a row with the reason. Rows are computed in parallel and
-//! written in order; a study may be cut into shares ([`shard`]) and put together again, stopped and
-//! continued: the file is always that of an undisturbed run, byte by byte.
+//! A machine file is changed as text ([`edit`]) and read by the ordinary reader, so that every check applies to every machine of a study. A refused
+//! machine is a row with the reason. Rows are computed in parallel and written in order. A study may be cut into shares ([`shard`]) and merged, or
+//! stopped and continued: the file always equals that of an undisturbed run, byte for byte.
 
 pub mod axis;
 pub mod cell;

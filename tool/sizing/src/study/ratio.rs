@@ -14,14 +14,14 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 
-/// A machine, and the motors whose ratios are sought.
+/// A machine, and the motors whose ratios are computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratios<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Its duty.
     pub duty: &'a Duty,
-    /// The same, prepared.
+    /// The prepared duty.
     pub cycle: &'a Cycle,
     /// Motors and gearboxes.
     pub catalogue: &'a Catalogue,
@@ -31,12 +31,12 @@ pub struct Ratios<'a> {
     pub gear: Gear,
 }
 
-/// A motor and a range of ratios in which it satisfies every rule, or the reason why there is none.
+/// A motor and a range of ratios in which it satisfies every rule, or the reason why there is no such range.
 #[derive(Clone, Debug)]
 pub struct MotorRatio<'a> {
     /// The motor.
     pub motor: &'a Motor,
-    /// What the duty asks of it.
+    /// Moments of the duty with it.
     pub moments: Moments,
     /// The ratio with the smallest RMS torque.
     pub best: Option<f64>,
@@ -44,7 +44,7 @@ pub struct MotorRatio<'a> {
     pub limit: Option<f64>,
     /// The ratios with an RMS torque within this limit.
     pub rms: Option<Range>,
-    /// The range, or what stands in its way; `Err(None)`: the range is narrower than the step of the search.
+    /// The range, or the obstacle; `Err(None)`: the range is narrower than the step of the search.
     pub found: Result<Found, Option<Obstacle>>,
     /// The gearboxes with a ratio in the range, each with whether the drive satisfies every rule.
     pub gearboxes: Vec<(&'a Gearbox, bool)>,
@@ -66,8 +66,7 @@ impl MotorRatio<'_> {
 }
 
 impl<'a> Ratios<'a> {
-    /// For every motor, smallest first, one row for each range of ratios that satisfies every rule; usually there is one
-    /// range or none.
+    /// One row for each motor (smallest first) and range of ratios that satisfies every rule; usually there is one range or none.
     pub fn rows(&self) -> Vec<MotorRatio<'a>> {
         let rules = &self.file.rules;
         let share = self.rms_share();

@@ -1,12 +1,13 @@
-//! How the rules of a drive depend on the quantities of the machine file: derivative of each use of a limit, and how far
-//! each quantity may change until a rule is violated.
+//! How the rules of a drive depend on the quantities of the machine file: the derivative of each use of a limit, and how far each quantity may change
+//! until a rule is violated.
 //!
-//! Every number with a unit, and every plain number, is moved by its relative change ε with all else as it is; the machine
-//! is read and judged anew. The derivative of a rule's share of its limit u is the central difference
-//! (u(ε) − u(−ε))/(2ε), extrapolated from ε and ε/2 to (4·D(ε/2) − D(ε))/3, whose error grows with ε⁴; what two such values
-//! differ by is stated as its uncertainty. A count, such as a number of teeth, is moved by one: its derivative is (u(n + 1) − u(n − 1))·n/2, its
-//! uncertainty the half of what the two steps differ by. A quantity that is zero has no relative change, and some cannot be moved alone (the
-//! moves of a cycle add up to whole turns): these are named with the reason.
+//! Every number with a unit, and every plain number, is changed by a relative ε with all others fixed; the machine is read and judged again. The
+//! derivative of a rule's share of its limit u is the central difference (u(ε) − u(−ε))/(2ε), extrapolated from ε and ε/2 to (4·D(ε/2) − D(ε))/3,
+//! whose error grows with ε⁴. The difference of two such values is given as its uncertainty.
+//!
+//! A count, such as a number of teeth, is changed by one: its derivative is (u(n + 1) − u(n − 1))·n/2, its uncertainty half the difference of the two
+//! steps. A quantity that is zero has no relative change, and some quantities cannot be changed alone (the moves of a cycle add up to whole turns).
+//! These are listed with the reason.
 
 use crate::judge::Findings;
 use crate::judge::broken;
@@ -25,9 +26,9 @@ pub struct Slope {
     pub rule: Rule,
     /// Whether it can refuse a drive, or only warns.
     pub refuses: bool,
-    /// Change of its share of the limit for a relative change of the quantity: du/dε.
+    /// Change of its share of the limit per relative change of the quantity: du/dε.
     pub slope: f64,
-    /// By how much the two estimates of the slope differ.
+    /// Difference of the two estimates of the slope.
     pub uncertainty: f64,
 }
 
@@ -45,7 +46,7 @@ pub enum Room {
 }
 
 impl Room {
-    /// The relative change up to which it goes.
+    /// The allowed relative change.
     pub const fn change(&self) -> f64 {
         match self {
             Self::AtLeast(change) | Self::UpTo(change, _) | Self::Refused(change, _) => *change,
@@ -59,7 +60,7 @@ impl Room {
 pub struct Dependence {
     /// Index of the quantity in the document.
     pub quantity: usize,
-    /// Whether it is a count, which was moved by one.
+    /// Whether it is a count, which is changed by one.
     pub whole: bool,
     /// The slopes of the rules that can be checked.
     pub slopes: Vec<Slope>,
@@ -68,7 +69,7 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    /// Whether it moves no rule at all, and no rule ends its room.
+    /// Whether it affects no rule, and no rule limits its change.
     pub fn is_idle(&self) -> bool {
         let still = self.slopes.iter().all(|slope| slope.slope == 0.0);
         still
@@ -78,7 +79,7 @@ impl Dependence {
                 .all(|room| matches!(room, Room::AtLeast(_) | Room::Broken))
     }
 
-    /// The rule that it moves most: of those that can refuse the drive, or else of those that only warn.
+    /// The rule that depends on it most: of the rules that can refuse the drive, or else of those that only warn.
     pub fn steepest(&self) -> Option<Slope> {
         let slopes = self.slopes.iter().copied();
         let key = |slope: &Slope| (slope.refuses && slope.slope != 0.0, slope.slope.abs());
@@ -92,13 +93,13 @@ impl Dependence {
 /// Result of a sensitivity analysis.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
-    /// The shares of the limits as they are.
+    /// The original shares of the limits.
     pub shares: Vec<(Rule, f64)>,
-    /// By quantity, that which moves a rule most first.
+    /// By quantity; the one that affects a rule most comes first.
     pub dependences: Vec<Dependence>,
-    /// Quantities that were not moved, and why.
+    /// Quantities that were not changed, and why.
     pub fixed: Vec<(usize, String)>,
-    /// Number of quantities in `[simulation]` and `[tolerance]` that were left out, since no rule depends on them.
+    /// Number of quantities in `[simulation]` and `[tolerance]`, which are omitted because no rule depends on them.
     pub left_out: usize,
 }
 
@@ -107,12 +108,12 @@ pub struct Sensitivity {
 pub struct Reach {
     /// Relative change of the differences.
     pub change: f64,
-    /// Largest relative change in search of the first violation.
+    /// Largest relative change in the search for the first violation.
     pub most: f64,
 }
 
-/// Share of the limit (or of the warning limit, if there is no other) of every rule that can be checked and has one, except
-/// where the limit is zero.
+/// Share of the limit (or of the warning limit, if there is no other) of every rule that has a limit and can be checked, except where the limit is
+/// zero.
 pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
     let known = findings
         .iter()
@@ -121,35 +122,35 @@ pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
     used.filter(|(_, used)| used.is_finite()).collect()
 }
 
-/// A quantity of a study, moved.
+/// A quantity of a study, to be changed.
 struct Mover<'a> {
     study: &'a Study,
     one: &'a ChosenDrive,
     quantity: usize,
     number: f64,
     unit: &'a str,
-    /// The largest share of a limit as the file is.
+    /// The largest share of a limit for the original file.
     load: f64,
 }
 
-/// A drive in a machine of which a quantity was moved.
+/// A drive in a machine with one quantity changed.
 struct Judged {
     /// Shares of the limits.
     shares: Vec<(Rule, f64)>,
     /// The violated rule.
     broken: Option<Rule>,
-    /// The largest share of a limit that can refuse the drive: one where it begins to.
+    /// The largest share of a limit that can refuse the drive; above one it is refused.
     load: f64,
 }
 
-/// The drive as judged; or why the file was refused.
+/// The judged drive, or why the file was refused.
 type Tried = Result<Judged, String>;
 
 impl Mover<'_> {
-    /// The drive with the quantity moved by a relative change.
+    /// The drive after a relative change of the quantity.
     fn at(&self, change: f64) -> Tried {
         let number = self.number * (1.0 + change);
-        // A count by its own step is whole but for a rounding.
+        // A count changed by its own step is whole except for rounding.
         let whole = number.round();
         let edit = Edit {
             quantity: self.quantity,
@@ -173,9 +174,9 @@ impl Mover<'_> {
         })
     }
 
-    /// The slopes by `change`, and what that change makes of the drive, downwards and upwards.
+    /// The slopes for `change`, and the drive at both ends, downwards and upwards.
     fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [Judged; 2]), String> {
-        // Upwards first: where both ends are refused, that is the reason given.
+        // Upwards first: if both ends are refused, its reason is given.
         let ends = |step: f64| -> Result<[Judged; 2], String> {
             let above = self.at(step)?;
             Ok([self.at(-step)?, above])
@@ -200,7 +201,7 @@ impl Mover<'_> {
         Ok((fine.iter().filter_map(slope).collect(), outer))
     }
 
-    /// What the quantity changes: by a small share of it; of a count, which cannot, by one.
+    /// The dependence on the quantity: by a small relative change; for a count, where that is impossible, by one.
     fn dependence(&self, reach: Reach, holds: bool) -> Result<Dependence, String> {
         let dependence = |whole: bool, slopes: Vec<Slope>, room: [Room; 2]| Dependence {
             quantity: self.quantity,
@@ -228,7 +229,7 @@ impl Mover<'_> {
         }
     }
 
-    /// Whether it is a count, and not an entry of a list, which names something by its number.
+    /// Whether it is a count, and not an entry of a list that refers to something by its number.
     fn counts(&self) -> bool {
         let quantity = self.study.document.quantities().get(self.quantity);
         quantity.is_some_and(|quantity| {
@@ -237,7 +238,7 @@ impl Mover<'_> {
         })
     }
 
-    /// The count with so many more.
+    /// The drive with the count increased by `by`.
     fn more(&self, by: f64) -> Tried {
         self.at(by / self.number)
     }
@@ -262,7 +263,7 @@ impl Mover<'_> {
         Ok(above.shares.iter().filter_map(slope).collect())
     }
 
-    /// Room of a count in the direction of `sign`: by doubling steps, then by halves of the last.
+    /// Room of a count in the direction of `sign`: by doubling steps, then by bisection of the last.
     fn room_by_one(&self, sign: f64, reach: Reach) -> Room {
         let share = |by: f64| sign * by / self.number;
         let most = (reach.most * self.number).floor().max(1.0);
@@ -302,7 +303,8 @@ impl Mover<'_> {
         }
     }
 
-    /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last; `first` is the drive at the first.
+    /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last one; `first` is the drive after the first
+    /// step.
     fn room(&self, sign: f64, reach: Reach, first: Judged) -> Room {
         let (mut held, mut tried) = ((0.0, self.load), reach.change);
         let mut there = Ok(first);
@@ -321,7 +323,7 @@ impl Mover<'_> {
         };
         let trial = |what: Tried| Trial {
             holds: matches!(what, Ok(Judged { broken: None, .. })),
-            // No file, no share: the step is halved there.
+            // Without a file there is no share: the step is halved.
             height: what.as_ref().map_or(f64::NAN, |judged| judged.load - 1.0),
             what,
         };
@@ -359,10 +361,10 @@ fn differences([below, above]: &[Judged; 2], change: f64) -> Vec<(Rule, f64)> {
 }
 
 impl Sensitivity {
-    /// Moves every quantity of the study's machine file; `progress` is told of each.
+    /// Changes every quantity of the study's machine file; `progress` is called for each.
     ///
     /// # Errors
-    /// Those of the machine as it is.
+    /// The original machine is refused.
     pub fn new(
         study: &Study,
         one: &ChosenDrive,
@@ -374,7 +376,7 @@ impl Sensitivity {
         let rules = &machine.file.rules;
         let holds = broken(rules, &findings).is_none();
         let load = load(rules, &findings);
-        // The free motion of `[simulation]` and the scatter of `[tolerance]` have no bearing on sizing.
+        // The free motion of `[simulation]` and the scatter of `[tolerance]` do not affect sizing.
         let apart = |path: &str| {
             ["simulation.", "tolerance."]
                 .iter()
@@ -418,7 +420,7 @@ impl Sensitivity {
         })
     }
 
-    /// Whether the drive violates a rule as it is, so that there is no room.
+    /// Whether the original drive already violates a rule, so that there is no room.
     pub fn is_broken(&self) -> bool {
         let mut all = self.dependences.iter();
         all.any(|d| d.room.contains(&Room::Broken))

@@ -1,4 +1,4 @@
-//! A share of the rows of a study: every n-th row, so that each share has easy and hard machines alike.
+//! A share of the rows of a study: every n-th row, so that each share has easy and hard machines.
 
 use std::str::FromStr;
 
@@ -20,7 +20,7 @@ impl Shard {
         self.index + k * self.count
     }
 
-    /// How many of `rows` are in the share.
+    /// Number of rows in the share, of `rows` in total.
     pub const fn len(self, rows: u64) -> u64 {
         rows.saturating_sub(self.index).div_ceil(self.count)
     }

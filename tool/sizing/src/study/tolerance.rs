@@ -1,8 +1,8 @@
 //! Monte Carlo estimate of the probability that a drive satisfies its rules when quantities of the machine file scatter.
 //!
-//! Sample k draws the deviation of every quantity that has a tolerance, in the order of their list, from stream k of ChaCha8
-//! with the seed: a sample is the same whichever thread, share or run computes it. A machine that the reader refuses is
-//! counted separately. If k of n others satisfy a rule, the probability is given with Wilson's interval,
+//! Sample k draws the deviation of every quantity with a tolerance, in the order of their list, from stream k of ChaCha8 with the seed. So a sample
+//! does not depend on the thread, share or run that computes it. A machine that the reader refuses is counted separately. If k of n others satisfy a
+//! rule, the probability is given with Wilson's interval,
 //!
 //! ```text
 //! (k + z²/2 ± z·√(k(n − k)/n + z²/4)) / (n + z²),   z = 1.96 for 95 %
@@ -43,15 +43,15 @@ pub struct Scatter {
     nominal: f64,
     /// Half the width, or the standard deviation, in the unit.
     pub amount: f64,
-    /// How it scatters.
+    /// Distribution.
     pub shape: Shape,
 }
 
 impl Scatter {
-    /// The quantity that a tolerance is of.
+    /// The quantity of a tolerance.
     ///
     /// # Errors
-    /// A quantity that is not there, or an amount of another kind.
+    /// The quantity does not exist, or the amount is of another kind.
     pub fn new(study: &Study, tolerance: &Tolerance) -> Result<Self> {
         let quantity = study.document.find(&tolerance.path)?;
         let own = study.document.quantities().get(quantity);
@@ -89,10 +89,10 @@ impl Scatter {
         })
     }
 
-    /// The tolerances of the machine file, each replaced by a `given` one for the same quantity, and the other given ones.
+    /// The tolerances of the machine file, replaced by `given` ones for the same quantity, and the other given ones.
     ///
     /// # Errors
-    /// A tolerance that does not suit its quantity; two of one quantity in the machine file, or two given ones; none at all.
+    /// A tolerance does not suit its quantity; a quantity has two tolerances in the machine file, or two given ones; there are no tolerances.
     pub fn all(study: &Study, given: &[Tolerance]) -> Result<Vec<Self>> {
         let of_file = &study.nominal.tolerances;
         let mut scatters = Self::each(study, of_file)?;
@@ -111,7 +111,7 @@ impl Scatter {
         Ok(scatters)
     }
 
-    /// Of tolerances from one source, which gives each quantity one.
+    /// The tolerances of one source, which gives each quantity one tolerance.
     fn each(study: &Study, tolerances: &[Tolerance]) -> Result<Vec<Self>> {
         let mut scatters: Vec<Self> = Vec::new();
         for tolerance in tolerances {
@@ -125,7 +125,7 @@ impl Scatter {
         Ok(scatters)
     }
 
-    /// A value.
+    /// Draws a value.
     fn draw(&self, rng: &mut ChaCha8Rng) -> f64 {
         let deviation: f64 = match self.shape {
             Shape::Uniform => 2.0 * rng.random::<f64>() - 1.0,
@@ -135,7 +135,7 @@ impl Scatter {
     }
 }
 
-/// One quantity with two tolerances, by the same path or by two.
+/// The error for one quantity with two tolerances, by the same path or by two.
 fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
     let shown = both.map(|tolerance| format!("\"{}\" = {}", tolerance.path, tolerance.shown()));
     let mut problem = Problem::new(format!(
@@ -153,7 +153,7 @@ fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
 }
 
 jred_machine::words! {
-    /// How a machine came out: the words of the column `verdict`.
+    /// Result for a machine: the words of the column `verdict`.
     pub enum Verdict {
         /// Every rule is satisfied.
         Holds = "holds",
@@ -166,7 +166,7 @@ jred_machine::words! {
     }
 }
 
-/// Machines that scatter about the one of the file.
+/// Machines that scatter about the machine of the file.
 #[derive(Debug)]
 pub struct Samples<'s> {
     /// Common data.
@@ -177,7 +177,7 @@ pub struct Samples<'s> {
     pub scatters: Vec<Scatter>,
     /// The rules that can be checked.
     pub rules: Vec<Rule>,
-    /// Those for which the nominal machine or the drive has no data.
+    /// The rules without data of the nominal machine or the drive.
     pub unknown: Vec<Rule>,
     /// Number of machines to draw.
     pub count: u64,
@@ -186,7 +186,7 @@ pub struct Samples<'s> {
 }
 
 impl<'s> Samples<'s> {
-    /// So many machines about the nominal one; the rules are those that can be checked for that.
+    /// `count` machines about the nominal one, with the rules that can be checked for the nominal machine.
     pub fn new(
         study: &'s Study,
         one: &'s ChosenDrive,

@@ -1,16 +1,16 @@
-//! The duty type of IEC 60034-1 that a cycle belongs to, by what the motor does in it.
+//! The duty type of a cycle by IEC 60034-1, from the operation of the motor in it.
 //!
-//! | type | the motor | told here by |
+//! | type | the motor | detected here by |
 //! |---|---|---|
 //! | S1 | constant load | torque and speed constant |
-//! | S2 | one run from cold | only stated, `[duty]` |
+//! | S2 | one run from cold | only if given in `[duty]` |
 //! | S3 | runs and rests; starts do not count thermally | rests; at most 5 % of ∫T² dt while it accelerates |
 //! | S4 | runs and rests; starts count | rests, no electric braking |
 //! | S5 | the same with electric braking | rests, power flows back |
-//! | S6 | runs on with and without load | speed constant, torque not |
+//! | S6 | runs continuously with and without load | speed constant, torque not |
 //! | S7 | starts, runs and brakes without rest | stops or reverses without rest, power flows back |
 //! | S8 | load and speed change without rest | the others |
-//! | S9 | load and speed change irregularly | only stated, `[duty]` |
+//! | S9 | load and speed change irregularly | only if given in `[duty]` |
 
 use std::fmt;
 
@@ -26,45 +26,45 @@ use crate::cycle::{Cycle, Sample};
 pub struct Features {
     /// Share of the time at standstill.
     pub rest: f64,
-    /// Starts from rest in a cycle, to more than a hundredth of the largest speed.
+    /// Starts from rest per cycle, to more than a hundredth of the largest speed.
     pub starts: u32,
-    /// Whether the motor turns power back.
+    /// Whether power flows back from the motor.
     pub braking: bool,
     /// Whether the speed is constant.
     pub constant_speed: bool,
     /// Whether the torque is constant.
     pub constant_torque: bool,
-    /// Whether it stops for an instant, or reverses.
+    /// Whether it stops for an instant or reverses.
     pub stops: bool,
     /// Share of the squared torque's integral that belongs to acceleration and deceleration.
     pub accelerating: f64,
 }
 
-/// The type, with what it follows from.
+/// The duty type and its reason.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DutyType {
     /// 1 to 9.
     pub number: u8,
-    /// Reason.
+    /// The features from which it follows.
     pub features: Features,
 }
 
 /// Largest variation of a value that counts as constant, as a share of its largest magnitude.
 const CONSTANT: f64 = 1e-3;
 
-/// A speed below this share of the largest is a stop for an instant.
+/// A speed below this share of the largest one is a momentary stop.
 const STOP: f64 = 1e-6;
 
-/// Energy that flows back below this share of the energy turned over is rounding.
+/// Share of the exchanged energy below which returned energy is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Share of the squared torque up to which starts do not count thermally.
 const NEGLIGIBLE: f64 = 0.05;
 
-/// The speed as a share of the largest that a start from rest must exceed: a curve through recorded rows swings around its rests.
+/// The speed, as a share of the largest one, that a start from rest must exceed: a curve through recorded rows oscillates around its rests.
 const START: f64 = 1e-2;
 
-/// How often the speeds of a cycle rise from rest, its end goes on with its beginning. From its fastest instant on: there it moves.
+/// Number of rises of the speed from rest in a periodic cycle, counted from its fastest instant, where it moves.
 fn starts(speeds: impl Iterator<Item = f64> + Clone) -> u32 {
     let sizes = speeds.map(f64::abs);
     let (first, largest) =

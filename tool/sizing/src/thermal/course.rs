@@ -1,4 +1,4 @@
-//! The losses over a cycle, and the temperatures that they lead to.
+//! The losses over a cycle, and the resulting temperatures.
 
 use super::network::{Change, Losses, Network, Rise};
 use jred_machine::model::operation::Operation;
@@ -8,10 +8,10 @@ use jred_machine::model::operation::Operation;
 pub struct Point {
     /// Time (s).
     pub t: f64,
-    /// Root of the copper loss (√W) with the winding at the temperature of the surroundings, with the sign of the torque. It
-    /// is proportional to the current, and runs in a straight line from one instant to the next.
+    /// Root of the copper loss (√W) with the winding at ambient temperature, with the sign of the torque. It is proportional to the current, and
+    /// linear from one instant to the next.
     pub root: f64,
-    /// Other losses (W); a straight line from one instant to the next.
+    /// Other losses (W), linear from one instant to the next.
     pub other: f64,
 }
 
@@ -27,14 +27,14 @@ pub struct Course {
 pub struct Piece {
     /// Its length (s).
     pub time: f64,
-    /// Copper loss (W) with the winding at the temperature of the surroundings.
+    /// Copper loss (W) with the winding at ambient temperature.
     pub copper: [f64; 3],
     /// Other losses (W).
     pub other: [f64; 3],
 }
 
 impl Piece {
-    /// From these moments ∫xᵏ·P dx of the copper loss and of the others, k = 0, 1, 2: mean, slope and bend are those of the losses.
+    /// A piece from these moments ∫xᵏ·P dx of the copper loss and of the others, k = 0, 1, 2: its mean, slope and curvature are those of the losses.
     pub fn of_moments(time: f64, copper: [f64; 3], other: [f64; 3]) -> Self {
         let parabola = |[mean, first, second]: [f64; 3]| {
             let bend = 180.0 * (second - mean / 12.0);
@@ -47,7 +47,7 @@ impl Piece {
         }
     }
 
-    /// From one point to another.
+    /// The piece from one point to another.
     fn straight(a: Point, b: Point) -> Self {
         let [middle, step] = [0.5 * (a.root + b.root), b.root - a.root];
         Self {
@@ -57,7 +57,7 @@ impl Piece {
         }
     }
 
-    /// What lies between two shares of its time, from 0 to 1.
+    /// The part between two shares of its time, from 0 to 1.
     fn between(&self, from: f64, to: f64) -> Self {
         let (middle, length) = (from.midpoint(to) - 0.5, to - from);
         let part = |[a, b, c]: [f64; 3]| {
@@ -87,9 +87,9 @@ impl Piece {
         varies(self.copper) || varies(self.other)
     }
 
-    /// Change of the rises by the piece: constant losses over one half and over the other, of which the means differ by two thirds of the slope. With
-    /// losses that vary that is of fourth order in the time (E. Celledoni, A. Marthinsen, B. Owren, Commutator-free Lie group methods, Future Generation
-    /// Computer Systems 19 (2003) 341).
+    /// Change of the rises by the piece. It uses constant losses over each half, whose means differ by two thirds of the slope. For varying losses
+    /// the method is of fourth order in time (E. Celledoni, A. Marthinsen, B. Owren, Commutator-free Lie group methods, Future Generation Computer
+    /// Systems 19 (2003) 341).
     fn change(&self, network: &Network) -> Change {
         let mean = self.mean();
         if !self.varies() {
@@ -107,24 +107,23 @@ impl Piece {
 /// The hottest rises above the surroundings (K).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hottest {
-    /// Of winding and housing; of the motor as a whole the first counts.
+    /// Of winding and housing; for a single body only the first.
     Rise(Rise),
-    /// There is no bound: the copper loss grows faster with the temperature than the heat that flows off.
+    /// Unbounded: the copper loss grows faster with the temperature than the heat flow to the surroundings.
     Runaway,
 }
 
-/// Longest part of a piece of changing losses, as a share of the network's fastest time constant: what is missed falls with its fourth power.
+/// Longest part of a piece of changing losses, as a share of the network's fastest time constant: the error falls with its fourth power.
 pub(super) const PART: f64 = 0.02;
 
 /// The most parts of one piece, or of one panel of the integrals.
 pub(super) const MOST_PARTS: f64 = 4096.0;
 
-/// Times the slowest time constant after which nothing is left of a rise.
+/// Multiple of the slowest time constant after which a rise has vanished.
 const COLD: f64 = 50.0;
 
 impl Course {
-    /// Losses at the instants of a cycle of `duration` (s), in order of time. The cycle closes from the last instant to its end with the last
-    /// instant's losses, and begins with the first one's.
+    /// Losses at the instants of a cycle of `duration` (s), in order of time. Before the first and after the last instant the losses are constant.
     pub fn new(points: &[Point], duration: f64) -> Self {
         let mut pieces = Vec::with_capacity(points.len() + 1);
         if let Some((first, last)) = points.first().zip(points.last()) {
@@ -143,12 +142,12 @@ impl Course {
         Self::of_pieces(pieces, duration)
     }
 
-    /// Of pieces one after the other.
+    /// A course of successive pieces.
     pub const fn of_pieces(pieces: Vec<Piece>, duration: f64) -> Self {
         Self { pieces, duration }
     }
 
-    /// The same with all torques in a proportion; other losses stay.
+    /// The same with all torques multiplied by a factor; other losses stay.
     #[must_use]
     pub fn scaled(&self, proportion: f64) -> Self {
         let square = proportion * proportion;
@@ -182,7 +181,7 @@ impl Course {
         let last = self.pieces.len().saturating_sub(1);
         for (k, piece) in self.pieces.iter().enumerate() {
             let next = t + piece.time;
-            // The sum of all is the cycle, but for roundings.
+            // The sum of all pieces is the cycle, except for rounding.
             if next > until && !(k == last && until >= self.duration) {
                 let share = (until - t) / piece.time;
                 if share > 0.0 {
@@ -195,7 +194,7 @@ impl Course {
         }
     }
 
-    /// Parts so short that the method holds.
+    /// Parts short enough for the method.
     fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(Piece)) {
         let longest = PART * network.fastest();
         self.up_to(until, |piece| {
@@ -225,7 +224,7 @@ impl Course {
         change
     }
 
-    /// The hottest rises of the cycle up to `until` (s), from these on, and those at its end.
+    /// The hottest rises of the cycle up to `until` (s), starting from these, and the rises at its end.
     pub fn follow(&self, network: &Network, from: Rise, until: f64) -> (Rise, Rise) {
         let (mut now, mut hottest) = (from, from);
         self.parts(network, until, |piece| {
@@ -237,7 +236,7 @@ impl Course {
         (hottest, now)
     }
 
-    /// The rises over one periodic cycle, at the ends of its pieces: time (s), winding, housing (K). `None`: runaway.
+    /// The rises over one periodic cycle, at the ends of its pieces: time (s), winding, housing (K); `None`: runaway.
     pub fn periodic(&self, network: &Network) -> Option<Vec<(f64, Rise)>> {
         let mut now = self.change(network, self.duration).periodic()?;
         let mut t = 0.0;
@@ -259,7 +258,7 @@ impl Course {
             }
             Operation::Short { operating } => {
                 let (hottest, end) = self.operating(network, [0.0; 2], operating);
-                // While all cools down the housing may still warm up.
+                // While everything cools down, the housing may still warm up.
                 let cold = COLD * network.slowest();
                 Some(after(network, Losses::default(), cold, end, hottest))
             }
@@ -287,15 +286,15 @@ impl Course {
         }
     }
 
-    /// Whole cycles in an operating time (s), and what is left of it.
+    /// Number of whole cycles in an operating time (s), and the remaining time.
     fn cycles(&self, operating: f64) -> (u64, f64) {
         let cycles = (operating / self.duration * (1.0 + 1e-12)).floor();
         let left = (operating - cycles * self.duration).max(0.0);
         (cycles as u64, left)
     }
 
-    /// The hottest rises of an operating time, and those at its end. From cycle to cycle a rise nears its periodic course with two exponentials of
-    /// which the slower does not change its sign, so the hottest cycle is the first one or the last.
+    /// The hottest rises of an operating time, and the rises at its end. From cycle to cycle a rise approaches its periodic course with two
+    /// exponentials, of which the slower does not change its sign, so the hottest cycle is the first or the last.
     fn operating(&self, network: &Network, start: Rise, operating: f64) -> (Rise, Rise) {
         let (cycles, left) = self.cycles(operating);
         let mut now = start;
@@ -313,7 +312,7 @@ impl Course {
     }
 }
 
-/// The hottest rises, a rest of `pause` (s) after `end` included.
+/// The hottest rises, including a rest of `pause` (s) after `end`.
 fn after(network: &Network, rest: Losses, pause: f64, end: Rise, hottest: Rise) -> Rise {
     let rested = network.change(rest, pause).of(end);
     most(hottest, network.hottest(rest, pause, end, rested))

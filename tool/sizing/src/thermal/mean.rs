@@ -1,11 +1,11 @@
 //! Mean losses over a cycle, for motors without time constants.
 //!
-//! The mean is the integral over the cycle, as that of the RMS torque is, also where it bends within a panel of the integral: where
-//! the S1 torque loses nothing to speed the relative model's mean is (T_rms/M₀)² to the last digits. Parts:
+//! The mean is the exact integral over the cycle, like that of the RMS torque, even where the losses bend within a panel. Where the S1 torque does
+//! not fall with speed, the relative model's mean is (T_rms/M₀)² to the last digits. Parts:
 //!
 //! - copper, and its share of the rated loss, from the RMS of torque or current ([`Cycle::rms_torque`], [`rms_current`]);
 //! - friction c·|n|‾ + b·n_rms²;
-//! - what the S1 torque loses to speed, max(0, 1 − (T_S1(n)/M₀)²), from the distribution of |n| over the cycle.
+//! - the loss of S1 torque with speed, max(0, 1 − (T_S1(n)/M₀)²), from the distribution of |n| over the cycle.
 
 use super::network::Losses;
 use super::{Load, Model};
@@ -15,9 +15,9 @@ use crate::cycle::speeds::Form;
 use crate::motor::envelope::{Envelope, Prepared, Segment};
 
 impl Model {
-    /// The mean losses (W; of the relative model as shares of the rated ones). Cost: that of a few square roots, and of the
-    /// relative model the logarithm of the number of instants for each line or hyperbola of the S1 torque. Instants where
-    /// the voltage line of a winding cuts the S1 torque off, and those of [`rms_current`], are looked at one by one.
+    /// The mean losses (W; in the relative model shares of the rated ones). Cost: a few square roots; in the relative model also the logarithm of the
+    /// number of instants for each line or hyperbola of the S1 torque. Instants where the voltage line of a winding limits the S1 torque, and those
+    /// of [`rms_current`], are evaluated one by one.
     pub fn mean_losses(&self, load: &Load) -> Losses {
         let Load {
             cycle,
@@ -47,8 +47,8 @@ impl Model {
     }
 }
 
-/// RMS current (A). Of a current that is proportional to the torque it is T_rms/k_t; instants at which the iron saturates add
-/// what they ask for beyond that. Where the field is weakened every instant is looked at. `None`: no torque constant.
+/// RMS current (A). For a current proportional to the torque it is T_rms/k_t; instants at which the iron saturates add the excess. With field
+/// weakening every instant is evaluated. `None` without a torque constant.
 pub fn rms_current(
     cycle: &Cycle,
     coefficients: &Coefficients,
@@ -109,7 +109,7 @@ fn lost_to_speed(cycle: &Cycle, ratio: f64, envelope: &Envelope, standstill: f64
         (1.0 - s1 * s1).max(0.0)
     };
     let sum = cycle.speeds().sum(on, at);
-    // Where the S1 torque bends within a panel.
+    // Panels in which the S1 torque bends.
     let open = cycle.at_speeds(&|speeds| on(speeds).is_none());
     let still = Coefficients([0.0; LOADS]);
     let bent = cycle.bent(&still, 1.0);

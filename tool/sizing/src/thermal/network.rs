@@ -6,19 +6,19 @@
 //! C·θ′     = P·(1 + g·θ) + Q − θ/R                       the motor as a whole
 //! ```
 //!
-//! θ are rises above the surroundings (K), P the copper loss (W) of a winding at the temperature of the surroundings, Q the
-//! other losses (W), g the growth of the copper's resistance per kelvin. τ_w = R_w·C_w, τ_h = R_h·C_h, τ = R·C. With constant
-//! P and Q the equations are linear, θ′ = A·θ + b, and θ(h) = θ(0) + M·(A·θ(0) + b) with M = ∫₀ʰ e^(A·s) ds.
+//! θ are rises above the surroundings (K), P the copper loss (W) with the winding at ambient temperature, Q the other losses (W), g the growth of the
+//! copper's resistance per kelvin. τ_w = R_w·C_w, τ_h = R_h·C_h, τ = R·C. With constant P and Q the equations are linear, θ′ = A·θ + b, and θ(h) =
+//! θ(0) + M·(A·θ(0) + b) with M = ∫₀ʰ e^(A·s) ds.
 
-/// Rises above the surroundings (K): winding, housing. Of the motor as a whole only the first counts.
+/// Rises above the surroundings (K): winding, housing. For a single body only the first is used.
 pub type Rise = [f64; 2];
 
 type Matrix = [[f64; 2]; 2];
 
-/// Losses that are constant for a while (W).
+/// Losses that are constant over a time (W).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Losses {
-    /// Copper loss with the winding at the temperature of the surroundings.
+    /// Copper loss with the winding at ambient temperature.
     pub copper: f64,
     /// Other losses: friction. They heat the housing.
     pub other: f64,
@@ -27,7 +27,7 @@ pub struct Losses {
 /// The heated bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bodies {
-    /// The motor as a whole: resistance to the surroundings (K/W), capacity (W·s/K).
+    /// The motor as one body: resistance to the surroundings (K/W), capacity (W·s/K).
     One([f64; 2]),
     /// Winding and housing: resistance from winding to housing and from housing to the surroundings, capacities.
     Two([f64; 4]),
@@ -40,7 +40,7 @@ pub struct Network {
     growth: f64,
 }
 
-/// θ ↦ θ + D·θ + g: what a stretch of time does to the rises. D, not I + D, is kept, so that short times lose no digits.
+/// θ ↦ θ + D·θ + g: effect of a stretch of time on the rises. D is stored, not I + D, so that short times lose no digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Change {
     matrix: Matrix,
@@ -72,7 +72,7 @@ impl Network {
         }
     }
 
-    /// Whether winding and housing are apart.
+    /// Whether winding and housing are separate bodies.
     pub const fn has_housing(&self) -> bool {
         matches!(self.bodies, Bodies::Two(_))
     }
@@ -85,7 +85,7 @@ impl Network {
         }
     }
 
-    /// No shorter than the longest time constant without losses (s): the sum of both.
+    /// An upper bound of the longest time constant without losses (s): the sum of both.
     pub fn slowest(&self) -> f64 {
         match self.bodies {
             Bodies::One([r, c]) => r * c,
@@ -120,8 +120,8 @@ impl Network {
         }
     }
 
-    /// The hottest rises on the way through `time` (s) of constant losses, which begins with `from` and ends with `to`. A
-    /// rise is a sum of two exponentials, with one extreme at most.
+    /// The hottest rises during `time` (s) of constant losses, starting `from` and ending with `to`. A rise is a sum of two exponentials, with at
+    /// most one extreme.
     pub fn hottest(&self, losses: Losses, time: f64, from: Rise, to: Rise) -> Rise {
         let linear = self.linear(losses);
         let slope = |x: Rise| {
@@ -149,8 +149,8 @@ impl Network {
     }
 }
 
-/// Steady rises \[winding, housing\] at constant losses behind the thermal resistances \[winding to housing, housing to
-/// surroundings\]: θ_w = (R_w + R_h)·P·(1 + g·θ_w) + R_h·Q. `None`: there is no steady state.
+/// Steady rises \[winding, housing\] at constant losses behind the thermal resistances \[winding to housing, housing to surroundings\]: θ_w = (R_w +
+/// R_h)·P·(1 + g·θ_w) + R_h·Q; `None` without a steady state.
 pub fn steady([rw, rh]: [f64; 2], losses: Losses, growth: f64) -> Option<Rise> {
     let left = 1.0 - growth * losses.copper * (rw + rh);
     if left <= 0.0 {
@@ -162,7 +162,7 @@ pub fn steady([rw, rh]: [f64; 2], losses: Losses, growth: f64) -> Option<Rise> {
 }
 
 impl Linear {
-    /// The eigenvalues of A, the larger first. They are real: the two bodies heat each other.
+    /// The eigenvalues of A, the larger first. They are real, because the two bodies heat each other.
     fn eigenvalues(&self) -> [f64; 2] {
         let [[a, b], [c, d]] = self.a;
         let middle = 0.5 * (a + d);
@@ -172,7 +172,7 @@ impl Linear {
 
     /// M = ∫₀ʰ e^(A·s) ds.
     fn integral(&self, h: f64) -> Matrix {
-        // Below this the power series needs seven terms for every digit.
+        // Below this, seven terms of the power series give full precision.
         const SHORT: f64 = 0.02;
         let [[a, b], [c, d]] = self.a;
         let size = (a.abs() + b.abs()).max(c.abs() + d.abs()) * h;
@@ -237,9 +237,8 @@ impl Change {
         result
     }
 
-    /// The rises that come back after it, if repeating it leads there: −D⁻¹·g. `None`: the largest eigenvalue of I + D is
-    /// one or more, and the motor heats up without end. Both matrices have no negative element off their diagonal, so that
-    /// eigenvalue is real.
+    /// The rises that repeat after it, if repeating it converges: −D⁻¹·g. `None` if the largest eigenvalue of I + D is one or more, so that the motor
+    /// heats up without end. Both matrices have no negative element off their diagonal, so this eigenvalue is real.
     pub fn periodic(&self) -> Option<Rise> {
         let [[a, b], [c, d]] = self.matrix;
         if d == 0.0 && b == 0.0 && c == 0.0 {

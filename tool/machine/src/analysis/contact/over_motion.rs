@@ -12,7 +12,7 @@ use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 use crate::number::numerics;
 
-/// Samples of the drive link's range, a turn or its stroke, and fewest of a stretch of the motion between edges.
+/// Samples of the drive link's range (a turn or its stroke), and the least number for a stretch of the motion between edges.
 const SAMPLES: f64 = 1440.0;
 const FEWEST: f64 = 128.0;
 
@@ -24,16 +24,16 @@ const MOST: f64 = 60_000.0;
 pub struct Lost {
     /// The contact.
     pub joint: OneWay,
-    /// When its force is least (s).
+    /// Time of its least force (s).
     pub t: f64,
-    /// That instant in words.
+    /// Description of that instant.
     pub parted: Parted,
 }
 
-/// The first contact that a motion does not keep, where its force is least.
+/// The first contact that a motion loses, at its least force.
 ///
 /// # Errors
-/// Those of the machine.
+/// Errors of the machine.
 pub fn lost(file: &MachineFile, motion: &Motion) -> Result<Option<Lost>, Error> {
     for joint in OneWay::all(file.machine.mechanism()) {
         let (t, least) = least(file, motion, joint)?;
@@ -50,7 +50,7 @@ pub fn lost(file: &MachineFile, motion: &Motion) -> Result<Option<Lost>, Error> 
 
 /// The time of the smallest force, and the force.
 fn least(file: &MachineFile, motion: &Motion, joint: OneWay) -> Result<(f64, f64), Error> {
-    // A dwell asks for the same state at every sample.
+    // In a dwell the state is the same at every sample.
     let last: Cell<Option<(usize, [f64; 3], f64)>> = Cell::new(None);
     let force = |t: f64| {
         let state = motion.at(t);
@@ -68,7 +68,7 @@ fn least(file: &MachineFile, motion: &Motion, joint: OneWay) -> Result<(f64, f64
         last.set(Some((number, state, force)));
         Ok(force)
     };
-    // The pull of a rope goes with the motion alone, unless a load has edges or a table.
+    // The pull of a rope is as smooth as the motion, unless a load has edges or a table.
     let moved = file.machine.mechanism();
     let tables = moved.own_links() < moved.links().len();
     let smooth = joint.rope && !tables && !file.schedule.flows() && file.machine.edge(0).is_none();
@@ -76,7 +76,7 @@ fn least(file: &MachineFile, motion: &Motion, joint: OneWay) -> Result<(f64, f64
     smallest(file, motion, samples, force)
 }
 
-/// The time of the smallest force, and the force; looked for at so many places of the drive link's range.
+/// The time of the smallest force, and the force; searched at `count` places of the drive link's range.
 fn smallest(
     file: &MachineFile,
     motion: &Motion,
@@ -88,7 +88,7 @@ fn smallest(
     for (from, to) in smooth_stretches(file, motion) {
         let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
         let count = (samples * share).ceil().clamp(FEWEST, MOST);
-        // Between stretches the acceleration may jump: a hair inside.
+        // The acceleration may jump between stretches, so the ends are moved inside.
         let hair = 1e-9 * (to - from);
         let last = (to - hair).min(to.next_down()).max(from);
         let at = |share: f64| (from + share * (to - from)).max(from + hair).min(last);

@@ -1,4 +1,4 @@
-//! Why there is no duty.
+//! Why no duty can be computed.
 
 use std::fmt;
 
@@ -6,32 +6,32 @@ use jred::Error;
 
 use crate::number::rounding::short;
 
-/// A larger error that may be proposed.
+/// Largest error that a message proposes.
 const LARGER: f64 = 1e-6;
 
-/// A duty whose error is not known to be small enough is no duty.
+/// Why a duty is rejected: its error must be known to be small enough.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
     /// An error of the machine.
     Machine(Error),
     /// The integrals need more instants than fit into memory.
     Fine {
-        /// Up to where they were found (s).
+        /// Time up to which they were computed (s).
         until: f64,
         /// The length of the motion (s).
         duration: f64,
         /// The tolerance.
         tolerance: f64,
-        /// The most instants.
+        /// Largest number of instants.
         most: usize,
         /// Whether the turns alone need them, at any tolerance.
         of_turns: bool,
     },
-    /// The integrals do not reach the tolerance, however small the steps.
+    /// The integrals do not reach the tolerance, even with the smallest steps.
     Rough {
         /// The stretch of time with the largest error (s).
         span: [f64; 2],
-        /// The error that was reached, as a share of the quantity.
+        /// The error reached, as a share of the quantity.
         reached: f64,
         /// The tolerance.
         tolerance: f64,
@@ -40,9 +40,9 @@ pub enum Fault {
     Unbalanced {
         /// Work at the input of the drive train (J).
         work: f64,
-        /// What becomes of it (J).
+        /// Change of energy, loads and losses (J).
         spent: f64,
-        /// What the energy differs by, as a share of the energy that is moved.
+        /// The difference, as a share of the exchanged energy.
         share: f64,
         /// The stretch of time with the largest difference (s).
         span: [f64; 2],
@@ -56,7 +56,7 @@ impl<E: Into<Error>> From<E> for Fault {
 }
 
 impl Fault {
-    /// What to do about it; empty where nothing can be advised.
+    /// The cure; empty for errors without one.
     pub fn cure(&self) -> String {
         match self {
             Self::Machine(error) => error.cure().to_string(),

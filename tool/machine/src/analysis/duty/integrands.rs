@@ -1,7 +1,7 @@
-//! What is integrated over a panel, and the errors of it.
+//! The integrands over a panel, and the errors of their integrals.
 //!
-//! The integrands are the quantities that every later sum consists of: torque, speed, acceleration and inertia at the input and their products in
-//! pairs, power and its square, the cubic mean torque's |n|·|T|³, losses, and the powers of the energy balance.
+//! The integrands are the quantities of which all later sums consist: torque, speed, acceleration and inertia at the input and their products in
+//! pairs, power and its square, |n|·|T|³ for the cubic mean torque, losses, and the powers of the energy balance.
 
 use super::moving::Evaluated;
 use crate::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
@@ -9,35 +9,35 @@ use crate::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
 /// Number of integrands.
 pub(super) const COUNT: usize = 18;
 
-/// Place of the torque at the input.
+/// Index of the torque at the input.
 const TORQUE: usize = 0;
 
-/// Places of those of the energy balance.
+/// Indices of the energy balance.
 const WORK: usize = 4;
 const LOSS: usize = 13;
 const GAIN: usize = 14;
 const FRICTION: usize = 16;
 const PROCESS: usize = 17;
 
-/// Roundings of a torque, as a share of the sum of its terms' magnitudes.
+/// Rounding of a torque, as a share of the sum of its terms' magnitudes.
 const ROUNDING: f64 = 1e-13;
 
-/// How many roundings of the time, as a share of half the panel, the curve through the places may be off at the ends, as a share of the torque.
+/// Allowed error at the ends of the curve through the places, in rounding errors of the time relative to half the panel, as a share of the torque.
 const TO_THE_ENDS: f64 = 64.0;
 
-/// Share of the tolerance up to which an error that is that share of the terms' magnitudes counts as a rounding: where the terms nearly cancel, what is
-/// left of them is known no better.
+/// Share of the tolerance, relative to the terms' magnitudes, below which an error counts as rounding: where the terms nearly cancel, their sum is
+/// known no better.
 const OF_TERMS: f64 = 0.01;
 
-/// Share of the tolerance of a whole integral that one panel may add, where its curve jumps unseen, and what all may add so.
+/// Shares of the tolerance of a whole integral that one panel, and all panels together, may add by an undetected jump.
 const OF_WHOLE: [f64; 2] = [1e-3, 2.0];
 
-/// The share of a whole integral that each of so many panels counts as having at least.
+/// The least share of the whole integral that is assigned to each of this many panels.
 pub(super) fn of_whole(panels: usize) -> f64 {
     OF_WHOLE[0].min(OF_WHOLE[1] / panels as f64)
 }
 
-/// The integrands at an instant, and their roundings.
+/// The integrands at an instant, and their rounding errors.
 pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
     let Evaluated {
         instant,
@@ -87,27 +87,27 @@ pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
     integrals: [Estimate; COUNT],
-    /// What they would be if the terms of the torque did not cancel.
+    /// Their values if the terms of the torque did not cancel.
     terms: [f64; COUNT],
 }
 
-/// What is allowed of a panel.
+/// Allowed errors of a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowed<'s> {
     pub(super) tolerance: f64,
-    /// ∫|f| of each integrand over the motion, about.
+    /// Approximate ∫|f| of each integrand over the motion.
     pub(super) sizes: &'s [f64; COUNT],
     /// The panel's share of the time.
     pub(super) share: f64,
-    /// The share of the whole integral that it counts as having at least: see [`of_whole`].
+    /// The least share of the whole integral that is assigned to it: see [`of_whole`].
     pub(super) of_whole: f64,
-    /// The largest torque at the input; `None` where smaller panels have brought the curve no nearer to it.
+    /// The largest torque at the input; `None` if smaller panels have not improved the curve.
     pub(super) largest: Option<f64>,
 }
 
 impl Sums {
-    /// Over a panel of half the length `half` (s), evaluated at the places of a rule; and the largest error as a share of what is allowed, and of the integral by
-    /// the time.
+    /// The sums over a panel of half the length `half` (s), evaluated at the places of a rule. Also the largest error divided by the allowed one, and
+    /// divided by the panel's share of the integral.
     pub(super) fn over(
         rule: &Rule,
         places: &[Evaluated],
@@ -139,13 +139,13 @@ impl Sums {
                     let x = (end.instant.t - middle) / half;
                     (rule.at(values, x) - end.instant.input_torque).abs()
                 });
-                // Towards the ends the curve through the places makes more of the roundings of their times.
+                // Towards the ends the curve through the places amplifies rounding of the times.
                 let most = values
                     .iter()
                     .fold(0.0f64, |most, value| most.max(value.abs()));
                 let rounding = TO_THE_ENDS * f64::EPSILON * middle.abs() / half * most;
                 let off = (off[0] + off[1] - rounding).max(0.0);
-                // A peak lies between the places; what is left where the terms cancel is known no better than for the integrals.
+                // A peak may lie between the places. Where the terms cancel, their sum is known no better than for the integrals.
                 let known = ROUNDING.max(OF_TERMS * allowed.tolerance);
                 let known = ends.map(|end| known * end.magnitude);
                 if let Some(largest) = allowed.largest {
@@ -159,7 +159,7 @@ impl Sums {
             } else {
                 0.0
             };
-            // A kink between the last place and the end, which neither rule sees.
+            // A kink between the last place and the end, which neither rule detects.
             let beyond = 0.5 * (1.0 - rule.places()[places.len() - 1]) * beyond;
             let [error, size] = [half * (error + beyond), half * size];
             let whole = allowed.sizes[j] * allowed.share.max(allowed.of_whole);
@@ -168,7 +168,7 @@ impl Sums {
             let most = (0.5 * allowed.tolerance * size.max(whole)).max(rounding);
             if error > 0.0 {
                 excess = excess.max(error / most);
-                // By the time alone: there halving makes no rounding smaller.
+                // Relative to the share by time: halving does not reduce rounding there.
                 if error > most {
                     let even = size.max(allowed.sizes[j] * allowed.share);
                     rough = rough.max(error / even);
@@ -212,13 +212,13 @@ impl Sums {
         shares.fold(0.0, f64::max)
     }
 
-    /// Work at the input, and what loads and losses take of it (J).
+    /// Work at the input, and the part of loads and losses (J).
     pub(super) fn work(&self) -> [f64; 2] {
         let of = |j: usize| self.integrals[j].integral;
         [of(WORK), of(LOSS) + of(FRICTION) + of(PROCESS)]
     }
 
-    /// The energy that is moved to and fro (J).
+    /// The exchanged energy (J).
     pub(super) fn moved(&self) -> f64 {
         [WORK, LOSS, GAIN, GAIN + 1, FRICTION, PROCESS]
             .into_iter()

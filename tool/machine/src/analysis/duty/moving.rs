@@ -11,27 +11,27 @@ use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::Now;
 
-/// Share of a stretch after which a move that begins from rest has a speed; at its start it has this share of that speed at most.
+/// Share of a stretch at which a move from rest counts as moving; at its start it has at most this share of that speed.
 const SLIGHTLY: f64 = 1e-3;
 
-/// The machine in its motion. A dwell asks for one position at every step of time: the last one is kept.
+/// The machine in its motion. A dwell requests one position at every time step, so the last one is cached.
 pub(super) struct Moving<'a> {
     pub(super) file: &'a MachineFile,
     pub(super) motion: &'a Motion,
     last: Option<(f64, usize, Reduction)>,
 }
 
-/// An instant, with what only its integrals need.
+/// An instant, with additional data for its integrals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Evaluated {
     pub(super) instant: Instant,
-    /// Power lost in the drive train, friction of its branches included (W).
+    /// Power lost in the drive train, including friction of its branches (W).
     pub(super) loss: f64,
-    /// The magnitudes of the terms of the torque at the input together (N·m): it is rounded by a share of them.
+    /// Sum of the magnitudes of the torque's terms at the input (N·m), the scale of its rounding.
     pub(super) magnitude: f64,
     /// Speed of the input per speed of the drive link.
     pub(super) ratio: f64,
-    /// Kinetic and potential energy, that of the drive train included (J).
+    /// Kinetic and potential energy, including the drive train (J).
     pub(super) energy: f64,
 }
 
@@ -44,8 +44,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// The reduced link, and the torque with which carriages resist by their motion along their guides, which is not among its process
-    /// loads.
+    /// The reduction, and the torque of carriages from their motion along their guides, which is not a process load.
     fn parts(&mut self, now: &Now, phi: f64) -> Result<(Reduction, f64), Error> {
         if !self.file.schedule.flows() {
             return Ok((self.reduction(now, phi)?, 0.0));
@@ -68,7 +67,7 @@ impl<'a> Moving<'a> {
         Ok(reduction)
     }
 
-    /// The direction of the move that begins from rest with this stretch, if static friction has to be overcome there.
+    /// The direction of the move that begins from rest with this stretch, if it must overcome static friction.
     pub(super) fn starts(&self, [from, to]: [f64; 2]) -> Option<f64> {
         if !self.file.schedule.has_static_friction() {
             return None;
@@ -87,7 +86,7 @@ impl<'a> Moving<'a> {
         Ok(self.with(t, state, &reduction, terms))
     }
 
-    /// The moment before a move in this `direction` begins from rest: static friction, without acceleration. It has no weight.
+    /// The moment before a move in this `direction` begins from rest: with static friction, without acceleration. It has no weight.
     pub(super) fn breakaway(&mut self, t: f64, direction: f64) -> Result<Instant, Error> {
         let state = State {
             omega: 0.0,
@@ -150,14 +149,14 @@ impl<'a> Moving<'a> {
 }
 
 impl Instant {
-    /// The same with a drive train that is about to move in this direction, which decides on the side of its losses.
+    /// The same with a drive train about to move in this direction, which selects its losses.
     fn towards(mut self, train: &DriveTrain, direction: f64) -> Self {
         self.direction = direction;
         self.input_torque = train.input(&self.output()).torque;
         self
     }
 
-    /// What the drive train must deliver.
+    /// The required output of the drive train.
     pub(super) fn output(&self) -> TrainOutput {
         TrainOutput {
             torque: self.terms.total(),

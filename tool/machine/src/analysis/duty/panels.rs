@@ -1,8 +1,8 @@
-//! The instants of a motion: those of Gauss and Kronrod's rule on panels that are halved until the errors of all integrals are known to be small.
+//! The instants of a motion: Gauss-Kronrod places on panels that are halved until the errors of all integrals are known to be small.
 //!
-//! A smooth stretch of the motion begins with panels that hold about as many instants as steps are asked for, and some for each turn. A panel in
-//! which the power through a stage with losses, or at the input, changes its sign is cut there. One that holds rows of a recorded motion is cut
-//! at a row, until it holds none.
+//! A smooth stretch of the motion starts with panels for about the requested number of instants, and some for each turn. A panel in which the power
+//! through a stage with losses, or at the input, changes sign is cut there. A panel that contains rows of a recorded motion is cut at a row until it
+//! contains no row.
 
 mod signs;
 mod stretch;
@@ -17,39 +17,38 @@ use crate::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
 use signs::UNSIGNED;
 use stretch::{Stretch, near_whole};
 
-/// Most instants of a duty: with what is made of them they take 200 bytes each.
+/// Most instants of a duty; with derived data they take 200 bytes each.
 pub const MOST_INSTANTS: usize = 4_000_000;
 
-/// Panels of a turn at the beginning, and of one among very many.
+/// Initial panels per turn: with very many turns, and otherwise.
 const OF_TURN: [f64; 2] = [2.0, 8.0];
 
-/// As long as there are no more instants for the turns than this, they have the larger number.
+/// Number of instants up to which the turns get the larger number.
 const FOR_TURNS: f64 = 1e6;
 
-/// Most panels that are looked at for the size of the integrals.
+/// Most panels that are evaluated for the size of the integrals.
 const LOOKED_AT: usize = 256;
 
 /// Most cuts of a panel at changes of sign; with more it is halved first.
 const MOST_CUTS: usize = 16;
 
-/// A halving that leaves a larger share of the error than this does little: over a smooth part it leaves a thousandth, at
-/// a kink half.
+/// A halving that leaves a larger share of the error than this is ineffective: over a smooth part it leaves a thousandth, at a kink half.
 const LITTLE: f64 = 0.7;
 
-/// After so many halvings that do little an error up to this share is one of roundings, which smaller panels do not make smaller.
+/// After this number of ineffective halvings, an error up to this share counts as rounding, which smaller panels do not reduce.
 const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
 
-/// Roundings of the time that an error of roundings may be as large as.
+/// Largest error by rounding of the times, in rounding errors.
 const TIMES: f64 = 4.0;
 
-/// Halvings of a panel at most.
+/// Most halvings of a panel.
 const DEEPEST: u32 = 60;
 
-/// The sum of the errors of all panels may be larger than the tolerance by this factor: each estimate is cautious.
+/// Factor by which the sum of all panels' errors may exceed the tolerance, because each estimate is cautious.
 const MOST_OF_TOLERANCE: f64 = 4.0;
 
-/// Share of the energy that is moved by which it may not balance. Positions, speeds and accelerations of rows that were rounded when they were written
-/// belong together to some digits only; those of a law do but for roundings.
+/// Allowed imbalance as a share of the exchanged energy. Rounded positions, speeds and accelerations of recorded rows match only to some digits;
+/// those of a law match except for rounding.
 const OF_ROWS: f64 = 1e-3;
 const OF_LAWS: f64 = 1e-7;
 
@@ -58,18 +57,18 @@ const OF_LAWS: f64 = 1e-7;
 struct End {
     t: f64,
     now: Evaluated,
-    /// Whether a torque is zero there: then its sign is a rounding.
+    /// Whether a torque is zero there, so that its sign is rounding.
     is_zero: bool,
 }
 
-/// How a panel came about.
+/// History of a panel.
 #[derive(Clone, Copy)]
 struct Way {
     /// Halvings.
     depth: u32,
-    /// The last ones of them that made the error little smaller.
+    /// Number of the last halvings that hardly reduced the error.
     idle: u32,
-    /// The error as a share of the integral by the time.
+    /// The error as a share of the integral by time.
     error: f64,
 }
 
@@ -94,7 +93,7 @@ impl Way {
     }
 }
 
-/// The duty in the making.
+/// The duty under construction.
 pub(super) struct Panels<'a, 'm> {
     moving: &'a mut Moving<'m>,
     tolerance: f64,
@@ -102,14 +101,14 @@ pub(super) struct Panels<'a, 'm> {
     pub(super) instants: Vec<Instant>,
     pub(super) smooth: Smooth,
     sizes: [f64; COUNT],
-    /// The largest torque of each flow of power.
+    /// The largest torque of each power flow.
     flows: Vec<f64>,
     /// The largest torque at the input.
     largest: f64,
     most_parts: f64,
     of_whole: f64,
     pub(super) sums: Sums,
-    /// The panel with the largest error, and that.
+    /// The panel with the largest error, and the error.
     worst: ([f64; 2], f64),
     /// Gain of energy (J).
     gain: f64,
@@ -118,7 +117,7 @@ pub(super) struct Panels<'a, 'm> {
 }
 
 impl<'a, 'm> Panels<'a, 'm> {
-    /// The instants of a motion whose smooth stretches these are.
+    /// The instants of a motion with these smooth stretches.
     pub(super) fn new(
         moving: &'a mut Moving<'m>,
         stretches: &[(f64, f64)],
@@ -144,7 +143,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 let (from, to) = *stretch;
                 let by_time = sampling.steps as f64 / 15.0 * (to - from) / duration;
                 let count = if *turns > 1.0 {
-                    // The same ones in each turn: at a constant speed one turn is then like another.
+                    // The same panels in each turn: at constant speed all turns are then alike.
                     near_whole(turns * (by_time / turns).max(of_turn).ceil())
                 } else {
                     by_time.max(turns * of_turn).ceil().max(1.0)
@@ -180,7 +179,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(panels)
     }
 
-    /// The sizes of the integrals and the largest torques, about.
+    /// Approximate sizes of the integrals, and the largest torques.
     fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), Fault> {
         let stride = count.div_ceil(LOOKED_AT);
         let mut number = 0;
@@ -213,7 +212,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             *most = if *most < UNSIGNED * noise {
                 f64::INFINITY
             } else {
-                // Nor is the sign of less than the roundings of its terms one.
+                // A torque below the rounding of its terms has no sign either.
                 most.max(noise)
             };
         }
@@ -252,7 +251,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 self.unbalanced = (span, off.abs());
             }
         } else {
-            // What creeps below the speed that counts as standstill does no work.
+            // Creeping below the standstill speed does no work.
             let [work, spent] = self.sums.work();
             let [work_before, spent_before] = before.work();
             self.gain += (work - work_before) - (spent - spent_before);
@@ -272,7 +271,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         for (place, x) in places.iter_mut().zip(rule.places()) {
             *place = self.moving.at(stretch.clamp(middle + half * x))?;
         }
-        // Where a move comes to rest the sign of the speed is a rounding for about that time.
+        // Where a move comes to rest the sign of the speed is rounding for about this time.
         let shortest = INSIDE * (stretch.to - stretch.from);
         let is_short = half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || way.depth > DEEPEST;
         if stretch.moves && !is_short {
@@ -376,7 +375,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 
-    /// Whether the errors are as small as asked for, and the energy balances.
+    /// Whether the errors are within the tolerance and the energy balances.
     fn judge(&self) -> Result<(), Fault> {
         let reached = self.sums.reached();
         if reached > MOST_OF_TOLERANCE * self.tolerance {
@@ -394,7 +393,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         } else {
             0.0
         };
-        // Carriages bring energy of their own.
+        // Carriages bring their own energy.
         let is_whole = !self.moving.file.schedule.flows();
         let most = if self.moving.motion.is_recorded() {
             OF_ROWS

@@ -1,4 +1,4 @@
-//! Instants between those of the time steps: where the torque bends sharply, and at extremes.
+//! Instants between the time steps: where the torque bends sharply, and at extremes.
 
 use jred::Error;
 
@@ -6,23 +6,23 @@ use super::moving::Moving;
 use super::{Instant, Smooth};
 use crate::number::parabola;
 
-/// Share of the largest input torque by which the straight line between two instants may miss a peak.
+/// Share of the largest input torque by which linear interpolation between two instants may miss a peak.
 const MISSED: f64 = 1e-5;
 
-/// Most parts of a step where the torque bends sharply.
+/// Most parts of a step at a sharp bend of the torque.
 const MOST_PARTS: f64 = 64.0;
 
-/// As long as there are no more instants than this, a step where the torque bends may have all its parts. Beyond, peaks between the instants are
-/// those of the polynomial through them.
+/// Up to this number of instants a step with a bend may have all its parts. Beyond it, peaks between the instants come from the polynomial through
+/// them.
 const MANY: f64 = 200_000.0;
 
-/// Most parts of a step of about so many.
+/// Most parts of a step, for about `count` instants.
 pub(super) fn most_parts(count: usize) -> f64 {
     (MANY / count as f64).clamp(1.0, MOST_PARTS)
 }
 
-/// In how many parts each step between instants, their times and torques, is cut. Between instants at a distance h any peak stands out by at most
-/// T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+/// Number of parts for each step between instants, from their times and torques. Between instants at a distance h any peak stands out by at most
+/// T″·h²/8; a motor's own inertia, which bends little, hardly changes that.
 pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32> {
     let bend = |three: &[(f64, f64)]| {
         let [x, y, z] = three else {
@@ -30,14 +30,14 @@ pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32>
         };
         let slope = |a: &(f64, f64), b: &(f64, f64)| (b.1 - a.1) / (b.0 - a.0);
         let bend = 2.0 * ((slope(y, z) - slope(x, y)) / (z.0 - x.0)).abs();
-        // Two instants at one time bend nothing.
+        // Two instants at one time have no bend.
         if bend.is_finite() { bend } else { 0.0 }
     };
     let of_step = |k: usize| {
         let bends = torques[k.saturating_sub(1)..].windows(3).take(2).map(bend);
         let step = torques[k + 1].0 - torques[k].0;
         let missed = bends.fold(0.0, f64::max) * step * step / 8.0;
-        // A motion without torque misses nothing.
+        // A motion without torque misses no peak.
         if missed > MISSED * largest {
             (missed / (MISSED * largest)).sqrt().ceil().min(most) as u32
         } else {
@@ -47,7 +47,7 @@ pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32>
     (0..torques.len().saturating_sub(1)).map(of_step).collect()
 }
 
-/// Inserts instants of zero weight at the extremes of what no motor changes, each where it is between the instants.
+/// Inserts instants of zero weight at the extremes of quantities that do not depend on the motor, where they lie between the instants.
 pub(super) fn insert_extremes(
     moving: &mut Moving,
     instants: &mut Vec<Instant>,

@@ -1,34 +1,34 @@
-//! Between the instants of a duty: over a panel a quantity is the polynomial through its weighed instants.
+//! Between the instants of a duty: over a panel a quantity is the polynomial through its weighted instants.
 
 use std::ops::Range;
 
 use crate::number::quadrature::kronrod::{MOST_PLACES, Rule};
 
-/// The most by which a quantity between two instants may be larger than at them, as a share of it: a polynomial that rises higher is none of a
-/// smooth curve (noise, a corner), and the instant stands.
+/// Largest rise of a quantity between two instants above them, as a share of it. A polynomial that rises more does not follow a smooth curve (noise,
+/// a corner); then the value at the instant is used.
 pub const MOST_RAISED: f64 = 0.01;
 
 /// Steps of the search for a peak.
 const STEPS: u32 = 40;
 
-/// Where the smooth stretches of a duty begin, and the panels of the integrals. Without any, nothing is known between the instants.
+/// Starts of the smooth stretches of a duty, and of the panels of the integrals. Without them nothing is known between the instants.
 #[derive(Clone, Debug, Default)]
 pub struct Smooth {
     /// Index of the first instant of each stretch.
     firsts: Vec<u32>,
     /// Index of the first instant of each panel.
     panels: Vec<u32>,
-    /// Whether instants were left out: between those that are left nothing is known of a peak.
+    /// Whether instants were omitted: then peaks between the remaining ones are unknown.
     is_outline: bool,
 }
 
 impl Smooth {
-    /// A stretch begins with the instant `first`, which is not before the last one that began.
+    /// Begins a stretch with the instant `first`, which is not before the start of the last one.
     pub fn begin(&mut self, first: usize) {
         self.firsts.push(first as u32);
     }
 
-    /// A panel begins with the instant `first`; the first one of a stretch with that.
+    /// Begins a panel with the instant `first`; the first panel of a stretch begins with the stretch.
     pub(super) fn panel(&mut self, first: usize) {
         let stretch = self.firsts.last().copied().unwrap_or(0);
         let begun = self.panels.last().is_some_and(|last| *last >= stretch);
@@ -36,7 +36,7 @@ impl Smooth {
         self.panels.push(first);
     }
 
-    /// One instant more lies before the instant `k`, in the same stretch.
+    /// Records an instant inserted before the instant `k`, in the same stretch.
     pub(super) fn insert(&mut self, k: usize) {
         for firsts in [&mut self.firsts, &mut self.panels] {
             for first in firsts {
@@ -45,7 +45,7 @@ impl Smooth {
         }
     }
 
-    /// That of some of the instants, in order, among them all that have a weight.
+    /// The same for some of the instants, in order, which include all with a weight.
     #[must_use]
     pub fn among(&self, kept: &[usize]) -> Self {
         let place = |first: &u32| kept.partition_point(|k| *k < *first as usize) as u32;
@@ -66,7 +66,7 @@ impl Smooth {
         group(&self.firsts, k, count)
     }
 
-    /// The instants of the panel of the instant `k` of `count`: those with weights are the places of a rule.
+    /// The instants of the panel that contains the instant `k` of `count`; those with weights are the places of a rule.
     pub fn panel_of(&self, k: usize, count: usize) -> Option<Range<usize>> {
         let panel = group(&self.panels, k, count)?;
         let stretch = self.stretch(k, count)?;
@@ -74,7 +74,7 @@ impl Smooth {
         (!panel.is_empty()).then_some(panel)
     }
 
-    /// The instants of the panels on whose curve the instant `k` of `count` lies: its own, and the next one if it is where that begins.
+    /// The instants of the panels whose curve contains the instant `k` of `count`: its own panel, and the next one if it begins there.
     pub fn panels_beside(&self, k: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
         let next = self.panel_of(k + 1, count);
         let next = next.filter(|range| range.start == k + 1);
@@ -87,7 +87,7 @@ impl Smooth {
         firsts.filter_map(move |&first| self.panel_of(first as usize, count))
     }
 
-    /// The instant `k` and its neighbours in its stretch, in order; at an end of the stretch the two next to it.
+    /// The instant `k` and its neighbours in its stretch, in order; at an end of the stretch, the end and its two neighbours.
     pub(super) fn around(&self, k: usize, count: usize) -> Option<[usize; 3]> {
         let stretch = self.stretch(k, count)?;
         let last = stretch.end.checked_sub(3)?;
@@ -99,7 +99,7 @@ impl Smooth {
     }
 }
 
-/// The group of the index `k` of `count`, of which the first ones are known.
+/// The group of the index `k` of `count`, given the first index of each group.
 fn group(firsts: &[u32], k: usize, count: usize) -> Option<Range<usize>> {
     let next = firsts.partition_point(|&first| first as usize <= k);
     let first = *firsts.get(next.checked_sub(1)?)?;
@@ -107,7 +107,7 @@ fn group(firsts: &[u32], k: usize, count: usize) -> Option<Range<usize>> {
     Some(first as usize..end)
 }
 
-/// A panel of the integrals, with what a quantity is at its weighed instants.
+/// A panel of the integrals, for the values of a quantity at its weighted instants.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
     rule: &'static Rule,
@@ -121,7 +121,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Of a range of instants, whose times and weights are asked for. `None`: they are none of a panel.
+    /// The panel of a range of instants, whose times and weights `at` returns; `None` if they are not a panel.
     pub fn of(range: Range<usize>, at: impl Fn(usize) -> [f64; 2]) -> Option<Self> {
         let mut indices = [0; MOST_PLACES];
         let mut count = 0;
@@ -144,7 +144,7 @@ impl Panel {
         })
     }
 
-    /// The rule of its integrals.
+    /// Its quadrature rule.
     pub const fn rule(&self) -> &'static Rule {
         self.rule
     }
@@ -159,12 +159,12 @@ impl Panel {
         [self.middle - self.half, self.middle + self.half]
     }
 
-    /// The weighed instants, in order.
+    /// The weighted instants, in order.
     pub fn indices(&self) -> &[usize] {
         &self.indices[..self.rule.places().len()]
     }
 
-    /// A quantity at the weighed instants.
+    /// A quantity at the weighted instants.
     pub fn values(&self, value: impl Fn(usize) -> f64) -> Values {
         let mut values = [0.0; MOST_PLACES];
         for (place, k) in values.iter_mut().zip(self.indices()) {
@@ -176,12 +176,12 @@ impl Panel {
         }
     }
 
-    /// Place on −1 to 1 of a time (s).
+    /// Place from −1 to 1 of a time (s).
     pub fn place(&self, t: f64) -> f64 {
         ((t - self.middle) / self.half).clamp(-1.0, 1.0)
     }
 
-    /// The places on −1 to 1 of the instants before and after the instant `k`, whose times are asked for, or the ends.
+    /// The places from −1 to 1 of the instants before and after the instant `k`, or the ends; `time` returns the time of an instant.
     pub(in crate::analysis) fn around(&self, k: usize, time: impl Fn(usize) -> f64) -> [f64; 2] {
         let before = k.checked_sub(1).filter(|j| *j >= self.first);
         let after = Some(k + 1).filter(|j| *j < self.end);
@@ -189,8 +189,8 @@ impl Panel {
         [place(before, -1.0), place(after, 1.0)]
     }
 
-    /// Where a quantity that is largest of all instants at the instant `k` of this panel is larger still: the place on −1 to 1 and its value there.
-    /// `known` is the quantity at an instant, `value` between the instants.
+    /// The peak of a quantity near the instant `k` of this panel, where it is largest of all instants: the place from −1 to 1 and its value. `known`
+    /// is the quantity at an instant, `value` between the instants.
     pub fn peak(
         &self,
         k: usize,
@@ -227,7 +227,7 @@ impl Panel {
     }
 }
 
-/// A quantity over a panel: the polynomial through its values at the weighed instants.
+/// A quantity over a panel: the polynomial through its values at the weighted instants.
 #[derive(Clone, Copy, Debug)]
 pub struct Values {
     rule: &'static Rule,
@@ -235,12 +235,12 @@ pub struct Values {
 }
 
 impl Values {
-    /// At the weighed instants.
+    /// The values at the weighted instants.
     pub fn known(&self) -> &[f64] {
         &self.values[..self.rule.places().len()]
     }
 
-    /// At a place on −1 to 1.
+    /// The value at a place from −1 to 1.
     pub fn at(&self, x: f64) -> f64 {
         self.rule.at(self.known(), x)
     }

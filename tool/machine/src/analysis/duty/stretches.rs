@@ -1,5 +1,5 @@
-//! The smooth stretches of a motion: cut where its law bends, where the drive link turns back or comes to rest, where it passes an edge of a load or
-//! a cam, and where a load begins or ends in time or with the direction of travel, or a payload is picked up or set down.
+//! The smooth stretches of a motion. They are cut where its law bends, where the drive link turns back or comes to rest, where it passes an edge of a
+//! load or a cam, where a load begins or ends in time or with the direction of travel, and where a payload is picked up or set down.
 
 use jred::{Domain, Reducible as _};
 
@@ -7,16 +7,16 @@ use super::INSIDE;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 
-/// Cuts nearer to each other than this share of the time are one: rounding.
+/// Cuts closer than this share of the time are one, within rounding.
 const SHORTEST: f64 = 8.0 * f64::EPSILON;
 
-/// A speed that is a smaller share of the largest one is a rounding.
+/// Share of the largest speed below which a speed is rounding.
 const ROUNDED: f64 = 1e-13;
 
-/// The largest share of a stretch that is left out at an end: a law of seventh degree reaches that speed after 3e-5.
+/// Largest share of a stretch that is omitted at an end: a law of seventh degree reaches that speed after 3e-5.
 const MOST_HAIR: f64 = 1e-3;
 
-/// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
+/// The side of an edge on which the drive link is at φ; on a turn, the number of passages.
 fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
     let beyond = phi - edge;
     if file.machine.domain() == Domain::Turn {
@@ -31,7 +31,7 @@ fn edges(file: &MachineFile) -> Vec<f64> {
     (0..).map_while(|k| file.machine.edge(k)).collect()
 }
 
-/// How often the drive link passes an edge, at least: there and back within a piece of the motion is not counted.
+/// Least number of passages of the drive link over edges: there and back within a piece of the motion is not counted.
 pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     let edges = edges(file);
     let sides = |t: f64| {
@@ -45,8 +45,8 @@ pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     passed.fold(0, u64::saturating_add)
 }
 
-/// Adds the times at which a number changes, by bisection, one of them for each value between those at both ends. `from` and `to` are times with
-/// their numbers.
+/// Adds the times at which an integer changes, by bisection, one for each value between those at both ends. `from` and `to` are times with their
+/// numbers.
 fn crossings(
     number: &impl Fn(f64) -> i64,
     [from, to]: [(f64, i64); 2],
@@ -66,14 +66,14 @@ fn crossings(
     crossings(number, [middle, to], least, cuts);
 }
 
-/// How far from its first end (s) a stretch is taken: where a move rests at the end with a soft law, its speed near there is a rounding, whose sign
-/// would be that of friction.
+/// Distance (s) by which the first end of a stretch is moved inside. Where a move comes to rest with a soft law, the speed near its end is rounding,
+/// and friction would take its sign.
 pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
     let (length, inwards) = ((other - end).abs(), (other - end).signum());
     let speed = |share: f64| motion.at(end + inwards * share * length).omega.abs();
     let most = [0.25, 0.5, 0.75].map(speed).into_iter().fold(0.0, f64::max);
     let mut share = INSIDE;
-    // A recorded motion knows itself when it stands still.
+    // A recorded motion defines its own standstill.
     if motion.is_recorded() {
         return share * length;
     }
@@ -83,7 +83,7 @@ pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
     share * length
 }
 
-/// How many turns, or strokes, the drive link makes in a smooth stretch.
+/// Number of turns or strokes of the drive link in a smooth stretch.
 pub(crate) fn turns(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> f64 {
     let [a, b] = [from, to].map(|t| motion.at(t).phi);
     (b - a).abs() / file.machine.domain().span()
@@ -95,8 +95,8 @@ fn direction(motion: &Motion, t: f64) -> i64 {
     i64::from(omega > 0.0) - i64::from(omega < 0.0)
 }
 
-/// The stretches of the motion in which the drive link goes one way or rests, also cut where it passes an edge of a load's window, so that a
-/// short load has its own instants, and where the machine changes by its schedule.
+/// The stretches of the motion in which the drive link moves in one direction or rests. They are also cut where it passes an edge of a load's window,
+/// so that a short load has its own instants, and where the machine changes by its schedule.
 pub(crate) fn smooth_stretches(file: &MachineFile, motion: &Motion) -> Vec<(f64, f64)> {
     let edges = edges(file);
     let times = file.schedule.times();

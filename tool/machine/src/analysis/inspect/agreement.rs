@@ -26,38 +26,39 @@ const FEWEST: usize = 16;
 /// Tolerance of a mean, as a share of the largest value.
 const OF_MEAN: f64 = 1e-10;
 
-/// Parts of the motion that its work is integrated over, each halved where it must be.
+/// Parts of the motion over which its work is integrated, each halved where necessary.
 const PANELS: u32 = 96;
 
-/// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not lie beside all places of the rule.
+/// Parts of a recorded or computed motion, one to four from row to row: a bend of a load between two rows must not be missed by all places of the
+/// rule.
 const ROW_PANELS: usize = 8192;
 
 /// Fewest panels for a turn or stroke.
 const PANELS_OF_TURN: f64 = 8.0;
 
-/// The balance of a longer stretch is that of its first turns, so many: energy balances over every part of a motion.
+/// Number of turns after which the balance of a longer stretch ends: energy balances over every part of a motion.
 const MOST_TURNS: f64 = 250.0;
 
-/// Share of the energy of the machine that counts as moved: at an even speed no more than its rounding is.
+/// Share of the machine's energy that counts as exchanged: at constant speed the exchanged energy is only its rounding.
 const STORED: f64 = 1e-6;
 
-/// Tolerance of the work, as a share of the energy that the drive moves.
+/// Tolerance of the work, as a share of the energy exchanged by the drive.
 const SHARE: f64 = 1e-11;
 
-/// Roundings of the time that the length of a stretch has; what is more than ordinary is not held against it.
+/// Rounding errors of the time in the length of a stretch; the tolerance grows with the excess.
 const TIMES: f64 = 2.0;
 
-/// The ends of a stretch are taken from inside by this share of it.
+/// Share of a stretch by which its ends are moved inside.
 const HAIR: f64 = 1e-13;
 
 /// The moving masses.
 #[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
 pub struct Inertia {
-    /// J_red (or m_red): smallest, mean over the range, largest, flywheel and drive train included.
+    /// J_red (or m_red): smallest, mean over the range, largest, including flywheel and drive train.
     pub reduced: [f64; 3],
     /// The same over the time of the motion, with the payloads and carriages of each instant; `None` without these.
     pub laden: Option<[f64; 3]>,
-    /// Flywheel and drive train, contained in it.
+    /// Flywheel and drive train, included above.
     pub flywheel: f64,
     /// Mass of all links (kg).
     pub mass: f64,
@@ -68,14 +69,14 @@ pub struct Inertia {
 pub struct Agreement {
     /// Largest difference of the two drive torques as a share of their largest term.
     pub dalembert: f64,
-    /// Whether that is at the states of the motion; else at unit speed and acceleration.
+    /// Whether it is computed at the states of the motion, or else at unit speed and acceleration.
     pub of_motion: bool,
-    /// |work of the drive + work of loads and losses − gain of energy| as a share of the energy that the drive moves to
-    /// and fro. The work is that of the forces by d'Alembert.
+    /// |work of the drive + work of loads and losses − gain of energy| as a share of the energy exchanged by the drive. The
+    /// work is that of the forces by d'Alembert.
     pub energy: Option<f64>,
 }
 
-/// Of a machine file, whose machine with its drive train this is, and its machines with the drive train.
+/// The inertia of a file's machine with its drive train, and of its laden machines.
 pub(super) fn inertia(
     file: &MachineFile,
     machine: &Machine<AnyMechanism>,
@@ -100,16 +101,16 @@ pub(super) fn inertia(
     })
 }
 
-/// Where a part begins and ends.
+/// Start and end of a part.
 type Span = [f64; 2];
 
-/// Steps of a part that is so many turns or strokes.
+/// Steps of a part with this many turns or strokes.
 fn steps_of(turns: f64) -> usize {
     ((STEPS as f64 * turns).ceil() as usize).max(FEWEST)
 }
 
-/// Least, mean and largest of a quantity over parts, one after the other, in each of which it is smooth: each is looked at in so many steps, and the
-/// extremes are sought between these.
+/// Least, mean and largest of a quantity over successive parts in which it is smooth. Each part is evaluated in its number of steps, and the extremes
+/// are refined between them.
 fn extremes(
     parts: &[(Span, usize)],
     f: &impl Fn(f64) -> Result<f64, Error>,
@@ -184,7 +185,7 @@ fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64;
     Ok(Some(extremes(&parts, &at)?))
 }
 
-/// Of a machine file, and its machines with the drive train.
+/// The agreement for a machine file and its machines with the drive train.
 pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agreement, Error> {
     let states: Vec<(Now, [f64; 3])> = match &file.motion {
         Some(motion) => (0..=STEPS)
@@ -206,7 +207,7 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
         let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
         let found = machine.forces(phi, omega, alpha)?.drive;
         let off = (found - terms.total()).abs();
-        // What is not a number agrees with nothing.
+        // NaN agrees with nothing.
         worst = if worst.is_nan() || off <= worst {
             worst
         } else {
@@ -234,7 +235,7 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
     })
 }
 
-/// The energy balance over the motion, stretch by stretch: a payload brings its energy with it, and takes it away.
+/// The energy balance over the motion, stretch by stretch: a payload brings its energy and takes it away.
 fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
     let stretches = duty::smooth_stretches(file, motion);
     let parts: Vec<Part> = stretches
@@ -260,14 +261,14 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
             let of_turns = PANELS_OF_TURN * duty::turns(file, motion, (pair[0], pair[1]));
             let panels = panels.max(of_turns).ceil().max(least as f64) as u32;
             let share = (pair[1] - pair[0]) / (part.span[1] - part.span[0]);
-            // Nor is it closer than the roundings of times between near rows.
+            // Between near rows it is limited by rounding of their times.
             let rounded = 1.0 + 16.0 * f64::EPSILON * pair[1] / (pair[1] - pair[0]) / SHARE;
             let tolerance = tolerance * share * rounded;
             sum += numerics::integral(f, [pair[0], pair[1]], panels, tolerance)?;
         }
         Ok::<f64, Error>(sum)
     };
-    // Only scales: the rule without halvings.
+    // Only for scale: the rule without halving.
     let moved = (parts.iter())
         .map(|part| over(part, &|t| Ok(part.drive(t)?.abs()), f64::INFINITY))
         .collect::<Result<Vec<f64>, Error>>()?;
@@ -275,7 +276,7 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
     let (mut off, mut stored) = (0.0, 0.0_f64);
     for (part, moved) in parts.iter().zip(moved) {
         let [from, to] = part.span;
-        // Of its own energy, or by the time: in a short part of a long motion that would be less than rounding.
+        // Relative to its own energy, or to its share by time: in a short part of a long motion the former would be less than rounding.
         let tolerance = SHARE * moved.max(all * (to - from) / duration);
         let work_here = over(part, &|t| part.power(t), tolerance)?;
         let [before, after] = [part.energy(from)?, part.energy(to)?];
@@ -292,7 +293,7 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
 /// A time (s), the state of the drive link, and the machine.
 type At<'m> = (f64, State<f64>, Cow<'m, Machine<AnyMechanism>>);
 
-/// A smooth stretch of the motion, over which the machine is one and the same, but for carriages.
+/// A smooth stretch of the motion, over which the machine does not change, except for carriages.
 struct Part<'m> {
     carriages: &'m [Carriage],
     machines: &'m Machines<'m>,
@@ -318,7 +319,7 @@ impl<'m> Part<'m> {
         }
     }
 
-    /// The machine at a time, a hair inside the stretch: at its ends the acceleration of a carriage may jump.
+    /// The machine at a time, moved inside the stretch by [`HAIR`]: at its ends the acceleration of a carriage may jump.
     fn at(&self, t: f64) -> Result<At<'m>, Error> {
         let [from, to] = self.span;
         let hair = HAIR * (to - from);
@@ -333,7 +334,7 @@ impl<'m> Part<'m> {
     fn drive(&self, t: f64) -> Result<f64, Error> {
         let (_, state, machine) = self.at(t)?;
         let (phi, omega, alpha) = (state.phi, state.omega, state.alpha);
-        // At a change point there is one way only.
+        // At a change point only one method works.
         let drive = if machine.mechanism().determined(phi) {
             machine.forces(phi, omega, alpha)?.drive
         } else {
@@ -342,7 +343,7 @@ impl<'m> Part<'m> {
         Ok(drive * omega)
     }
 
-    /// What loads and losses leave of it, and what second axes add.
+    /// The power remaining after loads and losses, with that of second axes.
     fn power(&self, t: f64) -> Result<f64, Error> {
         let (inside, state, machine) = self.at(t)?;
         let point = machine.bare_reduction(state.phi)?;
@@ -356,7 +357,7 @@ impl<'m> Part<'m> {
                 let Some((load, frame)) = load.zip(frames.get(carriage.mass.link)) else {
                     continue;
                 };
-                // Its inertia force is none that a load of the machine gives.
+                // Its inertia force is not a load of the machine.
                 power -= load.reduce(frame, state.phi).process * state.omega;
                 let effort = carriage.effort(frame, inside, [state.omega, state.alpha], gravity);
                 power += effort * carriage.at(inside).omega;

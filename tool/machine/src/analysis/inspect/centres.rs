@@ -1,4 +1,4 @@
-//! Dead centres: where a link that slides or swings on the ground comes to rest while the drive goes on.
+//! Dead centres: positions in which a link that slides or swings on the ground comes to rest while the drive moves on.
 
 use jred::machine::{Body, Joint, Jointed as _, Mechanism as _};
 use jred::number::Transfer;
@@ -15,27 +15,27 @@ const SAMPLES: usize = 1440;
 /// Share of the largest transfer function below which a link is at rest.
 const STILL: f64 = 1e-9;
 
-/// Places (rad) nearer to a whole turn than this are its start.
+/// Places (rad) closer than this to a whole turn are its start.
 const ROUNDING: f64 = 1e-8;
 
-/// How one link moves on the ground.
+/// Motion of one link on the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Travel {
     /// Name of the link.
     pub link: String,
-    /// `slides`, `swings`, or `advances` (along a guide) or `turns` on and on.
+    /// `slides`, `swings`, or, without end, `advances` (along a guide) or `turns`.
     pub way: &'static str,
     /// Stroke, swing, or advance over a turn of the drive (m or rad).
     pub stroke: f64,
-    /// Distance that an advancing or turning link goes back in between, over a turn of the drive (m or rad).
+    /// Distance that an advancing or turning link moves backwards during a turn of the drive (m or rad).
     pub back: f64,
     /// Dead centres: position of the drive link (rad or m), and the link's own there (m or rad).
     pub dead_centres: Vec<[f64; 2]>,
-    /// Dwells: from and to (rad or m of the drive link).
+    /// Dwells: start and end (rad or m of the drive link).
     pub dwells: Vec<[f64; 2]>,
 }
 
-/// The travels of every link that a pin or a guide holds on the ground, but the drive's.
+/// The travels of every link on a pin or a guide on the ground, except the drive link.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
@@ -71,7 +71,7 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
             }
         };
         let travel = travel(mechanism.domain(), slides, &coordinate)?;
-        // What does not move at all, as a wound web by itself, has no travel.
+        // A link that does not move at all, such as a wound web by itself, has no travel.
         if travel.stroke.abs() > 0.0 || !travel.dead_centres.is_empty() {
             travels.push(Travel {
                 link: name,
@@ -103,8 +103,8 @@ fn sign(slope: f64, still: f64) -> i8 {
     }
 }
 
-/// The samples over the range, from where the link is fastest: then no rest of a turn lies across its ends; and the transfer
-/// function up to which it stands still.
+/// The samples over the range, starting where the link is fastest, so that no rest crosses the ends of a turn. Also the transfer function below which
+/// it is at rest.
 fn samples(
     domain: Domain,
     slope: &dyn Fn(f64) -> Result<f64, Error>,
@@ -142,20 +142,20 @@ fn samples(
     Ok((samples, still))
 }
 
-/// Where a link rests.
+/// The rests of a link.
 #[derive(Default)]
 struct Rests {
     /// Dead centres, as positions of the drive and of the link.
     dead_centres: Vec<[f64; 2]>,
     dwells: Vec<[f64; 2]>,
-    /// Positions of the link at all of them, in the order in which the drive passes them.
+    /// Positions of the link at all of them, in the order of passage.
     turns: Vec<f64>,
-    /// The link where the drive's range, or a turn of it, begins and ends for them.
+    /// Positions of the link at both ends of the drive's range or turn.
     ends: [f64; 2],
 }
 
-/// The edge of a rest between `inside` it and `outside`. Above `still` a link moves, but where it starts softly, as
-/// (φ − φ₀)ⁿ, it is already on its way there: three speeds a decade apart lie in a geometric series from φ₀ (Aitken).
+/// The edge of a rest between `inside` it and `outside`. Above `still` a link moves. If it starts softly, as (φ − φ₀)ⁿ, it moves before that: three
+/// speeds a decade apart lie in a geometric series from φ₀ (Aitken).
 fn rest_edge(
     speed: &dyn Fn(f64) -> Result<f64, Error>,
     [inside, outside]: [f64; 2],
@@ -164,7 +164,7 @@ fn rest_edge(
     let at = |most: f64| edge(|phi| Ok::<_, Error>(speed(phi)? <= most), inside, outside);
     let [a, b, c] = [at(still)?, at(10.0 * still)?, at(100.0 * still)?];
     let back = (b - a) * (b - a) / ((c - b) - (b - a));
-    // A link that starts with a jump has no series, nor has one that is not fast enough at the outside.
+    // A link that starts with a jump has no series, and neither has one that is too slow at `outside`.
     let series = (c - a).abs() > 1e-12
         && back.is_finite()
         && back.abs() < (c - a).abs()
@@ -172,7 +172,7 @@ fn rest_edge(
     Ok(if series { a - back } else { a })
 }
 
-/// What the speed of a rest over `from` to `to` may be: above its roundings, so that its edges are sharp.
+/// Allowed speed in a rest from `from` to `to`: above rounding, so that its edges are sharp.
 fn stillness(
     speed: &dyn Fn(f64) -> Result<f64, Error>,
     [from, to]: [f64; 2],
@@ -194,7 +194,7 @@ fn rests(
     let wrap = |phi: f64| match domain {
         Domain::Turn => {
             let phi = phi.rem_euclid(std::f64::consts::TAU);
-            // What is a rounding before a whole turn is its start.
+            // Just before a whole turn within rounding: its start.
             if std::f64::consts::TAU - phi < ROUNDING {
                 0.0
             } else {
@@ -261,7 +261,7 @@ fn rests(
 }
 
 impl Rests {
-    /// A dead centre at `phi` of the drive, which is `shown` within the range.
+    /// Adds a dead centre at `phi` of the drive, which is `shown` within the range.
     fn turns_at(
         &mut self,
         shown: f64,
@@ -273,7 +273,7 @@ impl Rests {
         Ok(())
     }
 
-    /// How far the link goes against its `advance`.
+    /// Distance that the link moves against its `advance`.
     fn back(&self, advance: f64) -> f64 {
         let places: Vec<f64> = std::iter::once(self.ends[0])
             .chain(self.turns.iter().copied())
@@ -318,7 +318,7 @@ fn travel(
 }
 
 impl Travel {
-    /// In one sentence.
+    /// As one sentence.
     pub fn sentence(&self, drive: Coordinate) -> String {
         let own = if ["slides", "advances"].contains(&self.way) {
             Coordinate::Length

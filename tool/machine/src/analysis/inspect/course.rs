@@ -1,4 +1,4 @@
-//! What the motion of a machine file asks, segment by segment.
+//! Figures of a machine file's motion, segment by segment.
 
 use serde::Serialize;
 
@@ -9,14 +9,14 @@ use crate::model::motion::{Motion, ToolCoordinate};
 /// The motion in figures (SI).
 #[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct MotionFindings {
-    /// What is prescribed: "drive link", or a coordinate of the tool.
+    /// The prescribed coordinate: "drive link", or a coordinate of the tool.
     pub of: String,
     /// Whether it repeats.
     pub cyclic: bool,
     /// Duration (s).
     #[serde(rename = "duration [s]")]
     pub duration: f64,
-    /// How far the drive link goes on (rad, or m).
+    /// Advance of the drive link (rad, or m).
     pub advance: f64,
     /// The drive link's largest speed (per s).
     pub speed: f64,
@@ -43,9 +43,9 @@ pub struct SegmentFinding {
     pub speed: f64,
     /// Largest acceleration (per s²).
     pub acceleration: f64,
-    /// Largest jerk (per s³); none where the acceleration jumps.
+    /// Largest jerk (per s³); `None` if the acceleration jumps.
     pub jerk: Option<f64>,
-    /// C_v, C_a, C_j and C_Mdyn; none of a dwell.
+    /// C_v, C_a, C_j and C_Mdyn; `None` for a dwell.
     pub coefficients: Option<[Option<f64>; 4]>,
 }
 

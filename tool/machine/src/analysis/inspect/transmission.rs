@@ -1,21 +1,21 @@
 //! The transmission index, a measure of the distance from a dead point.
 //!
-//! With its drive held, a mechanism is a rigid structure of *Assur groups*: smallest sets of links that are held by the links
-//! before them. For each group take the velocities that it is free to have, one after another: each link's angular velocity
-//! and each displacement along a guide. Each opens the joints of the group that are left; the column that says how fast is a
-//! vector. The index is
+//! With its drive held, a mechanism is a rigid structure of *Assur groups*: smallest sets of links that are held by the links before them. For each
+//! group, consider its free velocities one after another: each link's angular velocity and each displacement along a guide. Each opens the remaining
+//! joints of the group at certain rates, which form a column vector. The index is
 //!
 //! ```text
 //! q = |det A| / Π ‖a_k‖        0 ≤ q ≤ 1 (Hadamard)
 //! ```
 //!
-//! the volume that the columns span by that of the box with the same edges, and the smallest q of all groups counts. It does
-//! not depend on the size of the machine. Two links between three pins have a₁ = the one link, a₂ = the other, each turned by
-//! 90°: q = |sin μ| with the transmission angle μ between coupler and rocker (Alt 1932). A rod and a slider have q = |cos| of the
-//! rod's angle to the guide. Velocities that a part of the joints determines alone are a block of their own, as a roller's
-//! turning is beside its follower's way; a block of one velocity that a contact or a slot determines has the angle between the
-//! two as its only measure: q = cos of the pressure angle. q = 0 is the dead point: the forces in the group grow as 1/q. For
-//! groups of more than two links q is a stricter figure than the smallest angle between any two.
+//! that is, the volume spanned by the columns divided by that of the box with the same edges; the smallest q of all groups counts. It does not depend
+//! on the size of the machine.
+//!
+//! Two links between three pins have a₁ and a₂ = the links turned by 90°: q = |sin μ| with the transmission angle μ between coupler and rocker (Alt
+//! 1932). A rod and a slider have q = |cos| of the rod's angle to the guide. Velocities that some of the joints determine alone form a separate
+//! block, as a roller's rotation beside its follower's travel. A block of one velocity that a contact or a slot determines is measured by the angle
+//! between the two: q = cos of the pressure angle. q = 0 is the dead point: the forces in the group grow as 1/q. For groups of more than two links q
+//! is a stricter figure than the smallest angle between any two.
 
 use jred::machine::{Body, Frames, Joint, Joints};
 
@@ -32,7 +32,7 @@ struct Group {
     links: Vec<usize>,
     /// Indices of the joints that hold them.
     joints: Vec<usize>,
-    /// Which of its variables which of its closing joints determine, in the order in which they can be solved.
+    /// Which closing joints determine which of its variables, in the order of solution.
     blocks: Vec<Block>,
 }
 
@@ -45,7 +45,7 @@ struct Block {
     bilateral: bool,
 }
 
-/// A mechanism taken apart.
+/// The decomposition of a mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Structure {
     drive: usize,
@@ -57,15 +57,15 @@ pub(super) struct Structure {
 pub(super) struct Index {
     /// q with the determinant's sign.
     pub(super) value: f64,
-    /// Which group of links.
+    /// Index of the group of links.
     pub(super) group: usize,
-    /// Whether the sign tells the branch: a contact may push from either side.
+    /// Whether the sign indicates the branch: a contact may push from either side.
     pub(super) bilateral: bool,
 }
 
 impl Structure {
-    /// Takes a mechanism apart that has the `joints` at one position; `samples` are its joints, frames and size at several,
-    /// so that a coefficient which vanishes in one position only counts as one.
+    /// Decomposes a mechanism with these `joints` at one position. `samples` are its joints, frames and size at several positions, so that a
+    /// coefficient that vanishes at one position is still found.
     pub(super) fn new(
         joints: &[Joint],
         drive: usize,
@@ -105,7 +105,7 @@ impl Structure {
     }
 }
 
-/// The smallest sets of closing joints that determine as many variables as they close, one after another.
+/// The smallest sets of closing joints that determine as many variables as they close, in order.
 fn blocks(systems: &[System]) -> Vec<Block> {
     let Some(first) = systems.first() else {
         return Vec::new();
@@ -134,7 +134,7 @@ fn blocks(systems: &[System]) -> Vec<Block> {
                 .collect();
             (variables.len() == rows).then_some((set, variables))
         });
-        // A closing joint that nothing opens: the block is at a dead point everywhere.
+        // A closing joint that no variable opens: the block is at a dead point everywhere.
         let (set, variables) = found.unwrap_or_else(|| {
             let rest = (0..first.variables).filter(|&v| !solved[v]).collect();
             (open.clone(), rest)
@@ -165,9 +165,9 @@ fn subsets(of: &[usize]) -> Vec<Vec<usize>> {
     masks.into_iter().map(chosen).collect()
 }
 
-/// The Assur groups of a mechanism whose drive is held, in the order in which they can be placed.
+/// The Assur groups of a mechanism with held drive, in the order of placement.
 fn groups(joints: &[Joint], drive: usize, links: usize) -> Vec<Group> {
-    // Held, the drive's joint is rigid.
+    // With the drive held, its joint is rigid.
     let taken = |k: usize| {
         joints
             .get(k)
@@ -194,7 +194,7 @@ fn groups(joints: &[Joint], drive: usize, links: usize) -> Vec<Group> {
             let constraints: usize = joints.iter().map(|&k| taken(k)).sum();
             (constraints == 3 * set.len()).then_some((set, joints))
         });
-        // Joints that do not determine the links are refused when a mechanism is built: then all are one group.
+        // Joints that do not determine the links are refused when a mechanism is built; then all are one group.
         let (set, joints) = found.unwrap_or_else(|| (unknown.clone(), holding(&unknown)));
         for &link in &set {
             known[link] = true;
@@ -208,7 +208,7 @@ fn groups(joints: &[Joint], drive: usize, links: usize) -> Vec<Group> {
 }
 
 impl Group {
-    /// How fast each variable opens the joints that are left, at one position.
+    /// Rates at which each variable opens the remaining joints, at one position.
     fn system(&self, joints: &[Joint], drive: usize, frames: &Frames, length: f64) -> System {
         let mut motion = Twists::new(frames, &self.links);
         let mut left = self.joints.clone();

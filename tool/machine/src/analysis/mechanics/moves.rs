@@ -5,8 +5,8 @@ use crate::analysis::duty::Instant;
 /// Share of the largest speed below which the drive link is at rest: at the ends of a move the instants lie just inside.
 const AT_REST: f64 = 1e-6;
 
-/// A stretch in one direction that stays below this share of the largest speed is no move: the curve through recorded
-/// positions swings a little where the machine stood.
+/// A stretch in one direction that stays below this share of the largest speed is not a move: a curve through recorded positions oscillates slightly
+/// where the machine was at rest.
 const SWING: f64 = 1e-2;
 
 /// Number of moves and duration of the shortest one.
@@ -26,7 +26,7 @@ struct Run {
 }
 
 impl Moves {
-    /// The moves among the instants. Of a cyclic motion the end goes on at the start.
+    /// The moves among the instants. A cyclic motion continues from its end at its start.
     pub(super) fn of(instants: &[Instant], duration: f64, cyclic: bool) -> Self {
         let peak = instants.iter().map(|i| i.omega.abs()).fold(0.0, f64::max);
         let direction = |instant: &Instant| {

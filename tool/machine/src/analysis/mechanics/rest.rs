@@ -1,8 +1,7 @@
-//! The torque with which the machine is held at rest, and for how long.
+//! The holding torque at rest, and its duration.
 //!
-//! Weight and springs act wherever the machine is stopped, and so does a constant force or moment that the machine file ties
-//! to no position, time or direction: a motor that holds them does so without end. A process load acts at rest only as long as
-//! a dwell of the motion lasts.
+//! Weight and springs act wherever the machine is stopped, and so does a constant force or moment that the machine file ties to no position, time or
+//! direction: the motor must hold them without end. A process load acts at rest only as long as a dwell of the motion lasts.
 
 use jred::Error;
 use jred::machine::{Action, Mechanism as _};
@@ -11,33 +10,33 @@ use crate::analysis::duty::Instant;
 use crate::model::machine::MachineFile;
 use crate::model::tabulated::Course;
 
-/// Share of a torque that is rounding where it is held.
+/// Share of a torque that is rounding.
 const SAME: f64 = 1e-9;
 
 /// Torques (N·m, or N) that hold the machine at rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rest {
-    /// The largest that may last without end.
+    /// The largest torque that may last without end.
     endless: f64,
     /// Times (s) for which a dwell holds at least a torque, with that torque: times falling, torques rising.
     dwells: Vec<[f64; 2]>,
 }
 
-/// Where the torques of a motion come from.
+/// The sources of a motion's holding torques.
 #[derive(Clone, Copy, Debug)]
 pub struct Held<'a> {
     /// The instants of the motion.
     pub instants: &'a [Instant],
-    /// Torque (N·m, or N) at the drive link against the loads that always act, one for each instant; zero in motion.
+    /// Torque (N·m, or N) at the drive link against the constant loads, one for each instant; zero in motion.
     pub constant: &'a [f64],
     /// Length of the motion (s).
     pub duration: f64,
-    /// Whether it goes on at its start.
+    /// Whether the motion repeats.
     pub cyclic: bool,
 }
 
 impl Rest {
-    /// The torques of a motion, and against weight and springs wherever else the machine may stand, all at the drive link.
+    /// The torques at rest in a motion, and against weight and springs wherever else the machine may rest, all at the drive link.
     pub fn new(held: &Held, weights: impl Iterator<Item = f64>) -> Self {
         let mut endless = weights.fold(0.0, |most, weight| f64::max(most, weight.abs()));
         for (instant, constant) in held.instants.iter().zip(held.constant) {
@@ -76,7 +75,7 @@ impl Rest {
         longer.last().map_or(self.endless, |[_, torque]| *torque)
     }
 
-    /// The longest time (s) for which a torque above this one is held; `None`: it never is.
+    /// The longest time (s) for which more than this torque is held; `None` if it never is.
     pub fn longest_above(&self, torque: f64) -> Option<f64> {
         let above = |most: f64| most > torque * (1.0 + SAME);
         if above(self.endless) {
@@ -86,7 +85,7 @@ impl Rest {
         first.map(|[time, _]| *time)
     }
 
-    /// The same torques, each times a factor.
+    /// The torques multiplied by a factor.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.endless *= factor;
@@ -98,7 +97,7 @@ impl Rest {
 }
 
 impl Held<'_> {
-    /// The stretches at rest: times (s) with the torque against weight and process loads. One over the end of a cycle is whole.
+    /// The stretches at rest: times (s) with the torque against weight and process loads. A stretch over the end of a cycle is one.
     fn runs(&self) -> Vec<Vec<[f64; 2]>> {
         let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
         let mut resting = false;
@@ -132,9 +131,9 @@ impl Held<'_> {
     }
 }
 
-/// For how long each torque of a stretch at rest is not undercut: of times and torques [s, N·m].
+/// Adds the times for which each torque of a stretch at rest is at least held: pairs of time and torque [s, N·m].
 fn lengths(run: &[[f64; 2]], spans: &mut Vec<[f64; 2]>) {
-    // Torques that rise, each with the time since which nothing was below it.
+    // Rising torques, each with the time since which no torque was below it.
     let mut open: Vec<[f64; 2]> = Vec::new();
     let mut close = |open: &mut Vec<[f64; 2]>, at: f64, below: f64| {
         let mut since = at;
@@ -156,8 +155,7 @@ fn lengths(run: &[[f64; 2]], spans: &mut Vec<[f64; 2]>) {
     close(&mut open, end, f64::NEG_INFINITY);
 }
 
-/// Torque (N·m, or N) at the drive link against the loads that act at any position, time and direction, one for each instant;
-/// zero in motion.
+/// Torque (N·m, or N) at the drive link against the loads that act at any position, time and direction, one for each instant; zero in motion.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
@@ -171,7 +169,7 @@ pub fn constant_loads(file: &MachineFile, instants: &[Instant]) -> Result<Vec<f6
         let tied = load.window().is_some()
             || file.schedule.loads().iter().any(|other| other.load == k)
             || file.schedule.is_of_carriage(k);
-        // A curve over the position is tied to it, but for a torque that is a property of the machine.
+        // A curve over the position is tied to it, except for a torque that is a property of the machine.
         let curve = load.link().checked_sub(first_curve);
         let curve = curve.and_then(|k| courses.get(k));
         constant && !tied && curve.is_none_or(|course| matches!(course, Course::Torque(_)))
@@ -210,7 +208,7 @@ pub fn constant_loads(file: &MachineFile, instants: &[Instant]) -> Result<Vec<f6
 mod tests {
     use super::*;
 
-    /// Every stretch of every length, one by one.
+    /// Compares with every stretch of every length.
     #[test]
     fn lengths_are_those_of_every_stretch() {
         let mut seed = 7u32;
@@ -231,7 +229,7 @@ mod tests {
                 let mut longest = None;
                 for (from, to) in (0..12).flat_map(|from| (from..12).map(move |to| (from, to))) {
                     let stays = run.iter().skip(from).take(to - from).all(|p| p[1] >= level);
-                    // A torque lasts until the next instant, at which it may be another one.
+                    // A torque lasts until the next instant, where it may change.
                     if stays && to > from {
                         longest =
                             f64::max(longest.unwrap_or(0.0), run[to][0] - run[from][0]).into();

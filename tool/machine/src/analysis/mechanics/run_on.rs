@@ -1,14 +1,13 @@
-//! The stop by the brake alone: the supply fails, the motor is without torque, and the brake closes a while later.
+//! The stop by the brake alone: the supply fails, the motor is without torque, and the brake closes after a delay.
 //!
 //! ```text
 //! until it closes   E ≤ E₀ + d·φ                      d: the largest torque with which the machine drives itself on
 //! then              W = T_B·φ_B ≤ E + d·φ_B            so W ≤ E·T_B/(T_B − d), φ_B = W/T_B
 //! ```
 //!
-//! E is the kinetic energy of machine and rotor. At the least inertia J of the motion the same energy makes the highest speed,
-//! ω = √(2·E/J), so the machine comes at most as far as one of this constant inertia that d accelerates at d/J. All of it is exact
-//! where inertia and weight are constant, as of a lift, and on the safe side elsewhere. Friction and losses, which help, are left
-//! out.
+//! E is the kinetic energy of machine and rotor. At the least inertia J of the motion the same energy gives the highest speed, ω = √(2·E/J), so the
+//! machine travels at most as far as one of this constant inertia that d accelerates at d/J. The result is exact for constant inertia and weight, as
+//! of a lift, and otherwise on the safe side. Friction and losses, which help, are ignored.
 
 use crate::analysis::duty::Instant;
 
@@ -19,7 +18,7 @@ struct Way {
     energy: f64,
     /// Largest speed (rad/s).
     speed: f64,
-    /// Largest torque that drives the machine on (N·m), not negative.
+    /// Largest torque that drives the machine (N·m), not negative.
     driving: f64,
 }
 
@@ -47,11 +46,11 @@ pub struct Closing {
 /// A stop by the brake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stopped {
-    /// Work of the brake (J); infinite where it does not hold the machine.
+    /// Work of the brake (J); infinite if it does not hold the machine.
     pub work: f64,
-    /// Way at the input until the brake closes (rad).
+    /// Travel at the input until the brake closes (rad).
     pub falling: f64,
-    /// Way at the input until standstill (rad).
+    /// Travel at the input until standstill (rad).
     pub way: f64,
 }
 
@@ -69,8 +68,7 @@ impl Closing {
 }
 
 impl RunOn {
-    /// The states of a motion whose drive train has this ratio (without sign); `held`: the largest torque at rest at the input
-    /// (N·m).
+    /// The states of a motion whose drive train has this ratio (without sign); `held`: the largest holding torque at the input (N·m).
     pub(super) fn of(instants: &[Instant], ratio: f64, held: f64) -> Self {
         let inertia = instants.iter().map(|i| i.input_inertia);
         let inertia = inertia.fold(f64::INFINITY, f64::min);
@@ -105,7 +103,7 @@ impl RunOn {
         }
     }
 
-    /// The stop with the most work, and with the longest way.
+    /// The most work and the longest travel of all stops.
     pub fn worst(&self, brake: &Closing) -> Stopped {
         let mut worst = Stopped::default();
         for way in &self.ways {
@@ -117,7 +115,7 @@ impl RunOn {
         worst
     }
 
-    /// The stop of one of them. At the input.
+    /// The stop in one direction, at the input.
     fn stop(&self, way: &Way, brake: &Closing) -> Stopped {
         let Closing {
             torque,

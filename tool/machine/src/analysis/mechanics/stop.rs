@@ -1,9 +1,9 @@
-//! The emergency stop: what torque the gearbox carries while the motor brakes as hard as it can.
+//! The emergency stop: the torque through the gearbox while the motor brakes with its full torque.
 //!
-//! The motor brakes with T_S against the motion, friction of motor and gearbox with T_F. Its own side, J_1 = J_M + J_G at
-//! the motor shaft, takes a part of that; the rest goes through the gearbox. With J the inertia at the gearbox output, d the
-//! torque with which the machine drives itself on there (weight, ½·J′·ω², process loads, less friction), a the deceleration,
-//! and τ the torque through the gearbox, where the power flows back to the motor:
+//! The motor brakes with T_S against the motion, friction of motor and gearbox with T_F. The motor side, J_1 = J_M + J_G at the motor shaft, takes a
+//! part of that; the rest goes through the gearbox. J is the inertia at the gearbox output, d the torque with which the machine drives itself there
+//! (weight, ½·J′·ω², process loads, less friction), a the deceleration, and τ the torque through the gearbox, where the power flows back to the
+//! motor:
 //!
 //! ```text
 //! machine   τ = J·a + d
@@ -11,25 +11,25 @@
 //! so        τ = i·((T_S + T_F)·J + J_1·i·d)/(J_1·i² + η_back·J)
 //! ```
 //!
-//! For given J and d the position of the machine is settled; of all positions of the motion, each at the motion's speed and
-//! at standstill, the worst is taken. Between those two speeds d is a convex or a falling function of the speed, so
-//! nothing lies beyond. Losses of the drive train, which would help to brake, are left out.
+//! The position of the machine determines J and d. The worst of all positions of the motion is used, each at the motion's speed and at standstill.
+//! Between those two speeds d is a convex or a falling function of the speed, so the ends are the worst. Losses of the drive train, which would help
+//! to brake, are ignored.
 
 use std::cmp::Ordering;
 
 use crate::analysis::duty::{Instant, Panel, Smooth};
 
-/// Share of an inertia that is a rounding.
+/// Relative difference of inertias that is rounding.
 const SAME_INERTIA: f64 = 1e-12;
 
 /// Share of the largest d by which the hull may cut off the curve between two of its states.
 const CUT_OFF: f64 = 1e-10;
 
-/// Most parts of the way between the instants beside one on the hull.
+/// Most parts of the step between the instants next to a state on the hull.
 const MOST_PARTS: f64 = 256.0;
 
-/// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and
-/// d that rises with d, so its maximum lies on that hull and nothing but it on the way along.
+/// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and d that rises with d,
+/// so its maximum lies on that hull, and along the hull it has no other local maximum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stop {
     hull: Vec<[f64; 2]>,
@@ -49,7 +49,7 @@ pub struct Braking {
 }
 
 impl Braking {
-    /// Torque through the gearbox at its output (N·m). Infinite where the gearbox locks: rigid bodies then stop at once.
+    /// Torque through the gearbox at its output (N·m); infinite for a self-locking gearbox, because rigid bodies then stop at once.
     pub fn torque_at(&self, [inertia, driving]: [f64; 2]) -> f64 {
         let own = self.inertia * self.ratio;
         let below = own * self.ratio + self.back_efficiency * inertia;
@@ -61,8 +61,7 @@ impl Braking {
     }
 }
 
-/// Twice the area of the triangle, negative where the way over `b` turns to the right: `b` then lies above the line from `a` to
-/// `c`.
+/// Twice the area of the triangle, negative if the path over `b` turns to the right: `b` then lies above the line from `a` to `c`.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
@@ -83,7 +82,7 @@ impl Stop {
         if !smooth.knows_peaks() {
             return all;
         }
-        // Between the instants too, beside the first instant at each state of the hull.
+        // Between the instants too, next to each state of the hull.
         let mut parts = all.parts();
         let mut taken = |state: [f64; 2]| {
             let place = all.hull.partition_point(|of_hull| of_hull[0] < state[0]);
@@ -122,7 +121,7 @@ impl Stop {
         Self::among(between)
     }
 
-    /// In how many parts the way between the instants beside each state is to be cut: the sagitta falls with the square.
+    /// Number of parts for the steps next to each state: the sagitta falls with the square.
     fn parts(&self) -> Vec<u32> {
         let largest = self.hull.iter().map(|state| state[1].abs());
         let allowed = CUT_OFF * largest.fold(0.0, f64::max);
@@ -131,7 +130,7 @@ impl Stop {
             _ => 0.0,
         });
         let mut sagittas: Vec<f64> = sagittas.collect();
-        // The ends are like their neighbours.
+        // The ends use their neighbours' values.
         let [first, last] = [sagittas.first(), sagittas.last()].map(Option::<&f64>::copied);
         sagittas.insert(0, first.unwrap_or(f64::INFINITY));
         sagittas.push(last.unwrap_or(f64::INFINITY));
@@ -147,7 +146,7 @@ impl Stop {
 
     /// The upper hull of states [J (kg·m²), d (N·m)].
     pub fn among(mut states: Vec<[f64; 2]>) -> Self {
-        // Most lie below the lines from the upper end on the left over the top to that on the right: they need no sorting.
+        // Most states lie below the lines from the upper left end over the top to the right end: they need no sorting.
         let most = |key: fn(&[f64; 2]) -> [f64; 2]| {
             let by = |a: &&[f64; 2], b: &&[f64; 2]| key(a).partial_cmp(&key(b));
             let later = |a, b| {
@@ -175,7 +174,7 @@ impl Stop {
         states.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let mut hull: Vec<[f64; 2]> = Vec::new();
         for point in states {
-            // States of one inertia but for roundings are one: the search along the hull must not meet a level stretch.
+            // States of equal inertia within rounding are merged: the search along the hull must not meet a level stretch.
             if let Some(last) = hull.last().copied()
                 && point[0] - last[0] <= SAME_INERTIA * point[0]
             {
@@ -195,8 +194,7 @@ impl Stop {
         Self { hull }
     }
 
-    /// Largest torque through the gearbox at its output (N·m), and the inertia (kg·m²) at which it occurs; `None` where nothing
-    /// ever moves.
+    /// Largest torque through the gearbox at its output (N·m), and the inertia (kg·m²) at which it occurs; `None` if nothing ever moves.
     pub fn worst(&self, braking: &Braking) -> Option<[f64; 2]> {
         let at = |k: usize| self.hull.get(k).map(|state| braking.torque_at(*state));
         // Unimodal along the hull: the first state from which it no longer rises.

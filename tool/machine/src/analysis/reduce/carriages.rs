@@ -1,13 +1,13 @@
-//! Carriages as columns: where each is along its guide, how it moves there, and the force that its own axis needs.
+//! Carriages as columns: position and motion of each along its guide, and the force that its own axis needs.
 
 use jred::Error;
 
 use super::{Place, Set, Source};
 use crate::number::columns::{Column, Quantity};
 
-/// s, ṡ, s̈ and F of every carriage: what the axis that moves it is sized by.
+/// s, ṡ, s̈ and F of every carriage: data for sizing the axis that moves it.
 pub(super) struct Carriages {
-    /// Each carriage's share of J_red as well.
+    /// Also each carriage's share of J_red.
     pub(super) shares: bool,
 }
 

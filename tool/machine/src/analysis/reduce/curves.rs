@@ -8,7 +8,7 @@ use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;
 use crate::number::columns::{Column, Quantity};
 
-/// J_red with its derivatives, the parts of the reduced torque, and the drive torque of the motion.
+/// J_red with its derivatives, the terms of the reduced torque, and the drive torque of the motion.
 pub(super) struct Curves {
     /// Each link's share of J_red.
     pub(super) links: bool,
@@ -16,12 +16,12 @@ pub(super) struct Curves {
     pub(super) moves: bool,
 }
 
-/// Speed and acceleration alone.
+/// Only speed and acceleration.
 pub(super) struct Motion;
 
-/// The parts of the drive torque of the motion, drive train and flywheel included, without the losses of the drive train.
+/// The terms of the motion's drive torque, including drive train and flywheel, without the losses of the drive train.
 pub(super) struct Torques {
-    /// Their sum, which the forces have as well.
+    /// Also their sum, unless the forces contain it.
     pub(super) sum: bool,
 }
 
@@ -41,7 +41,7 @@ impl Set for Torques {
     }
 }
 
-/// The columns of the parts of the drive torque.
+/// The columns of the drive torque's terms.
 fn terms(coordinate: Coordinate) -> impl Iterator<Item = Column> {
     let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
     let term = move |term: &str| Column {
@@ -62,7 +62,7 @@ impl Set for Motion {
     }
 }
 
-/// The columns of the reduced link, drive train and flywheel included.
+/// The columns of the reduced link, including drive train and flywheel.
 fn curves(coordinate: Coordinate) -> Vec<Column> {
     let (inertia, unit, per) = (
         coordinate.inertia(),
@@ -126,7 +126,7 @@ impl Set for Curves {
             point.coulomb,
         ];
         if self.links {
-            // Without carriages, which have columns of their own.
+            // Without carriages, which have their own columns.
             let machine = source.machines.among(&place.now);
             let each = machine.link_inertias(place.phi)?;
             values.extend(each.iter().map(|j| j[0]));
@@ -139,7 +139,7 @@ impl Set for Curves {
             return Ok(values);
         };
         let terms = point.torque(state.omega, state.alpha);
-        // The drive train's inertia sits in its stages, between the losses.
+        // The drive train's inertia is in its stages, between the losses.
         let bare = source
             .file
             .machine_at(&place.now, place.phi)?

@@ -1,8 +1,7 @@
 //! Energies and generalised forces as columns.
 //!
-//! The generalised force of a load is its power by the speed of the drive link, Q = F·r′ + M·ψ′ (4.1)-(4.7). It is computed
-//! from the force itself and the transfer functions of its point, not from the reduced curves: their sum is the reduced
-//! torque T_red.
+//! The generalised force of a load is its power divided by the speed of the drive link, Q = F·r′ + M·ψ′ (4.1)-(4.7). It is computed from the force
+//! itself and the transfer functions of its point, not from the reduced curves; the sum of all is the reduced torque T_red.
 
 use jred::Error;
 use jred::machine::{Body, Frames, Mechanism as _, Wrench};
@@ -69,11 +68,11 @@ impl Set for Energy {
     }
 }
 
-/// F·r′ + M·ψ′ of a force at a point of its body.
+/// F·r′ + M·ψ′ for a force at a point of its body.
 fn generalised(wrench: &Wrench, frames: &Frames) -> f64 {
     let frame = wrench.body.frame(frames);
     let turn = frame.psi.d1;
-    // The moment about the frame's origin, and the origin's own way.
+    // The moment about the frame's origin, and the displacement of the origin.
     let origin = [frame.x.value, frame.y.value];
     wrench.force[0] * frame.x.d1 + wrench.force[1] * frame.y.d1 + wrench.moment_about(origin) * turn
 }

@@ -1,4 +1,4 @@
-//! The largest magnitudes of the forces over the motion, and where they occur.
+//! The largest magnitudes of the forces over the motion, and their positions.
 
 use jred::machine::Mechanism as _;
 use jred::machine::motion::State;
@@ -15,10 +15,10 @@ use crate::number::columns::{Column, Quantity};
 use crate::number::parabola;
 use crate::number::rounding::short;
 
-/// Positions that are searched at least: the quarter degrees of a turn.
+/// Least number of positions that are searched: the quarter degrees of a turn.
 const SEARCHED: usize = 1440;
 
-/// Fewest steps of a turn, or of a stroke, in a motion of many.
+/// Fewest steps per turn or stroke, in a motion over many.
 const OF_TURN: f64 = 180.0;
 
 /// Fewest steps of a smooth stretch.
@@ -31,18 +31,18 @@ pub struct Largest {
     #[serde(serialize_with = "title")]
     #[schemars(with = "String")]
     pub quantity: Column,
-    /// The value there, with its sign.
+    /// The value, with its sign.
     pub value: f64,
-    /// What the rows run over.
+    /// The variable of the rows.
     #[serde(serialize_with = "title")]
     #[schemars(with = "String")]
     pub over: Column,
-    /// Where it occurs.
+    /// Its place.
     pub at: f64,
 }
 
 impl Largest {
-    /// Such as `drive 812.4 N m at phi = 341 deg`.
+    /// For example `drive 812.4 N m at phi = 341 deg`.
     pub fn sentence(&self) -> String {
         let (quantity, over) = (&self.quantity, &self.over);
         format!(
@@ -61,11 +61,11 @@ fn title<S: Serializer>(column: &Column, serializer: S) -> Result<S::Ok, S::Erro
     serializer.serialize_str(&column.title())
 }
 
-/// The largest drive torque, joint forces, and shaking force of the request: each smooth stretch of the motion is searched at steps
-/// that would be 1440 or more over the whole, then the peak beside the largest is closed in.
+/// The largest drive torque, joint forces, and shaking force of the request. Each smooth stretch of the motion is searched, with steps of 1440 or
+/// more over the whole, then the peak next to the largest value is refined.
 ///
 /// # Errors
-/// Those of the machine.
+/// Errors of the machine.
 pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Error> {
     let source = Source::new(file)?;
     let Some(course) = Course::of(&source, request) else {
@@ -78,16 +78,15 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
         course,
     };
     let heads = search.reactions.heads(&source);
-    // Magnitudes and moments; the components say no more.
+    // Magnitudes and moments; the components add no information.
     let judged = [Quantity::DriveEffort, Quantity::Force, Quantity::Moment];
-    // Towards a change point the forces in the joints grow without bound; those of the drive and the shaking force, which come first
-    // and last, do not.
+    // Towards a change point the forces in the joints grow without bound; the drive and the shaking force, which come first and last, do not.
     let guided = !source.machine.mechanism().change_points().is_empty();
     let joints = 1..heads.len().saturating_sub(reactions::LOADS.len());
     let judged: Vec<bool> = (heads.iter().enumerate())
         .map(|(k, head)| judged.contains(&head.quantity) && !(guided && joints.contains(&k)))
         .collect();
-    // The places of all stretches one after the other, and the magnitude of each judged quantity there.
+    // The places of all stretches in order, and the magnitude of each judged quantity there.
     let mut places = Vec::new();
     let mut sizes = vec![Vec::new(); heads.len()];
     let mut scale = 0.0f64;
@@ -112,7 +111,7 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
     let mut found = Vec::new();
     for (k, (head, sizes)) in heads.iter().zip(&sizes).enumerate() {
         let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // A guide through the centre of mass of its slider has no moment but roundings.
+        // The moment of a guide through the centre of mass of its slider is only rounding.
         if largest <= 1e-12 * scale {
             continue;
         }
@@ -143,22 +142,22 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
     Ok(found)
 }
 
-/// What is searched.
+/// The course that is searched.
 enum Course<'f> {
-    /// The motion, over its time.
+    /// The motion over time.
     Motion(&'f Motion),
-    /// Every position, at this speed and acceleration.
+    /// All positions, at this speed and acceleration.
     State([f64; 2]),
 }
 
 impl<'f> Course<'f> {
-    /// `None` where no row has a motion.
+    /// The course of a request; `None` if no row has a motion.
     fn of(source: &Source<'f>, request: &Request) -> Option<Self> {
         if let Some(state) = request.state {
             return Some(Self::State(state));
         }
         let motion = source.file.motion.as_ref()?;
-        // Over the position there are forces only where the motion passes each once.
+        // Over the position, forces exist only if the motion passes each position once.
         let domain = source.file.machine.domain();
         let known = request.over == Over::Time || Pass::of(motion, domain).is_some();
         known.then_some(Self::Motion(motion))
@@ -175,7 +174,7 @@ impl<'f> Course<'f> {
         }
     }
 
-    /// What is smooth, in about so many steps.
+    /// The smooth stretches, with about `steps` steps in total.
     fn stretches(&self, source: &Source, steps: usize) -> Vec<Stretch> {
         let parts = match self {
             Self::Motion(motion) => smooth_stretches(source.file, motion),
@@ -209,7 +208,7 @@ impl Stretch {
         self.from + part.clamp(INSIDE, 1.0 - INSIDE) * (self.to - self.from)
     }
 
-    /// The end of the stretch for a place that stands for it.
+    /// A place close to an end of the stretch becomes that end.
     fn snapped(&self, x: f64) -> f64 {
         let near = 2.0 * INSIDE * (self.to - self.from);
         let ends = [self.from, self.to].into_iter();
@@ -261,7 +260,7 @@ impl Search<'_, '_> {
         Ok(values.into_iter().map(Option::unwrap_or_default).collect())
     }
 
-    /// The position of x as it is shown, on a turn between 0 and 360 degrees.
+    /// The displayed position of x, on a turn between 0 and 360 degrees.
     fn position(&self, x: f64) -> f64 {
         let phi = self.course.state(x).phi;
         let phi = match self.source.file.machine.domain() {

@@ -10,9 +10,9 @@ use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 use crate::number::columns::{Column, Quantity};
 
-/// Every named point, every link's centre of mass (of links that have a mass), and every link's angle.
+/// Every named point, every link's centre of mass (for links with a mass), and every link's angle.
 pub(super) struct Points {
-    /// Velocities and accelerations in time as well.
+    /// Also velocities and accelerations in time.
     pub(super) in_time: bool,
 }
 

@@ -1,8 +1,8 @@
 //! The forces of d'Alembert's principle as columns: drive, joints, shaking force and moment.
 //!
-//! They are those of the machine without the inner forces of its drive train. The train's inertia, reduced to the drive link,
-//! turns with it as a flywheel does: it changes the drive torque and no joint. What a belt or a pinion pulls at the drive
-//! link's bearing is not in the machine file, and so not in the bearing's force.
+//! They are those of the machine without the internal forces of its drive train. The train's inertia, reduced to the drive link, rotates with it like
+//! a flywheel: it changes the drive torque but no joint force. The pull of a belt or a pinion on the drive link's bearing is not in the machine file,
+//! and so not in the bearing's force.
 
 use jred::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
@@ -21,11 +21,11 @@ pub(super) const LOADS: [(Quantity, &str, &str); 4] = [
 
 /// Kinds of load in the joints.
 pub(super) struct Reactions {
-    /// For each joint of the mechanism, without those of curves' stand-ins: whether it carries a force, and whether a moment.
+    /// For each joint of the mechanism, except those of links that represent curves: whether it carries a force, and a moment.
     carries: Vec<[bool; 2]>,
 }
 
-/// Whether a joint carries a force, and whether a moment.
+/// Whether a joint carries a force, and a moment.
 fn carries(joint: &Joint) -> [bool; 2] {
     match joint {
         Joint::Revolute(_) | Joint::PinInSlot(_) => [true, false],
@@ -37,7 +37,7 @@ fn carries(joint: &Joint) -> [bool; 2] {
     }
 }
 
-/// What each joint of a mechanism carries, without those of curves' stand-ins.
+/// Whether each joint of a mechanism carries a force and a moment, except joints of links that represent curves.
 fn carried(mechanism: &AnyMechanism) -> Result<Vec<[bool; 2]>, Error> {
     let phi = mechanism.domain().position(0.0);
     let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
@@ -48,7 +48,7 @@ fn carried(mechanism: &AnyMechanism) -> Result<Vec<[bool; 2]>, Error> {
 /// The joints of a mechanism that carry a force, by index and name.
 ///
 /// # Errors
-/// The mechanism cannot be placed at the beginning of its range.
+/// The mechanism cannot be placed at the start of its range.
 pub fn joints_with_force(mechanism: &AnyMechanism) -> Result<Vec<(usize, &str)>, Error> {
     let names = mechanism.joint_names().iter().map(String::as_str);
     let all = names.enumerate().zip(carried(mechanism)?);
@@ -64,7 +64,7 @@ impl Reactions {
         })
     }
 
-    /// The columns of a joint, without force or moment where there is none.
+    /// The columns of a joint, without force or moment if it carries none.
     fn pick<T: Clone>(&self, joint: usize, [x, y, size, moment]: [T; 4]) -> Vec<T> {
         let [force, turns] = self.carries.get(joint).copied().unwrap_or([true, true]);
         let mut picked = Vec::with_capacity(4);
@@ -98,7 +98,7 @@ impl Set for Reactions {
         };
         let machine = source.machines.at(&place.now, place.phi)?;
         if !machine.mechanism().determined(place.phi) {
-            // At a change point the drive's effort is that of the reduced link, and no joint's force is known.
+            // At a change point the drive's effort comes from the reduced link, and the joint forces are unknown.
             let mut values = vec![None; self.heads(source).len()];
             let terms = (machine.bare_reduction(place.phi)?).torque(state.omega, state.alpha);
             if let Some(drive) = values.first_mut() {
@@ -115,7 +115,7 @@ impl Set for Reactions {
         let [mut x, mut y] = forces.shaking_force;
         let mut moment = forces.shaking_moment;
         for carriage in source.file.schedule.carriages() {
-            // What it does by its motion along its guide is an inertia force, too.
+            // The effect of its motion along its guide is an inertia force, too.
             let load = machine.loads().get(carriage.load);
             let Some((load, frame)) = load.zip(place.frames.get(carriage.mass.link)) else {
                 continue;

@@ -1,4 +1,4 @@
-//! The time of a simulation as the time of `[motion]`, and the times at which something changes by it.
+//! The time of a simulation as the time of `[motion]`, and the times at which the machine changes by it.
 
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
@@ -6,22 +6,22 @@ use crate::model::schedule::Now;
 
 use super::geared::Geared;
 
-/// A hair beside a corner, per second of time: what jumps there belongs to both sides.
+/// Distance from a corner, per second of time, at which a step is evaluated: a jump belongs to both sides.
 pub(super) const EDGE: f64 = 1e-13;
 
-/// An instant of a simulation, and which way the first drive link moves.
+/// An instant of a simulation, and the direction of the first drive link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moment {
     /// Time (s).
     pub t: f64,
-    /// +1, −1, or 0 where friction holds it.
+    /// +1, −1, or 0 if friction holds it.
     pub direction: f64,
-    /// Whether it is still at rest, and is about to move in this direction.
+    /// Whether it is still at rest and about to move in this direction.
     pub starts: bool,
 }
 
 impl Moment {
-    /// In motion, or held.
+    /// Moving, or held.
     pub const fn new(t: f64, direction: f64) -> Self {
         Self {
             t,
@@ -52,10 +52,10 @@ impl Moment {
     }
 }
 
-/// The clock of a machine: its `[motion]` begins with the simulation. A cyclic one is repeated; behind the end of another one it stays at the end.
+/// The clock of a machine: its `[motion]` begins with the simulation. A cyclic motion is repeated; any other stays at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
-    /// Of a cycle (s).
+    /// Duration of a cycle (s).
     cycle: Option<f64>,
 }
 
@@ -67,7 +67,7 @@ impl Clock {
         }
     }
 
-    /// How many cycles are over at the time `t`, and the time of the motion since then.
+    /// Number of complete cycles at the time `t`, and the time of the motion since then.
     pub(super) fn split(self, t: f64) -> (f64, f64) {
         self.cycle.map_or((0.0, t), |cycle| {
             let cycles = (t / cycle).floor();
@@ -76,16 +76,16 @@ impl Clock {
     }
 }
 
-/// Times at which forces or masses jump or bend: no step of the integrator passes over one.
+/// Times at which forces or masses jump or bend: no step of the integrator crosses one.
 #[derive(Clone, Debug, Default)]
 pub(in crate::analysis) struct Corners {
     once: Vec<f64>,
-    /// Length of a cycle (s), and the times of each, of which the last may be its end.
+    /// Duration of a cycle (s), and the times in it, of which the last may be its end.
     repeated: Vec<(f64, Vec<f64>)>,
 }
 
 impl Corners {
-    /// Those of these times.
+    /// Corners at these times.
     pub(super) fn at(times: impl IntoIterator<Item = f64>) -> Self {
         Self {
             once: sorted(times),
@@ -93,7 +93,7 @@ impl Corners {
         }
     }
 
-    /// With the times of a motion that goes by a clock.
+    /// Adds the times of a motion with this clock.
     pub(super) fn by(mut self, clock: Clock, times: impl IntoIterator<Item = f64>) -> Self {
         let times = times.into_iter().filter(|t| *t > 0.0);
         match clock.cycle {
@@ -103,12 +103,12 @@ impl Corners {
         self
     }
 
-    /// With those of what a machine's schedule says.
+    /// Adds the times of a machine's schedule.
     pub(super) fn of_schedule(self, file: &MachineFile) -> Self {
         self.by(Clock::of(file), file.schedule.times())
     }
 
-    /// The last one up to the time `t`, and the first one behind it; of those that differ by a rounding, the last.
+    /// The last corner up to the time `t`, and the first one after it; of those that differ by rounding, the last.
     pub(super) fn around(&self, t: f64) -> [Option<f64>; 2] {
         let mut all = Vec::new();
         let mut neighbours = |start: f64, times: &[f64]| {
@@ -119,7 +119,7 @@ impl Corners {
         neighbours(0.0, &self.once);
         for (cycle, times) in &self.repeated {
             let now = (t / cycle).floor();
-            // By a rounding it may be the next one already, or still the last.
+            // By rounding it may already be the next cycle, or still the last one.
             for cycles in [now - 1.0, now, now + 1.0] {
                 if cycles >= 0.0 {
                     neighbours(cycles * cycle, times);
@@ -137,7 +137,7 @@ impl Corners {
     }
 }
 
-/// In order; of those that differ by a rounding, the last.
+/// Sorted; of those that differ by rounding, the last.
 fn sorted(times: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut all: Vec<f64> = times.into_iter().collect();
     all.sort_by(f64::total_cmp);
@@ -155,7 +155,7 @@ fn sorted(times: impl IntoIterator<Item = f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Of a cycle of 0.3 s with a corner at 0.1 s and its end, and of one at 0.4 s that is alone.
+    /// Corners of a cycle of 0.3 s at 0.1 s and its end, and a single one at 0.4 s.
     #[test]
     fn corners_repeat_with_their_cycle() {
         let clock = Clock { cycle: Some(0.3) };
@@ -171,7 +171,7 @@ mod tests {
             passed.push(t);
             assert_eq!(corners.around(t)[0], Some(t));
         }
-        // 0.3 + 0.1 and 0.4 are one.
+        // 0.3 + 0.1 and 0.4 are one corner.
         let expected = [0.1, 0.3, 0.4, 0.6, 0.7, 0.9];
         assert_eq!(passed.len(), 7, "{passed:?}");
         for (at, expected) in passed.iter().zip(expected) {

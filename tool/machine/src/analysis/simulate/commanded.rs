@@ -1,4 +1,4 @@
-//! A machine whose motor has a state of its own beside φ and ω: the integral of a controller, or the current of a winding.
+//! A machine whose motor has its own state besides φ and ω: the integral of a controller, or the current of a winding.
 
 use jred::Error;
 
@@ -13,23 +13,23 @@ use super::simulated::Missing;
 use crate::model::motor::Motor;
 use crate::number::columns::Column;
 
-/// Values of a state without payloads and carriages: φ, ω, the state of the motor, and what follows ω without one.
+/// Number of state values without payloads and carriages: φ, ω, the state of the motor, and the works.
 pub(super) const COMMANDED: usize = PLAIN + 1;
 
-/// With them.
+/// The same with payloads and carriages.
 pub(super) const COMMANDED_WITH_GUESTS: usize = WITH_GUESTS + 1;
 
-/// What a motor does at a state.
+/// The motor at a state.
 pub(super) struct Command {
     /// Its torque.
     pub(super) torque: f64,
-    /// What it would be without limits.
+    /// Its torque without limits.
     pub(super) asked: f64,
-    /// Change of its own state with the time.
+    /// Rate of its own state.
     pub(super) rate: f64,
 }
 
-/// What says which torque a motor gives at φ, ω and a state of its own, which is 0 at the start.
+/// Commands the torque of a motor at φ, ω and its own state, which is 0 at the start.
 pub(super) trait Commander<M> {
     /// The torque, while the motor is on.
     fn command(&self, plant: &Plant<M>, t: f64, state: [f64; 3]) -> Result<Command, Error>;
@@ -37,7 +37,7 @@ pub(super) trait Commander<M> {
     /// The column that it adds.
     fn column(&self) -> Column;
 
-    /// What stands there; `on`: the motor is not switched off.
+    /// The column's value; `on`: the motor is not switched off.
     fn figure(&self, plant: &Plant<M>, t: f64, state: [f64; 3], on: bool) -> f64;
 
     /// Reference less position, if there is a reference.
@@ -45,28 +45,28 @@ pub(super) trait Commander<M> {
         None
     }
 
-    /// What passes zero where the torque bends, as in [`run::Plant::bends`].
+    /// Values that pass zero where the torque bends, as in [`run::Plant::bends`].
     fn bends(&self, _plant: &Plant<M>, _t: f64, _state: [f64; 3]) -> Result<Vec<f64>, Error> {
         Ok(Vec::new())
     }
 
-    /// With the times at which the torque has a corner.
+    /// Adds the times at which the torque has a corner.
     fn corners(&self, _plant: &Plant<M>, others: Corners) -> Corners {
         others
     }
 
-    /// Whether the torque at rest is in the end that of the motor's characteristic.
+    /// Whether the torque at rest settles at the motor's characteristic.
     fn settles(&self) -> bool;
 }
 
-/// The machine, its motor, and what commands it.
+/// The machine, its motor, and the commander.
 pub(super) struct Commanded<'a, M, C> {
     pub(super) plant: Plant<'a, M>,
     pub(super) commander: C,
 }
 
 impl<M: Motor, C: Commander<M>> Commanded<'_, M, C> {
-    /// Torque at the motor shaft, of the motor or, once it is switched off, of the brake; what is asked for; the change of the motor's state.
+    /// Torque at the motor shaft (of the motor or, once it is switched off, of the brake), requested torque, and rate of the motor's state.
     fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<[f64; 3], Error> {
         if self.is_off(moment.t) {
             let brake = self.plant.halted(moment, || 0.0);
@@ -99,7 +99,7 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
 
     fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
         if moment.direction == 0.0 {
-            // The motor's state goes on until it breaks away.
+            // The motor's state continues to change until the machine breaks away.
             let [.., rate] = self.torque(moment, commanded(y))?;
             let mut slope = self.plant.slope_at_rest(moment, y[0], 3)?;
             slope[2] = rate;

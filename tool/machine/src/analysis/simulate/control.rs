@@ -15,7 +15,7 @@ use crate::model::motor::Motor;
 use crate::model::simulation::{Control, FeedForward};
 use crate::number::columns::{Column, Quantity};
 
-/// Positions from which the mean inertia is taken.
+/// Positions over which the inertia is averaged.
 const POSITIONS: usize = 720;
 
 /// The controller and its reference.
@@ -23,7 +23,7 @@ pub(super) struct Cascade<'a> {
     control: Control,
     motion: &'a Motion,
     axis: Axis,
-    /// By how much the position advances in a cycle of the reference.
+    /// Advance of the position per cycle of the reference.
     advance: f64,
     /// Of each machine, at its drive link.
     mean_inertia: Vec<f64>,
@@ -48,7 +48,7 @@ impl<'a> Cascade<'a> {
         })
     }
 
-    /// The motion of the file at the time `t`: repeated if it is cyclic, else at rest behind its end.
+    /// The motion of the file at the time `t`: repeated if it is cyclic, else at rest after its end.
     fn reference(&self, file: &MachineFile, t: f64) -> Reference<f64> {
         let duration = self.motion.duration();
         let (cycles, time) = Clock::of(file).split(t);

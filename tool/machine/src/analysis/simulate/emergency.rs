@@ -1,4 +1,4 @@
-//! Stops at instants all over a cycle: the emergency stop at its worst.
+//! Stops at instants over a whole cycle: the emergency stop at its worst.
 
 use std::f64::consts::TAU;
 
@@ -11,19 +11,19 @@ use crate::model::simulation::{Halt, Simulation};
 /// A stop at one of the instants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// When the motor is switched off (s).
+    /// Time at which the motor is switched off (s).
     pub time: f64,
     /// Position of the drive link there (rad, or m).
     pub position: f64,
-    /// Time and way from there to rest; `None`: the machine is not at rest at the end of the simulation.
+    /// Time and travel from there to rest; `None` if the machine is not at rest at the end of the simulation.
     pub rest: Option<Rest>,
 }
 
-/// Stops at equal times over the last cycle before the `stop` of the simulation, its own included: that of a cyclic motion under a
-/// controller, else the turn before. `run` simulates.
+/// Stops at equal times over the last cycle before the `stop` of the simulation, which is included. Under a controller with a cyclic motion it is a
+/// cycle of the motion, else the turn before. `run` simulates.
 ///
 /// # Errors
-/// No stop, or no whole cycle before it; those of the simulations.
+/// No stop, or no whole cycle before it; errors of the simulations.
 pub fn stops<E: From<SimulationError>>(
     file: &MachineFile,
     simulation: &Simulation,
@@ -52,7 +52,7 @@ pub fn stops<E: From<SimulationError>>(
     Ok(stops)
 }
 
-/// How long the last cycle before the stop takes (s).
+/// Duration of the last cycle before the stop (s).
 fn span<E: From<SimulationError>>(
     file: &MachineFile,
     simulation: &Simulation,
@@ -71,7 +71,7 @@ fn span<E: From<SimulationError>>(
     if let Domain::Stroke { .. } = file.machine.domain() {
         return Err(SimulationError::NoCycle.into());
     }
-    // The rows up to the stop, with what is between two as a straight line.
+    // The rows up to the stop, interpolated linearly.
     let free = Simulation {
         halt: None,
         duration: halt.time,

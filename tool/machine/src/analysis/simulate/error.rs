@@ -1,10 +1,10 @@
-//! Why a simulation did not come to its end.
+//! Why a simulation ended early.
 
 use jred::Error;
 
 use crate::number::numerics::dormand_prince::Stopped;
 
-/// Why a simulation did not come to its end.
+/// Why a simulation ended early.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum SimulationError {
     /// The machine cannot be placed.
@@ -17,7 +17,7 @@ pub enum SimulationError {
          the catalogue: --drive MOTOR+GEARBOX"
     ))]
     NoMotor,
-    /// Something behind a variator goes by the motion of the file.
+    /// A part behind a variator is scheduled by the motion of the file.
     #[error("{what}: that goes by [motion], and is not simulated behind a [variator]")]
     #[diagnostic(help(
         "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
@@ -25,10 +25,10 @@ pub enum SimulationError {
     Scheduled {
         /// The load, payload or carriage.
         what: String,
-        /// How to do without it.
+        /// How to simulate without it.
         cure: String,
     },
-    /// Stops are asked for and the file has none.
+    /// Stops are requested, but the file has no stop.
     #[error("[simulation] has no `stop` whose instant could be moved")]
     #[diagnostic(help(
         "add stop = {{ time = \"3 s\", brake_torque = \"80 N m\", brake_delay = \"40 ms\" }}"
@@ -48,7 +48,7 @@ pub enum SimulationError {
     NotBeside {
         /// The machine.
         title: String,
-        /// Why.
+        /// The reason.
         why: &'static str,
     },
     /// The drive link has passed the end of its stroke.
@@ -65,7 +65,7 @@ pub enum SimulationError {
         /// Speed there.
         speed: String,
     },
-    /// The integrator gave up.
+    /// The integrator stopped.
     #[error("the integrator stopped at t = {t} s: {reason}")]
     #[diagnostic(help(
         "look for what is stiff or grows without limit: viscous friction that is large for the inertia, a steep characteristic of the motor, \
@@ -77,7 +77,7 @@ pub enum SimulationError {
         /// Message of the integrator.
         reason: &'static str,
     },
-    /// A constant slip in a contact whose power has turned round.
+    /// A constant slip in a contact whose power has reversed.
     #[error(
         "at t = {t:.6} s power flows through the variator against its `power_flow`: with a constant slip, the contact \
          would generate {power:.3e} W, which is impossible"
@@ -87,16 +87,16 @@ pub enum SimulationError {
          reverse `power_flow`"
     ))]
     PowerFlowsBack {
-        /// When (s).
+        /// Time (s).
         t: f64,
-        /// Power that the contact would give (W).
+        /// Power that the contact would generate (W).
         power: f64,
     },
     /// A follower has left its cam, or a rope is slack.
     #[error("at t = {t:.6} s {what}: at {state}")]
     #[diagnostic(help("{cure}"))]
     Parted {
-        /// When (s).
+        /// Time (s).
         t: f64,
         /// The contact that separates.
         what: String,

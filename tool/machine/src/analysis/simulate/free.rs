@@ -13,30 +13,30 @@ use crate::model::motor::Motor;
 use crate::model::simulation::Simulation;
 use crate::number::columns::Column;
 
-/// Values of a state without payloads and carriages: φ, ω, work of the motor, work of the process loads, losses.
+/// Number of state values without payloads and carriages: φ, ω, work of the motor, work of the process loads, losses.
 pub(super) const PLAIN: usize = 5;
 
-/// With them: energy that payloads have brought, and work of the second axes, behind φ and ω.
+/// The same with them: energy brought by payloads, and work of the second axes, after φ and ω.
 pub(super) const WITH_GUESTS: usize = PLAIN + 2;
 
 impl<M: Motor> Plant<'_, M> {
-    /// The torque at the motor's shaft without a controller.
+    /// Torque at the motor's shaft without a controller.
     fn torque(&self, moment: &Moment, omega: f64) -> f64 {
         self.halted(moment, || self.motor(omega)[0])
     }
 
-    /// What happens at a state at an instant.
+    /// Derivatives and forces at a state and an instant.
     fn now(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Instant, Error> {
         self.under(moment, [phi, omega], self.torque(moment, omega))
     }
 }
 
-/// The place of the guests' two values in a state of `N` values, which begins with `own` values.
+/// Index of the two values of payloads and carriages in a state of `N` values that begins with `own` values.
 pub(super) fn guests_of<const N: usize>(own: usize) -> Option<usize> {
     (N == own + 5).then_some(own)
 }
 
-/// How a state that begins with `own` values changes where the drive link moves; a value of the motor itself is left at zero.
+/// Derivative of a state that begins with `own` values while the drive link moves; the motor's own value is left at zero.
 pub(super) fn slope_in_motion<const N: usize>(now: &Instant, omega: f64, own: usize) -> [f64; N] {
     let mut slope = [0.0; N];
     (slope[0], slope[1]) = (omega, now.alpha);
@@ -50,7 +50,7 @@ pub(super) fn slope_in_motion<const N: usize>(now: &Instant, omega: f64, own: us
 }
 
 impl<M: Motor> Plant<'_, M> {
-    /// The same where friction holds it.
+    /// The same while friction holds it.
     pub(super) fn slope_at_rest<const N: usize>(
         &self,
         moment: &Moment,
@@ -145,7 +145,7 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         if given == 0.0 || is_off {
             return Ok(None);
         }
-        // Both by what acts at rest and by what acts in motion.
+        // Both with the loads at rest and with the loads in motion.
         let sign = given.signum();
         let moments = [Moment::starting(t, push), Moment::new(t, push)];
         let mut needed = f64::NEG_INFINITY;

@@ -1,6 +1,6 @@
 //! Several machines on one shaft: the drive train of each begins at the motor.
 //!
-//! One degree of freedom is left, the drive link of the first machine, with which the others go evenly:
+//! One degree of freedom is left, the drive link of the first machine; the others move in proportion:
 //!
 //! ```text
 //! φ_k = φ_k,0 + r_k·(φ − φ_0),   r_k = i_1/i_k          i_k: ratio of each drive train
@@ -18,10 +18,10 @@ use crate::model::machine::MachineFile;
 use crate::model::schedule::Schedule;
 use crate::model::simulation::{Shaft, Simulation};
 
-/// A number of turns is whole within this share: some roundings.
+/// Tolerance within which a number of turns is whole: some rounding errors.
 const WHOLE: f64 = 1e-9;
 
-/// A machine, and how its drive link goes with that of the first one: φ_k = offset + ratio·φ.
+/// A machine whose drive link moves in proportion to that of the first one: φ_k = offset + ratio·φ.
 #[derive(Clone, Copy, Debug)]
 pub struct Geared<'a> {
     /// The machine.
@@ -40,7 +40,7 @@ impl<'a> Geared<'a> {
         }
     }
 
-    /// Position, speed and acceleration, from those of the first drive link.
+    /// Position, speed and acceleration, from the values of the first drive link.
     pub fn state(&self, [phi, omega, alpha]: [f64; 3]) -> [f64; 3] {
         [
             self.offset + self.ratio * phi,
@@ -54,7 +54,7 @@ impl<'a> Geared<'a> {
         self.ratio
     }
 
-    /// Positions of the first drive link where this machine is not smooth: all of those within so many turns, each of them some turns off.
+    /// Positions of the first drive link at which this machine is not smooth: all within `turns` turns, each up to a number of turns.
     pub(in crate::analysis) fn edges(&self, turns: u32) -> impl Iterator<Item = f64> + use<'a> {
         let Self {
             file,
@@ -72,7 +72,7 @@ impl<'a> Geared<'a> {
 /// Machines on one shaft.
 #[derive(Clone, Debug)]
 pub struct Together<'a> {
-    /// The one whose drive link counts.
+    /// The machine whose drive link is the coordinate.
     pub first: &'a MachineFile,
     beside: Vec<Geared<'a>>,
 }
@@ -86,10 +86,10 @@ impl<'a> Together<'a> {
         }
     }
 
-    /// With further machines, each with the position (rad) of its drive link where the simulation starts.
+    /// Adds further machines, each with the position (rad) of its drive link at the start of the simulation.
     ///
     /// # Errors
-    /// One that cannot run with others.
+    /// A machine that cannot run with others.
     pub fn with(
         mut self,
         others: impl IntoIterator<Item = (&'a MachineFile, f64)>,
@@ -128,7 +128,7 @@ impl<'a> Together<'a> {
         Ok(self)
     }
 
-    /// The same machines with another first one, which differs in its inertia alone.
+    /// The same machines with another first one, which differs only in its inertia.
     #[must_use]
     pub fn with_first<'b>(&self, first: &'b MachineFile) -> Together<'b>
     where
@@ -146,7 +146,7 @@ impl<'a> Together<'a> {
         titles.join(" + ")
     }
 
-    /// Such as `, on one shaft with Feeder and Conveyor`; nothing of one alone.
+    /// For example `, on one shaft with Feeder and Conveyor`; empty for a single machine.
     pub fn beside_in_words(&self) -> String {
         let beside = self.beside.iter().map(|m| m.file.title.as_str());
         let beside: Vec<&str> = beside.collect();
@@ -156,7 +156,7 @@ impl<'a> Together<'a> {
         format!(", on one shaft with {}", beside.join(" and "))
     }
 
-    /// Whether payloads come and go, and whether carriages move.
+    /// Whether there are payloads, and moving carriages.
     pub(super) fn guests(&self) -> [bool; 2] {
         let has = |such: fn(&Schedule) -> bool| {
             let mut all = self.all();
@@ -168,14 +168,14 @@ impl<'a> Together<'a> {
         ]
     }
 
-    /// Whether all machines are where they were after a turn of the first drive link.
+    /// Whether all machines are in the same position after a turn of the first drive link.
     pub(super) fn go_by_turns(&self) -> bool {
         let whole = |ratio: f64| (ratio - ratio.round()).abs() <= WHOLE * (1.0 + ratio.abs());
         self.all()
             .all(|machine| machine.file.machine.domain() == Domain::Turn && whole(machine.ratio()))
     }
 
-    /// The machines beside the first.
+    /// The machines besides the first.
     pub fn beside(&self) -> &[Geared<'a>] {
         &self.beside
     }
@@ -186,7 +186,7 @@ impl<'a> Together<'a> {
     }
 }
 
-/// Whether the drive train begins at a slide: a drive link that slides, without stages in front of it.
+/// Whether the drive train begins at a sliding drive link, without stages.
 fn slides(file: &MachineFile) -> bool {
     let coordinate = file.machine.mechanism().coordinate();
     coordinate == Coordinate::Length && file.drive_train.stages().is_empty()

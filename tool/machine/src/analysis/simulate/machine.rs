@@ -1,4 +1,4 @@
-//! A machine, or several, that a motor drives through fixed ratios.
+//! One or several machines that a motor drives through fixed ratios.
 
 mod bends;
 mod shown;
@@ -21,7 +21,7 @@ pub(in crate::analysis) struct Plant<'a, M> {
     pub(super) simulation: &'a Simulation,
     pub(in crate::analysis) motor: M,
     axis: Axis,
-    /// Where the drive link's way ends.
+    /// Ends of the drive link's travel.
     ends: Option<[f64; 2]>,
     bends: Bends,
 }
@@ -34,22 +34,22 @@ pub(in crate::analysis) struct Instant {
     pub(in crate::analysis) input_torque: f64,
     pub(in crate::analysis) motor_power: f64,
     pub(in crate::analysis) process_power: f64,
-    /// Of the second axes that move carriages.
+    /// Power of the second axes that move carriages.
     pub(super) carriage_power: f64,
     pub(in crate::analysis) loss: f64,
 }
 
 /// The energy of the machines, their drive trains and the motor.
 pub(super) struct Stored {
-    /// Inertia of all at the first drive link.
+    /// Inertia of all machines at the first drive link.
     pub(super) inertia: f64,
     /// Kinetic energy beyond ½·J·ω²: that of carriages along their guides (J).
     pub(super) beyond: f64,
-    /// (J)
+    /// Potential energy (J).
     pub(super) potential: f64,
 }
 
-/// What a motor gives so that the drive link delivers a torque in its motion.
+/// Motor effort for a torque at the drive link during a motion.
 struct Through {
     torque: f64,
     /// Its derivative by α.
@@ -59,7 +59,7 @@ struct Through {
     loss: f64,
 }
 
-/// What a machine beside the first is called in columns; the first of them has the index 0.
+/// Name of a machine besides the first in columns; the first of them has the index 0.
 pub fn beside_name(index: usize) -> String {
     format!("machine {}", index + 2)
 }
@@ -94,8 +94,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         [self.motor.torque(speed), speed]
     }
 
-    /// The motor in front of the drive trains: what it gives under these speeds and accelerations of the first drive link, if each machine has
-    /// such a torque and inertia at its own.
+    /// The effort of the motor in front of the drive trains, at these speeds and accelerations of the first drive link, if each machine has this
+    /// torque and inertia at its own drive link.
     fn through(
         &self,
         direction: f64,
@@ -119,7 +119,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         let ratio = self.machines.first.drive_train.ratio();
         let form = self.motor.coefficients();
         let [own, driving, back, viscous, coulomb] = form.0;
-        // At rest the direction is that of the motion to come.
+        // At rest the direction is that of the next motion.
         let [alpha, torque_driving, torque_back, _, sign] =
             loads_of(alpha * ratio, input.torque, direction * ratio);
         let speed = omega * ratio;
@@ -146,7 +146,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// The torque at the motor shaft that a motion asks for.
+    /// The torque at the motor shaft required by a motion.
     pub(super) fn required(
         &self,
         moment: &Moment,
@@ -163,7 +163,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         Ok(self.through(direction, [omega, alpha], loads).torque)
     }
 
-    /// What each stage of the first machine's drive train delivers in a motion (N·m).
+    /// Output torque of each stage of the first machine's drive train in a motion (N·m).
     pub(in crate::analysis) fn delivered(
         &self,
         moment: &Moment,
@@ -182,8 +182,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         }))
     }
 
-    /// The torque at the motor shaft that accelerates machines of these inertias, each at its drive link, with the drive trains and the motor:
-    /// without loads and losses.
+    /// The torque at the motor shaft that accelerates machines with these inertias at their drive links, the drive trains and the motor, without
+    /// loads and losses.
     pub(super) fn accelerating(&self, alpha: f64, inertias: &[f64]) -> f64 {
         let each = self.machines.all().zip(inertias);
         let machines: f64 = each
@@ -202,7 +202,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         own * self.motor.ratio() + trains.sum::<f64>()
     }
 
-    /// Torque of the motor and of the brake at an instant: the motor's is `driving` until it is switched off.
+    /// Torque of the motor and of the brake at an instant: the motor's torque is `driving` until it is switched off.
     pub(super) fn halted(&self, moment: &Moment, driving: impl Fn() -> f64) -> f64 {
         let t = moment.t;
         match self.simulation.halt {
@@ -214,7 +214,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// A position; behind an end stop or the end of the stroke, where a step of the integrator may reach, that end.
+    /// A position, limited to the end stops or the ends of the stroke, beyond which a step of the integrator may reach.
     fn inside(&self, phi: f64) -> f64 {
         match self.ends {
             Some([from, to]) => phi.clamp(from, to),
@@ -244,7 +244,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     }
 
     /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy. Without
-    /// what the schedule says.
+    /// schedules.
     pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
         let stored = self.stored(&Moment::default(), [phi, 0.0])?;
         Ok([stored.inertia, stored.potential])
@@ -252,7 +252,7 @@ impl<'a, M: Motor> Plant<'a, M> {
 
     /// Inertia and energies at a position and speed.
     pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<Stored, Error> {
-        // The motor and the drive trains turn with the drive link.
+        // The motor and the drive trains rotate with the drive link.
         let ratio = self.machines.first.drive_train.ratio();
         let [mut inertia, mut potential, mut beyond] = [0.0; 3];
         for (machine, point) in self.points(moment, link)?.all() {
@@ -267,10 +267,10 @@ impl<'a, M: Motor> Plant<'a, M> {
         })
     }
 
-    /// The acceleration that solves the equation of motion through the losses of the drive train, under the motor at this speed.
+    /// The acceleration that solves the equation of motion with the losses of the drive train, under the motor at this speed.
     ///
-    /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
-    /// sides with its power), so Newton's method ends after a few steps.
+    /// The required motor torque is piecewise linear and monotone in α (each stage's efficiency changes sides with its power), so Newton's method
+    /// ends after a few steps.
     pub(in crate::analysis) fn instant(
         &self,
         moment: &Moment,
@@ -291,7 +291,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         Ok(self.solved(&points, moment.direction, [phi, omega], torque))
     }
 
-    /// What of the motor's torque acts at its own shaft, and what at the first drive link: then what sits in front of that only drags along.
+    /// The motor's torque, split into the part at its own shaft and the part at the first drive link. In the second case everything in front of the
+    /// drive link is only dragged along.
     fn acting(&self, torque: f64) -> [f64; 2] {
         match self.simulation.at {
             Shaft::Motor => [torque, 0.0],
@@ -308,7 +309,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     ) -> Instant {
         let speed = omega * self.ratio();
         let [at_motor, at_link] = self.acting(torque);
-        // The motor acts at the first drive link alone.
+        // The motor acts only at the first drive link.
         let at = |k: usize| if k == 0 { at_link } else { 0.0 };
         let mut input_torque = 0.0;
         let mut loss = 0.0;
@@ -346,7 +347,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// What the second axes give where friction holds the machine (W).
+    /// Power of the second axes while friction holds the machine (W).
     pub(super) fn held_power(&self, moment: &Moment, phi: f64) -> Result<f64, Error> {
         let points = self.points(moment, [phi, 0.0])?;
         Ok(points
@@ -355,8 +356,8 @@ impl<'a, M: Motor> Plant<'a, M> {
             .sum())
     }
 
-    /// Whether the motor would drive the machine on from rest in this direction, by the acceleration `alpha` at an instant and a
-    /// speed: both by what acts at rest and by what acts in motion.
+    /// Whether the motor would drive the machine from rest in this direction, judged by the acceleration `alpha` at an instant and a speed, both with
+    /// the loads at rest and with the loads in motion.
     pub(super) fn starts(
         &self,
         moment: &Moment,
@@ -371,7 +372,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         drives(moment)
     }
 
-    /// When something changes: by what goes by `[motion]`, where the motor is switched off and where the brake closes.
+    /// Times at which the machine changes: by `[motion]`, when the motor is switched off, and when the brake closes.
     pub(super) fn changes(&self) -> Corners {
         let mut corners = Corners::at(self.halts());
         for machine in self.machines.all() {
@@ -380,7 +381,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         corners
     }
 
-    /// When the motor is switched off, and when the brake closes.
+    /// Times at which the motor is switched off, and the brake closes.
     fn halts(&self) -> Vec<f64> {
         let halt = self.simulation.halt;
         let times = halt.map(|halt| [halt.time, halt.time + halt.brake_delay]);

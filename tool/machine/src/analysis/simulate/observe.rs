@@ -1,13 +1,13 @@
-//! What a motor does on its way through a simulation, and who looks at it.
+//! The motor during a simulation, and its observers.
 
 use crate::analysis::simulate::simulated::{Effort, Following, TorqueLimit};
 use crate::number::columns::Column;
 use crate::number::numerics;
 
-/// Between two of the integrator's steps the motor is looked at this many times.
+/// Number of evaluations of the motor per step of the integrator.
 pub(super) const PARTS: u32 = 4;
 
-/// What a motor does at an instant.
+/// The motor at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Working {
     /// Position of the drive link (rad, or m).
@@ -16,35 +16,35 @@ pub struct Working {
     pub speed: f64,
     /// Its torque (N·m).
     pub torque: f64,
-    /// The torque that a controller asks for; without one, its torque.
+    /// The torque requested by a controller; without a controller, its torque.
     pub asked: f64,
-    /// Torque at the input of the drive train, behind the motor's gearbox (N·m). At rest, where friction holds an unknown share of it, all that the
-    /// motor gives.
+    /// Torque at the input of the drive train, behind the motor's gearbox (N·m). At rest, where friction takes an unknown share, the whole motor
+    /// torque.
     pub input_torque: f64,
     /// Reference less position (rad, or m), under a controller.
     pub error: Option<f64>,
 }
 
 impl Working {
-    /// Whether it gives less than it is asked for.
+    /// Whether it gives less than requested.
     pub fn is_limited(&self) -> bool {
         self.torque.total_cmp(&self.asked).is_ne()
     }
 }
 
-/// What follows a motor through a simulation, piece by piece, and adds columns to its rows.
+/// Follows a motor through a simulation, piece by piece, and adds columns to its rows.
 pub trait Observer {
     /// The columns.
     fn columns(&self) -> Vec<Column>;
 
-    /// A piece of the way, so short that everything runs nearly straight: from one time (s) to the next.
+    /// A piece so short that everything is nearly linear: from one time (s) to the next.
     fn pass(&mut self, from: (f64, Working), to: (f64, Working));
 
     /// The figures at the end of the last piece, as many as columns; `now` is the motor's state there.
     fn figures(&self, now: &Working) -> Vec<f64>;
 }
 
-/// Nobody looks.
+/// No observer.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Nobody;
 
@@ -58,7 +58,7 @@ impl Observer for Nobody {
     }
 }
 
-/// What a motor gives, step by step.
+/// Sums of the motor's effort, step by step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Giving {
     torque: [f64; 2],
@@ -70,7 +70,7 @@ pub(super) struct Giving {
 }
 
 impl Giving {
-    /// A step of the integrator from its beginning on, looked at in equal parts.
+    /// A step of the integrator from its start, evaluated in equal parts.
     pub(super) fn pass(&mut self, [from, to]: [f64; 2], seen: &[Working; PARTS as usize + 1]) {
         let length = to - from;
         for (k, working) in seen.iter().enumerate() {
@@ -91,7 +91,7 @@ impl Giving {
         self.time += length;
     }
 
-    /// All of it; nothing took no time.
+    /// The total; `None` if no time has passed.
     pub(super) fn effort(&self) -> Option<Effort> {
         (self.time > 0.0).then(|| Effort {
             torque: self.torque,
@@ -102,7 +102,7 @@ impl Giving {
     }
 }
 
-/// How long a controlled motor is at the limit of its torque, and how far the machine is off its reference.
+/// Time of a controlled motor at its torque limit, and the following error of the machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Controlling {
     pub(super) limit: Option<TorqueLimit>,
@@ -111,7 +111,7 @@ pub(super) struct Controlling {
 }
 
 impl Controlling {
-    /// A piece of the way between two instants; `at` gives the states within, by their share of it.
+    /// A piece between two instants; `at` gives the states inside, by their share of it.
     pub(super) fn pass<E>(
         &mut self,
         [start, end]: [f64; 2],

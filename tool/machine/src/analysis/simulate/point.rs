@@ -1,4 +1,4 @@
-//! The reduced link of each machine at an instant, with what its second axes do.
+//! The reduced link of each machine at an instant, including its second axes.
 
 use jred::machine::{Frames, Mechanism as _};
 use jred::{Error, Reduction};
@@ -11,9 +11,9 @@ use crate::model::carriage::Carriage;
 pub(super) struct Point<'a> {
     /// Without the motion of carriages along their guides.
     pub(super) reduction: Reduction,
-    /// b and c of the loads against the motion that do the work of the process, contained in those of the reduction.
+    /// b and c of the motion-opposing loads that do process work; they are contained in those of the reduction.
     pub(super) working: [f64; 2],
-    /// Torque with which carriages resist by that motion (N·m).
+    /// Torque of carriages by that motion, against the drive link (N·m).
     resists: f64,
     carried: Option<Carried<'a>>,
 }
@@ -28,7 +28,7 @@ struct Carried<'a> {
     gravity: [f64; 2],
 }
 
-/// The sign of a direction; none at rest.
+/// The sign of a direction; 0 at rest.
 pub(super) fn sign(direction: f64) -> f64 {
     if direction == 0.0 {
         0.0
@@ -38,7 +38,7 @@ pub(super) fn sign(direction: f64) -> f64 {
 }
 
 impl<'a> Point<'a> {
-    /// That of a machine where the first drive link has this position and speed.
+    /// The reduced link of a machine at this position and speed of the first drive link.
     pub(super) fn new(
         machine: &Geared<'a>,
         moment: &Moment,
@@ -75,7 +75,7 @@ impl<'a> Point<'a> {
         0.5 * point.inertia_slope * omega * omega - load
     }
 
-    /// What the second axes give, F·ṡ (W), where the drive link accelerates so.
+    /// Power of the second axes, F·ṡ (W), at this acceleration of the drive link.
     pub(super) fn carriage_power(&self, alpha: f64) -> f64 {
         self.each_carriage(|carriage, carried| {
             let frame = carried.frames.get(carriage.mass.link)?;
@@ -109,7 +109,7 @@ pub(super) struct Points<'a> {
 }
 
 impl<'a> Points<'a> {
-    /// Those of these machines, of which the drive link of the first has this position and speed.
+    /// The reduced links of these machines, at this position and speed of the first drive link.
     pub(super) fn new(
         first: Geared<'a>,
         beside: &[Geared<'a>],

@@ -1,4 +1,4 @@
-//! The motion in time, stopped and started again where friction changes its direction.
+//! The motion in time, stopped and restarted where friction changes direction.
 
 mod edges;
 mod integrate;
@@ -32,10 +32,10 @@ use crate::number::numerics::dormand_prince::{Accuracy, Point};
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
 
-/// How often the drive link may turn round within one output step.
+/// Most reversals of the drive link within one output step.
 const MOST_TURNS: u32 = 10_000;
 
-/// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
+/// Smallest speed (rad/s) that determines the direction of a motion to come, and with it the losses of each stage.
 pub(in crate::analysis) const HAIR: f64 = 1e-12;
 
 /// Runs a simulation.
@@ -133,26 +133,26 @@ struct Run<'a, P> {
     plant: &'a P,
     file: &'a MachineFile,
     accuracy: Accuracy,
-    /// The joints that can let go.
+    /// The joints that may separate.
     watch: Watch<'a>,
-    /// What stops the drive link.
+    /// The end stops of the drive link.
     stops: Option<EndStops>,
-    /// Where its way ends.
+    /// The ends of its travel.
     ends: Option<[f64; 2]>,
     impacts: Option<Impacts>,
-    /// What has been done in whole turns.
+    /// Works in whole turns.
     turned: Option<Turned>,
-    /// Where it starts, if the drive link can turn round and round.
+    /// Start position, if the drive link can turn endlessly.
     begin: Option<f64>,
     direction: f64,
-    /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
+    /// The corners before and after: forces may jump at either, so a step is evaluated inside.
     inside: [f64; 2],
     edges: Edges<'a>,
-    /// The next one ahead.
+    /// The next edge ahead.
     edge: f64,
-    /// How many steps the integrator has taken.
+    /// Number of the integrator's steps.
     steps: Cell<u64>,
-    /// When and where the motor was switched off.
+    /// Time and position at which the motor was switched off.
     halt: Option<[f64; 2]>,
     /// Work of the motor until then (J).
     driven: Option<f64>,
@@ -161,24 +161,24 @@ struct Run<'a, P> {
     stuck: Option<Stuck>,
     controlling: Controlling,
     has_payloads: bool,
-    /// What the motor has given.
+    /// Effort of the motor.
     giving: Giving,
     to_speed: Option<f64>,
-    /// When and where that speed was reached.
+    /// Time and position at which that speed was reached.
     reached: Option<[f64; 2]>,
-    /// Since when friction holds the drive link, and where.
+    /// Time and position from which friction holds the drive link.
     held: Option<[f64; 2]>,
     observer: &'a mut dyn Observer,
 }
 
 impl<P> Run<'_, P> {
-    /// What has been done up to a state.
+    /// The works up to a state.
     fn works<const N: usize>(&self, y: &[f64; N], terms: Terms) -> Works
     where
         P: Plant<N>,
     {
         let [at_shaft, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
-        // Once it is switched off the motor does nothing: what is done at its shaft then is the brake's.
+        // Once the motor is switched off, the work at its shaft is the brake's.
         let motor = self.driven.filter(|_| terms.brake).unwrap_or(at_shaft);
         let guest = |k: usize, has: bool| {
             let at = self.plant.guests().filter(|_| has)?;
@@ -221,7 +221,7 @@ impl<P> Run<'_, P> {
                     self.stands([t, phi]);
                 }
             }
-            // What was held may go now, or a brake hold what was at rest.
+            // A held link may be released now, or a brake may hold a link at rest.
             if before == Some(t) && self.plant.link(t, &y)?[1] == 0.0 {
                 self.leave_rest(t, &y)?;
             }
@@ -238,7 +238,7 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// The drive link stands still: held, or on its way back.
+    /// The drive link is at rest: held, or reversing.
     fn stands(&mut self, [t, phi]: [f64; 2]) {
         let Some([time, way]) = self.halt else {
             return;
@@ -254,7 +254,7 @@ impl<P> Run<'_, P> {
         }
     }
 
-    /// Integrates from `t` to `end`; where friction changes, it turns round, holds or lets go.
+    /// Integrates from `t` to `end`; where friction changes, the link reverses, is held or is released.
     fn advance<const N: usize>(
         &mut self,
         mut t: f64,
@@ -299,7 +299,7 @@ impl<P> Run<'_, P> {
                 continue;
             }
             turned += 1;
-            // Friction changes within the last step: halve it down to that instant.
+            // Friction changes within the last step: bisect to that instant.
             let (mut before, mut after) = (start, last);
             while after.0 - before.0 > 1e-12 * (1.0 + end.abs()) {
                 let middle = before.0.midpoint(after.0);
@@ -320,7 +320,7 @@ impl<P> Run<'_, P> {
                 y = self.impact(t, &after.1, [stop, omega])?;
                 continue;
             }
-            // What was held starts where it is let go; what turns round does so from rest.
+            // A held link starts where it is released; a reversing link starts from rest.
             y = if self.direction == 0.0 {
                 after.1
             } else {
@@ -341,7 +341,7 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// Whether the drive link has turned round, or friction does not hold it any more.
+    /// Whether the drive link has reversed, or friction no longer holds it.
     fn is_over<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<bool, Error>
     where
         P: Plant<N>,
@@ -368,7 +368,7 @@ impl<P> Run<'_, P> {
         Ok(At { moment, state })
     }
 
-    /// Refuses the way from one step to the next where a joint lets go or the equations do not hold.
+    /// Refuses the interval from one step to the next if a joint separates or the equations become invalid.
     fn check<const N: usize>(
         &mut self,
         from: &Point<N>,

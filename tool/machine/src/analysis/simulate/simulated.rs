@@ -1,4 +1,4 @@
-//! What a simulation gives.
+//! Result of a simulation.
 
 use super::SimulationError;
 use super::clock::Moment;
@@ -6,61 +6,61 @@ use super::geared::Geared;
 use crate::model::schedule::Now;
 use crate::number::columns::Columns;
 
-/// A motion, as far as it came.
+/// A motion, up to its end or to an error.
 #[derive(Debug)]
 pub struct Simulated {
     /// A row for each output step.
     pub columns: Columns,
-    /// Where the drive link came to rest to stay after the motor was switched off.
+    /// Final rest of the drive link after the motor was switched off.
     pub rest: Option<Rest>,
-    /// Where it first stood still before, and moved on because nothing held it.
+    /// Earlier standstill after which it moved on, because nothing held it.
     pub turned_back: Option<Rest>,
-    /// Where it was when the motor was switched off (rad, or m).
+    /// Its position when the motor was switched off (rad, or m).
     pub halted_at: Option<f64>,
-    /// Where friction holds the drive link to the end, if no controller acts and the motor was not switched off: when and where it came to
-    /// rest, since the start.
+    /// Time and travel from the start to the position where friction holds the drive link to the end, if no controller acts and the motor was not
+    /// switched off.
     pub held: Option<Rest>,
-    /// What the motor gave until it was switched off, or to the end; not behind a variator.
+    /// Effort of the motor until it was switched off, or to the end; not behind a variator.
     pub effort: Option<Effort>,
-    /// Where the speed of [`Simulation::to_speed`](crate::model::simulation::Simulation::to_speed) was reached.
+    /// Time and travel to the speed of [`Simulation::to_speed`](crate::model::simulation::Simulation::to_speed).
     pub reached: Option<Rest>,
-    /// What was done in the whole turns that a machine makes whose drive link turns.
+    /// Works in whole turns, for a turning drive link.
     pub turned: Option<Turned>,
     /// The impacts on end stops.
     pub impacts: Option<Impacts>,
-    /// Where the motor has not driven the machine on.
+    /// The first position at which the motor has not driven the machine on.
     pub missing: Option<Stuck>,
-    /// Where a controlled motor is at the limit of its torque.
+    /// The controlled motor at its torque limit.
     pub torque_limit: Option<TorqueLimit>,
     /// The largest error of a controlled machine.
     pub following: Option<Following>,
     /// φ, ω, α of the drive link in each row.
     pub states: Vec<[f64; 3]>,
-    /// When that is, and which way it moves.
+    /// The time of each row, and the direction of motion.
     pub moments: Vec<Moment>,
-    /// Why the motion ends before its time.
+    /// Why the motion ended early.
     pub ended: Option<SimulationError>,
 }
 
-/// What a motor gives on its way: the largest magnitudes at the integrator's steps and three instants between each two of them.
+/// Effort of a motor: the largest magnitudes at the integrator's steps and at three instants between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Its largest torque (N·m), and when (s).
+    /// Its largest torque (N·m), and the time (s).
     pub torque: [f64; 2],
-    /// Its RMS torque over the time.
+    /// Its RMS torque over time.
     pub rms: f64,
-    /// Its largest power as a motor (W), and when.
+    /// Its largest driving power (W), and the time.
     pub power: [f64; 2],
-    /// Its largest speed (rad/s), and when.
+    /// Its largest speed (rad/s), and the time.
     pub speed: [f64; 2],
 }
 
-/// A time and a way, since the motor was switched off or since the start.
+/// A time and a travel, since the motor was switched off or since the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     /// Time since then (s).
     pub time: f64,
-    /// Way since then (rad, or m).
+    /// Travel since then (rad, or m).
     pub way: f64,
 }
 
@@ -75,18 +75,18 @@ pub struct Impacts {
     pub speed: f64,
     /// Number of impacts.
     pub count: u32,
-    /// Whether the machine came to rest at a stop because a rebound would have been back within [`BRIEFEST_FLIGHT`], as the series of
-    /// ever smaller ones has no end.
+    /// Whether the machine came to rest at a stop because a rebound would have returned within [`BRIEFEST_FLIGHT`]: the series of ever smaller
+    /// rebounds has no end.
     pub settled: bool,
 }
 
-/// A rebound from an end stop that is back within this time (s) is none.
+/// A rebound that returns to an end stop within this time (s) ends at rest.
 pub const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 /// Works in whole turns of the drive link, from the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
-    /// How many turns; negative: φ falls.
+    /// Number of turns; negative: φ falls.
     pub turns: f64,
     /// Work at the motor's shaft (J).
     pub motor: f64,
@@ -98,23 +98,23 @@ pub struct Turned {
     pub kinetic: f64,
 }
 
-/// Torque of a motor at rest, and what the machine needs to go on.
+/// Torque of a motor at rest, and the torque that the machine needs to move on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Missing {
     /// Position (rad, or m).
     pub phi: f64,
-    /// Torque that the motor gives there (N·m).
+    /// Available motor torque there (N·m).
     pub given: f64,
-    /// Torque that it would need (N·m).
+    /// Required torque (N·m).
     pub needed: f64,
 }
 
-/// Where a machine has stopped under its motor, or did not start, for the first time.
+/// First position at which a machine has stopped under its motor, or did not start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stuck {
     /// Time (s).
     pub time: f64,
-    /// What is missing there.
+    /// The missing torque.
     pub missing: Missing,
 }
 
@@ -125,13 +125,13 @@ pub struct TorqueLimit {
     pub time: f64,
     /// Its position (rad, or m).
     pub position: f64,
-    /// How many times the limit is reached.
+    /// How often the limit is reached.
     pub count: u32,
-    /// How long in all (s).
+    /// Total time (s).
     pub duration: f64,
 }
 
-/// The largest following error, at the integrator's steps and three instants between each two of them.
+/// The largest following error, at the integrator's steps and at three instants between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Following {
     /// Its time (s).
@@ -153,10 +153,10 @@ impl Simulated {
         .collect()
     }
 
-    /// φ, ω, α in each row of a motion that came to its end.
+    /// φ, ω, α in each row of a complete motion.
     ///
     /// # Errors
-    /// Why it did not.
+    /// Why it ended early.
     pub fn whole_states(self) -> Result<Vec<[f64; 3]>, SimulationError> {
         match self.ended {
             None => Ok(self.states),
@@ -164,10 +164,10 @@ impl Simulated {
         }
     }
 
-    /// The columns of a motion that came to its end.
+    /// The columns of a complete motion.
     ///
     /// # Errors
-    /// Why it did not.
+    /// Why it ended early.
     pub fn whole(self) -> Result<Columns, SimulationError> {
         match self.ended {
             None => Ok(self.columns),

@@ -1,5 +1,5 @@
-//! A machine with a variator between its motor and its drive train: the angle of the drive link is integrated with its own
-//! speed, never taken from the motor's.
+//! A machine with a variator between its motor and its drive train: the angle of the drive link is integrated from its own speed, not derived from
+//! the motor's.
 
 use jred::Error;
 use jred::friction::{Contact, CreepContact, OperatingPoint, Ratios, Stage};
@@ -22,7 +22,7 @@ use crate::number::numerics::newton;
 /// process loads, losses.
 type State = [f64; 7];
 
-/// Losses may be negative by this share of the power through the contact: rounding.
+/// Share of the power through the contact by which losses may be negative: rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The machine with its variator and motor torque.
@@ -50,14 +50,14 @@ struct Instant {
     motor_power: f64,
     process_power: f64,
     loss: f64,
-    /// Inertia of the mechanism at its drive link, and the torque there that keeps its speed.
+    /// Inertia of the mechanism at its drive link, and the torque there that maintains its speed.
     inertia: f64,
     resisting: f64,
     potential: f64,
 }
 
-/// Load of the mechanism and its drive train on the output shaft: torque at no acceleration of the drive link, and
-/// by how much each unit of it adds.
+/// Load of the mechanism and its drive train on the output shaft: torque without acceleration of the drive link, and the increase per unit of
+/// acceleration.
 struct Behind<'a> {
     plant: &'a Plant<'a>,
     inertia: f64,
@@ -108,7 +108,7 @@ impl<'a> Plant<'a> {
         Ok(self.ratios(t, y)?.speed.value)
     }
 
-    /// Of a formula, nobody has looked at all times and angles before.
+    /// The ratios of a formula are checked here, because they were not evaluated at all times and angles before.
     fn ratios(&self, t: f64, y: &State) -> Result<Ratios, Error> {
         let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
         let value = ratios.geometric.value;

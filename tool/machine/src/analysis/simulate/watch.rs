@@ -12,26 +12,26 @@ use crate::analysis::contact::OneWay;
 use crate::model::mechanism::AnyMechanism;
 use crate::number::numerics;
 
-/// Between the integrator's steps the forces are looked at this many times over the drive link's range.
+/// Evaluations of the forces over the drive link's range, between steps of the integrator.
 const PER_RANGE: f64 = 720.0;
 
 /// A state of the drive link.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct At {
-    /// When.
+    /// The instant.
     pub(crate) moment: Moment,
     /// φ, ω, α.
     pub(crate) state: [f64; 3],
 }
 
-/// A joint that can let go, and its machine.
+/// A joint that may separate, and its machine.
 #[derive(Clone, Copy)]
 struct Watched<'a> {
     machine: Geared<'a>,
     joint: OneWay,
 }
 
-/// The joints of machines that can let go.
+/// The joints of machines that may separate.
 pub(crate) struct Watch<'a> {
     domain: Domain,
     joints: Vec<Watched<'a>>,
@@ -54,7 +54,7 @@ impl<'a> Watch<'a> {
         self.joints.is_empty()
     }
 
-    /// Refuses a state in which a joint lets go.
+    /// Refuses a state in which a joint separates.
     pub(crate) fn check(&self, at: At) -> Result<(), SimulationError> {
         match self.first_open(at)? {
             Some((joint, force)) => Err(parted(joint, force, at)),
@@ -62,7 +62,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Refuses the way from one state to the next, which `alpha` gives the accelerations of, where a joint lets go.
+    /// Refuses the interval from one state to the next, with accelerations from `alpha`, if a joint separates.
     pub(crate) fn check_between(
         &self,
         [from, to]: [At; 2],
@@ -92,18 +92,18 @@ impl<'a> Watch<'a> {
                 closed = share;
                 continue;
             }
-            // The first instant at which it lets go.
+            // The first instant at which it separates.
             let holds =
                 |share: f64| Ok::<_, SimulationError>(self.first_open(at(share)?)?.is_none());
             let first = at(numerics::edge(holds, closed, share)?)?;
-            // By a rounding it may still hold there.
+            // By rounding contact may still be maintained there.
             self.check(first)?;
             self.check(here)?;
         }
         Ok(())
     }
 
-    /// The first joint that lets go, and its force.
+    /// The first joint that separates, and its force.
     fn first_open(&self, at: At) -> Result<Option<(Watched<'a>, f64)>, SimulationError> {
         for watched in &self.joints {
             let Watched { machine, joint } = watched;
@@ -117,7 +117,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// A machine as it is at an instant.
+/// A machine at an instant.
 fn machine_at<'f>(machine: &Geared<'f>, at: &At) -> Result<Cow<'f, Machine<AnyMechanism>>, Error> {
     let [phi, omega, _] = machine.state(at.state);
     let now = at.moment.now(machine, omega);
@@ -140,7 +140,7 @@ fn parted(watched: Watched, force: f64, at: At) -> SimulationError {
     }
 }
 
-/// φ and ω between two states, at a share of the time: the polynomial of the fifth degree with their positions, speeds and accelerations.
+/// φ and ω between two states, at a share of the time: the polynomial of fifth degree through their positions, speeds and accelerations.
 pub(super) fn between([from, to]: [At; 2]) -> impl Fn(f64) -> [f64; 2] {
     let span = to.moment.t - from.moment.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
@@ -158,7 +158,7 @@ pub(super) fn between([from, to]: [At; 2]) -> impl Fn(f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// A motion of the fifth degree is met exactly.
+    /// A motion of fifth degree is reproduced exactly.
     #[test]
     fn the_way_between_two_states() {
         let at = |t: f64| At {

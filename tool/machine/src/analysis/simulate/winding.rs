@@ -1,4 +1,4 @@
-//! The winding of a DC motor at a constant voltage: its current follows the voltage after the time L/R.
+//! The winding of a DC motor at a constant voltage: its current follows the voltage with the time constant L/R.
 //!
 //! ```text
 //! L·di/dt = U − R·i − k·ω        T = k·i
@@ -32,7 +32,7 @@ impl<M: Motor> Commander<M> for Winding {
         Column::new(Quantity::Current, "current", "A")
     }
 
-    /// The circuit of a motor that is switched off is open.
+    /// The circuit of a switched-off motor is open.
     fn figure(&self, _: &Plant<M>, _: f64, [.., current]: [f64; 3], on: bool) -> f64 {
         if on { current } else { 0.0 }
     }

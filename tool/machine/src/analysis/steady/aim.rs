@@ -1,4 +1,4 @@
-//! What a steady cycle is sought for: the motor as it is, or a mean speed for which the motor or a load is scaled.
+//! The aim of a steady cycle: the given motor, or a mean speed for which the motor or a load is scaled.
 
 use std::borrow::Cow;
 
@@ -20,16 +20,16 @@ use crate::number::numerics;
 /// A prescribed mean speed of the drive link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanSpeed {
-    /// Over the time (rad/s); its sign says which way the machine turns.
+    /// Mean over time (rad/s); its sign is the direction of rotation.
     pub speed: f64,
-    /// What is scaled for it.
+    /// The quantity that is scaled for it.
     pub by: Level,
 }
 
-/// What is scaled for a mean speed.
+/// The quantity that is scaled for a mean speed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// The torque of the motor, or of the brake or generator that it is then, at every speed.
+    /// The torque of the motor (or of the brake or generator that it then is) at every speed.
     Motor,
     /// The loads of this name.
     Load(String),
@@ -49,7 +49,7 @@ pub struct Held {
     pub torque: Option<f64>,
 }
 
-/// How the cycles of a machine, with one flywheel or another, are found.
+/// The search for cycles of a machine, with different flywheels.
 pub(super) struct Search<'a> {
     pub(super) simulation: &'a Simulation,
     pub(super) motor: OwnMotor<'a>,
@@ -65,7 +65,7 @@ pub(super) struct Guess {
     factor: f64,
 }
 
-/// A cycle, or none.
+/// A cycle, or the reason for its absence.
 pub(super) struct Ended {
     pub(super) found: Found,
     pub(super) held: Option<Held>,
@@ -73,7 +73,7 @@ pub(super) struct Ended {
 }
 
 impl Search<'_> {
-    /// Asks of the cycle of these machines, near a guess.
+    /// Finds the cycle of these machines, near a guess, and calls `ask` with it.
     pub(super) fn with<T>(
         &self,
         machines: &Together,
@@ -92,7 +92,7 @@ impl Search<'_> {
         };
         let target = aim.speed.abs();
         let start = guess.map_or(target, |guess| guess.begin);
-        // The mean speed grows with that at the start of the cycle.
+        // The mean speed grows with the speed at the start of the cycle.
         let mut factor = guess.map(|guess| guess.factor);
         let mut excess = |begin: f64| -> Result<f64, SteadyError> {
             let (own, mean) = self.level(machines, &aim.by, begin, factor)?;
@@ -106,7 +106,7 @@ impl Search<'_> {
                 ends = Some([last; 2]);
                 break;
             }
-            // A little beyond where it would be in proportion.
+            // Slightly beyond the proportional guess.
             let beyond = 1.0 - OVER * last.1.signum();
             let next = last.0 / (1.0 + last.1) * beyond;
             let next = (next, excess(next)?);
@@ -189,7 +189,7 @@ impl Search<'_> {
         }
     }
 
-    /// The factor with which a cycle ends with the speed with which it begins, near a guess, and its mean speed.
+    /// The factor with which a cycle ends at its start speed, near a guess, and its mean speed.
     fn level(
         &self,
         machines: &Together,
@@ -247,7 +247,7 @@ impl Search<'_> {
         Ok((factor, mean))
     }
 
-    /// The factor by the work of a cycle at a constant speed.
+    /// The factor from the work of a cycle at constant speed.
     fn by_work(&self, machines: &Together, by: &Level, speed: f64) -> Result<f64, SteadyError> {
         let keeping =
             |factor: f64| self.scaled(machines, by, factor, |turning| turning.keeping(speed));
@@ -273,11 +273,11 @@ impl Search<'_> {
     }
 }
 
-/// The most speeds that are tried for a mean speed, and by how much each goes too far.
+/// Most speeds that are tried for a mean speed, and the overshoot of each step.
 const MOST_TRIALS: u32 = 40;
 const OVER: f64 = 1e-3;
 
-/// The most steps away from a guess of the factor, each four times as long as the one before.
+/// Most steps away from a guess of the factor, each four times as long as the last.
 const MOST_DOUBLINGS: u32 = 30;
 
 fn no_level(aim: &MeanSpeed) -> SteadyError {
@@ -303,7 +303,7 @@ impl Level {
     }
 }
 
-/// The machine with the loads of a name so many times as large.
+/// The machine with the loads of a name multiplied by a factor.
 fn with_load(file: &MachineFile, name: &str, factor: f64) -> Result<MachineFile, SteadyError> {
     let mut file = file.clone();
     let mut found = false;

@@ -12,20 +12,20 @@ use crate::analysis::simulate::run::HAIR;
 use crate::number::numerics;
 use crate::number::rounding::short;
 
-/// Speeds of the drive link that are looked at (rad/s).
+/// Range of the drive link's speeds in the search (rad/s).
 const FASTEST: f64 = 1e5;
 const SLOWEST: f64 = 1e-3;
 
-/// Share of the energy below which a rise has few digits.
+/// Share of the energy below which a rise has few significant digits.
 const LOST: f64 = 1e-6;
 
-/// From one speed to the next one.
+/// Ratio of successive speeds.
 const STEP: f64 = 1.25;
 
-/// The most turns in which a machine is followed to its standstill.
+/// Most turns for which a machine is followed to standstill.
 const MOST_TURNS: u32 = 2000;
 
-/// A small change of speed or energy, as a share.
+/// A small relative change of speed or energy.
 const BIT: f64 = 1e-3;
 
 /// The motion that repeats with every turn.
@@ -49,7 +49,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The cycle that was found, or why there is none.
+    /// The cycle from a search result, or the reason for its absence.
     pub(super) fn of(
         turning: &Turning,
         ended: Ended,
@@ -70,7 +70,7 @@ impl Cycle {
     ) -> Result<Self, SteadyError> {
         let figures = Figures::of(turning, begin, positions)?;
         figures.check_contacts(turning)?;
-        // E at the end from a share of E(0), both as shares of the cycle's.
+        // E at the end as a function of E(0), both relative to the cycle's.
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
@@ -85,7 +85,7 @@ impl Cycle {
     }
 }
 
-/// The speeds to look at, falling, with those at which the motor's characteristic changes and some on either side of them.
+/// The speeds to evaluate, falling, including those at which the motor's characteristic changes, with some on either side.
 fn speeds(turning: &Turning) -> Vec<f64> {
     let ratio = turning.plant.ratio() * turning.direction;
     let marks = turning
@@ -108,11 +108,11 @@ fn speeds(turning: &Turning) -> Vec<f64> {
     all
 }
 
-/// What a search for the fixed point finds.
+/// Result of the search for the fixed point.
 pub(super) enum Found {
     /// The speed at the start of the turn (rad/s) with which it also ends.
     Cycle(f64),
-    /// At every speed a cycle loses energy; this is the lowest one at which the machine still comes round.
+    /// A cycle loses energy at every speed; this is the lowest speed with which the machine still completes it.
     Loses(f64),
 }
 
@@ -146,7 +146,7 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
         }
         above = Some((at, gain));
     }
-    // A narrow range of speeds with a surplus may lie between two that were looked at.
+    // A narrow range of speeds with a surplus may lie between two evaluated speeds.
     if let Some((k, _)) = best {
         let [fast, slow] = [k.saturating_sub(1), (k + 1).min(speeds.len() - 1)].map(|k| speeds[k]);
         let found = numerics::least(|at| Ok::<_, SteadyError>(-turning.gain(at)?), slow, fast)?;
@@ -159,7 +159,7 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
     Ok(Found::Loses(comes_round))
 }
 
-/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one, or neither.
+/// The speed in [low, high] with which a turn ends as it began. The gain is positive at the low speed and negative at the high one, or zero.
 fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
     if gains[1] == 0.0 {
         // The cycle itself, if a turn that begins faster loses energy.
@@ -174,12 +174,12 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
     if rises[0] > LOST && rises[1] < -LOST {
         numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
     } else {
-        // The work of a cycle is lost in the digits of the energy.
+        // The work of a cycle is below the digits of the energy.
         numerics::zero(|at| turning.gain(at), ends, gains, 1e-15)
     }
 }
 
-/// The stable fixed point beside a guess by the secant's method, if that ends there.
+/// The stable fixed point near a guess by the secant method, if that converges to it.
 fn secant(turning: &Turning, guess: f64) -> Result<Option<f64>, SteadyError> {
     let mut last = (guess, turning.gain(guess)?);
     let mut now = (guess * (1.0 + FIRST * last.1.signum()), 0.0);
@@ -202,12 +202,12 @@ fn secant(turning: &Turning, guess: f64) -> Result<Option<f64>, SteadyError> {
     Ok(None)
 }
 
-/// First step away from a guess, the most steps, and the furthest one, as shares of it.
+/// First step from a guess, most steps, and largest distance, as shares of the guess.
 const FIRST: f64 = 1e-5;
 const MOST_SECANTS: u32 = 10;
 const MOST_AWAY: f64 = 0.1;
 
-/// The fixed point near `guess`, else wherever it is.
+/// The fixed point near `guess`, otherwise by the full search.
 pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
     if let Some(guess) = guess
         && let Some(begin) = secant(turning, guess)?
@@ -215,13 +215,13 @@ pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, Stead
         return Ok(Found::Cycle(begin));
     }
     match search(turning) {
-        // Loads that are far too large end each motion within a tiny way.
+        // Loads that are far too large stop every motion almost at once.
         Err(SteadyError::Integrator) => Err(held_up(turning)?.unwrap_or(SteadyError::Integrator)),
         found => found,
     }
 }
 
-/// The lowest speed at the start of a turn from which the machine gains up to this cycle.
+/// The lowest speed at the start of a turn from which the machine gains speed up to this cycle.
 fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError> {
     let mut gains = begin;
     while gains > 1e-3 * begin {
@@ -242,7 +242,7 @@ fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError
     Ok(None)
 }
 
-/// Follows a machine that loses speed with every turn to where it stops.
+/// Follows a machine that loses speed with every turn to its standstill.
 pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, SteadyError> {
     let mut now = from;
     for _ in 0..MOST_TURNS {
@@ -259,7 +259,7 @@ pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, St
     })
 }
 
-/// What is missing at the place where the motor is the weakest at rest; `None`: it can start the machine everywhere.
+/// The missing torque at the place where the motor is weakest at rest; `None` if it can start the machine everywhere.
 fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
     let side = turning.plant.ratio().signum() * turning.direction;
     let mut worst: Option<Missing> = None;
@@ -273,7 +273,7 @@ fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
     Ok(worst.map(lacks))
 }
 
-/// What is missing at the place where the machine stopped.
+/// The missing torque at the place where the machine stopped.
 pub(super) fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
     Ok(lacks(Missing::at(turning, x)?))
 }

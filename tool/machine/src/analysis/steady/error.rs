@@ -17,10 +17,10 @@ pub enum SteadyError {
         "a steady cycle is that of a drive link that turns round and round; use `jred simulate` for the motion on a stroke"
     ))]
     Stroke {
-        /// The stroke in words.
+        /// Description of the stroke.
         range: String,
     },
-    /// The machine goes by the motion of the file, which a steady cycle does not follow.
+    /// A part is scheduled by the motion of the file, which a steady cycle does not follow.
     #[error("{what}: that goes by [motion], which a steady cycle does not follow")]
     #[diagnostic(help("{cure}, for this command; `jred simulate` and `jred size` contain it"))]
     Scheduled {
@@ -41,7 +41,7 @@ pub enum SteadyError {
         title: String,
         /// Its turns.
         turns: String,
-        /// Those of the first in a cycle.
+        /// Turns of the first machine in a cycle.
         of_first: u32,
     },
     /// No motor is given.
@@ -58,7 +58,7 @@ pub enum SteadyError {
         "give a torque other than zero: --torque \"20 N m\", or torque, torque_speed, dc_motor or induction_motor in [simulation]"
     ))]
     NoTorque,
-    /// The motor drives the other way.
+    /// The motor drives in the other direction.
     #[error(
         "the motor torque at rest, {torque}, drives the drive link against its start_speed, {speed}, and the loads do not drive it that way"
     )]
@@ -72,13 +72,13 @@ pub enum SteadyError {
         /// The speed of the file.
         speed: String,
     },
-    /// Nothing of a motor or a load gives a mean speed.
+    /// No scaling of a motor or a load gives the mean speed.
     #[error("no {what} keeps the machine turning at {speed}")]
     #[diagnostic(help(
         "choose another mean speed, or give a motor or a load that does work at this one: `jred reduce --over time` shows what acts"
     ))]
     NoLevel {
-        /// What is scaled.
+        /// The scaled quantity.
         what: std::borrow::Cow<'static, str>,
         /// The speed.
         speed: String,
@@ -89,10 +89,10 @@ pub enum SteadyError {
     NoLoad {
         /// The name.
         name: String,
-        /// Those there are.
+        /// The existing names.
         names: String,
     },
-    /// A cycle of so many turns does not repeat.
+    /// A cycle of this number of turns does not repeat.
     #[error("the loads repeat after {own} turns, and a cycle of {asked} does not")]
     #[diagnostic(help("give a multiple of {own} as --turns, or leave it out"))]
     Turns {
@@ -101,7 +101,7 @@ pub enum SteadyError {
         /// Turns of the cycle.
         asked: u32,
     },
-    /// The machine wins energy in each turn at every speed.
+    /// The machine gains energy in each turn at every speed.
     #[error(
         "there is no steady cycle: motor and loads have a surplus at every speed; at {speed} still {surplus} J a turn, so that \
          the machine runs away"
@@ -111,12 +111,12 @@ pub enum SteadyError {
          of the machine as a load, such as viscous_moment"
     ))]
     Surplus {
-        /// The highest speed looked at.
+        /// The highest evaluated speed.
         speed: String,
-        /// Energy won in a turn there (J).
+        /// Energy gained in a turn there (J).
         surplus: String,
     },
-    /// Nothing changes the speed.
+    /// The speed is indeterminate.
     #[error(
         "there is no single steady cycle: at {speed} motor, loads and losses do no work in a turn, so that the machine keeps every \
          speed from there on"
@@ -147,29 +147,29 @@ pub enum SteadyError {
         /// Their difference.
         missing: String,
     },
-    /// The speed sinks without end.
+    /// The speed falls without end.
     #[error("there is no steady cycle: the speed falls from turn to turn, below {speed}")]
     #[diagnostic(help("use a stronger motor, or less load"))]
     Dying {
-        /// The lowest speed looked at.
+        /// The lowest evaluated speed.
         speed: String,
     },
-    /// No flywheel smooths the motion as asked.
+    /// No flywheel gives the requested fluctuation.
     #[error(
         "no flywheel up to {inertia} kg m^2 makes the fluctuation δ = {delta}: {why}; a slow turn asks for {torque} N m of the motor on average"
     )]
     #[diagnostic(help("use a motor that gives more than this at its speed, or another --delta"))]
     NoFlywheel {
-        /// The fluctuation asked for.
+        /// The requested fluctuation.
         delta: String,
         /// The largest inertia tried.
         inertia: String,
-        /// What happens with it.
+        /// The result with it.
         why: String,
         /// Mean motor torque of a slow turn (N·m).
         torque: String,
     },
-    /// The integrator gave up.
+    /// The integrator stopped.
     #[error("one turn of the machine needs too many integration steps")]
     #[diagnostic(help(
         "the machine follows its motor or its friction almost at once, against its inertia: check rotor_inertia in [simulation], the masses, \

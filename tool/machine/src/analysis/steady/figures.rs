@@ -12,10 +12,10 @@ use crate::analysis::simulate::watch::{At, Watch};
 use crate::number::columns::Columns;
 use crate::number::numerics;
 
-/// The fewest positions over a turn at which the motion is looked at.
+/// Fewest positions per turn at which the motion is evaluated.
 const FEWEST: usize = 360;
 
-/// Speeds at which the motor's characteristic is looked at.
+/// Speeds at which the motor's characteristic is evaluated.
 const SPEEDS: u32 = 256;
 
 /// A turn of the steady motion.
@@ -105,7 +105,7 @@ impl Figures {
                 None => starting(begin),
                 Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
                     Reached::End(y) => y,
-                    // A fixed point that stops by a hair is none.
+                    // A fixed point just above a standstill is not a cycle.
                     Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
                 },
             };
@@ -238,20 +238,20 @@ pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
     Ok((fastest[0] - slowest[0]) * period / turning.span())
 }
 
-/// ½ω² at a place, and its slope along the way.
+/// ½ω² at a place, and its slope along the path.
 fn squares(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
     Ok([z, alpha * turning.direction])
 }
 
-/// The kinetic energy ½Jω² of all that moves (J), and its slope along the way.
+/// The kinetic energy ½Jω² of all moving parts (J), and its slope along the path.
 fn kinetic(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let [inertia, slope] = turning.plant.inertia(turning.at(x))?;
     let [_, along] = squares(turning, x, z)?;
     Ok([inertia * z, inertia * along + turning.direction * slope * z])
 }
 
-/// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the cycle it is.
+/// The largest (`side` = 1) or smallest (−1) speed, and its distance from the start of the cycle.
 fn extreme_speed(
     turning: &Turning,
     nodes: &[(f64, State)],
@@ -262,8 +262,8 @@ fn extreme_speed(
     Ok([(2.0 * most).sqrt(), x])
 }
 
-/// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², which is given with its slope, and how far from the start
-/// of the cycle it is.
+/// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², given with its slope, and its distance from the start of the
+/// cycle.
 fn extreme(
     turning: &Turning,
     nodes: &[(f64, State)],

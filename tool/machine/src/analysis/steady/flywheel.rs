@@ -1,4 +1,4 @@
-//! The flywheel that gives a coefficient of speed fluctuation, exactly and by the classical method.
+//! The flywheel for a coefficient of speed fluctuation, exactly and by the classical method.
 
 use std::cell::Cell;
 
@@ -25,7 +25,7 @@ const LARGEST: f64 = 1e8;
 pub struct Flywheel {
     /// Requested δ.
     pub delta: f64,
-    /// Inertia to add on the drive link (kg·m²); 0: the machine runs as evenly without.
+    /// Inertia to add on the drive link (kg·m²); 0: none is needed.
     pub inertia: f64,
     /// Inertia at the motor's shaft for the same δ (kg·m²), where the motor drives the machine through stages.
     pub inertia_at_motor: Option<f64>,
@@ -40,7 +40,7 @@ pub struct Flywheel {
 /// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Place {
-    /// The stage that the shaft drives, counted from 0; as many as there are stages: the drive link.
+    /// The stage that the shaft drives, counted from 0; the number of stages means the drive link.
     pub shaft: usize,
     /// The flywheel.
     #[serde(flatten)]
@@ -77,15 +77,15 @@ pub struct Wheel {
 /// The flywheel by Wittenbauer's method: constant motor torque, energies at the constant mean speed.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Classical {
-    /// ΔW: from the least to the largest excess of the work that reaches the drive link over that of the machine (J).
+    /// ΔW: difference between the largest and the least excess of the work at the drive link over that of the machine (J).
     pub work: f64,
     /// The constant speed (rad/s).
     pub speed: f64,
-    /// ΔW/(δ·ω²) (kg·m²): what the machine must have in all.
+    /// ΔW/(δ·ω²) (kg·m²): the required total inertia.
     pub total: f64,
-    /// Mean of J over the angle, which the machine has (kg·m²), with drive train and rotor.
+    /// Existing inertia: the mean of J over the angle (kg·m²), with drive train and rotor.
     pub own: f64,
-    /// What a flywheel would add, at least 0 (kg·m²).
+    /// Inertia of the flywheel, at least 0 (kg·m²).
     pub inertia: f64,
 }
 
@@ -194,19 +194,19 @@ impl Wheel {
     }
 }
 
-/// A flywheel that is sought on one shaft or another.
+/// The search for a flywheel on one of the shafts.
 struct Task<'a> {
     turning: &'a Turning<'a>,
     search: &'a Search<'a>,
     /// The cycle without it.
     own: Option<&'a Cycle>,
     delta: f64,
-    /// That of the cycle before.
+    /// Start of the previous cycle.
     guess: Cell<Option<Guess>>,
 }
 
 impl Task<'_> {
-    /// What is asked of the cycle with a flywheel of this inertia on a shaft; an error if the machine stops.
+    /// Calls `ask` with the cycle for a flywheel of this inertia on a shaft; an error if the machine stops.
     fn with<T>(
         &self,
         shaft: usize,
@@ -235,9 +235,9 @@ impl Task<'_> {
             })
     }
 
-    /// By how much 1/δ of the machine with this flywheel exceeds that asked for.
+    /// Excess of 1/δ of the machine with this flywheel over the requested one.
     fn evenness(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
-        // Where it stops there is no evenness at all.
+        // A machine that stops has no evenness.
         let none = -1.0 / self.delta;
         let found = self.among(shaft, inertia, |with, ended| match ended.found {
             Found::Cycle(begin) => Ok(1.0 / figures::delta(with, begin)? + none),
@@ -249,7 +249,7 @@ impl Task<'_> {
         }
     }
 
-    /// The inertia with which the evenness, lacking without a flywheel, is that asked for, near a guess. 1/δ grows nearly with the inertia.
+    /// The inertia with the requested evenness, found near a guess, if the machine without a flywheel lacks it. 1/δ grows nearly with the inertia.
     fn inertia(&self, shaft: usize, guess: f64) -> Result<f64, SteadyError> {
         let [own, _] = self.turning.plant.inertia(self.turning.at(0.0))?;
         let without = self.own.map_or(0.0, |cycle| 1.0 / cycle.figures.delta);
@@ -283,7 +283,7 @@ impl Task<'_> {
 }
 
 impl Task<'_> {
-    /// A flywheel with which the machine comes round, where it may just stop with this one.
+    /// A slightly larger flywheel with which the machine completes a turn, where it may just stop with this one.
     fn running(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
         let mut more = 1e-12;
         let mut with = inertia;
@@ -294,13 +294,13 @@ impl Task<'_> {
         Ok(with)
     }
 
-    /// The motor torque at which a slow turn gains and loses nothing.
+    /// The motor torque with which a slow turn neither gains nor loses energy.
     fn mean_torque(&self) -> Result<f64, SteadyError> {
         Ok(self.turning.keeping(HAIR)?.abs())
     }
 }
 
-/// The machine with a flywheel on the shaft that drives a stage, or behind the last one on the drive link.
+/// The machine with a flywheel on the shaft that drives a stage, or after the last one on the drive link.
 fn with_flywheel(
     file: &MachineFile,
     shaft: usize,
@@ -317,11 +317,11 @@ fn with_flywheel(
 }
 
 impl Classical {
-    /// At the constant `speed` (rad/s).
+    /// The estimate at constant `speed` (rad/s).
     fn of(turning: &Turning, delta: f64, speed: f64) -> Result<Self, SteadyError> {
         let plant = &turning.plant;
-        // Torque at the drive link that keeps the speed, in the direction of motion. What the drive train loses of a constant motor
-        // torque is constant, and no flywheel stores it.
+        // Torque at the drive link that keeps the speed, in the direction of motion. The train's loss of a constant motor torque is constant, and no
+        // flywheel stores it.
         let asked = |x: f64| -> Result<f64, SteadyError> {
             let state = [turning.at(x), turning.direction * speed];
             Ok(plant.resisting(&turning.moment(), state)? * turning.direction)

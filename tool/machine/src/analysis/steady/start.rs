@@ -9,13 +9,13 @@ use super::figures::Figures;
 use super::turn::{self, Reached, Turning};
 use crate::analysis::simulate::run::HAIR;
 
-/// Parts of a turn after which the speed is compared with that of the cycle.
+/// Parts of a turn after which the speed is compared with the cycle's.
 const PARTS: usize = 24;
 
-/// How near the speed comes.
+/// Relative difference of the speed that counts as reached.
 const NEAR: f64 = 0.01;
 
-/// The most turns that are followed.
+/// Most turns of the simulation.
 const MOST_TURNS: u32 = 300;
 
 /// How the machine starts from rest.
@@ -37,9 +37,9 @@ pub enum Start {
         #[serde(flatten)]
         missing: Missing,
     },
-    /// It takes more turns than are followed.
+    /// It takes more turns than are simulated.
     Slow {
-        /// Turns followed.
+        /// Simulated turns.
         turns: f64,
         /// Their time (s).
         time: f64,
@@ -64,7 +64,7 @@ impl Start {
                 missing: Missing::at(turning, 0.0)?,
             });
         }
-        // The very first bit of the way, with the acceleration at its start.
+        // The very first part of the path, with the acceleration at its start.
         let least = 2.0 * turn::STOPPED * full;
         let first = (least / alpha).min(0.5 * places[0].0);
         let mut y = turn::starting((2.0 * (alpha * first).max(least)).sqrt());

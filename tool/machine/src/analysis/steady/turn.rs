@@ -1,7 +1,7 @@
-//! One cycle, a turn of the drive link or several: the kinetic energy at its end from that at its start, with the angle as the variable.
+//! One cycle, of one or several turns of the drive link: the kinetic energy at its end as a function of that at its start, with the angle as the
+//! variable.
 //!
-//! With z = ½ω², the equation of motion is dz/dφ = α(φ, ω): one equation of the first order, whose time, works and losses are
-//! quadratures.
+//! With z = ½ω², the equation of motion is dz/dφ = α(φ, ω): one equation of first order; time, works and losses are quadratures.
 
 use std::f64::consts::TAU;
 
@@ -18,40 +18,40 @@ use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
 /// z = ½ω², time, work of the motor, work of the process loads, losses, ∫T dt and ∫T² dt of the motor.
 pub(super) type State = [f64; 7];
 
-/// The accuracy of each step. Steps beyond these many are those of a machine that follows its motor at once.
+/// The accuracy of each step. Only a machine that follows its motor at once needs more steps.
 pub(super) const FINE: Accuracy = Accuracy {
     tolerance: 1e-14,
     most_steps: 200_000,
 };
 
-/// That of a question of yes or no, or of a figure to some digits.
+/// Accuracy for a yes-or-no question, or for a few digits.
 pub(super) const ROUGH: Accuracy = Accuracy {
     tolerance: 1e-9,
     ..FINE
 };
 
-/// Share of the works of a cycle below which what is won is asked again with more accuracy.
+/// Share of the works of a cycle below which a gain is computed again more accurately.
 const CLOSE: f64 = 1e-6;
 
-/// Below this share of z at full speed, a three-thousandth of the speed, the drive link has stopped.
+/// Share of z at full speed (a three-thousandth of the speed) below which the drive link has stopped.
 pub(super) const STOPPED: f64 = 1e-7;
 
 /// How far a motion came.
 pub(super) enum Reached {
     /// Its end.
     End(State),
-    /// It stopped this far from the start (rad).
+    /// It stopped at this distance from the start (rad).
     Stopped(f64),
 }
 
-/// A machine that turns one way, from a position.
+/// A machine that turns in one direction, from a position.
 pub(super) struct Turning<'a> {
     pub(super) machines: Together<'a>,
     pub(super) plant: Plant<'a, OwnMotor<'a>>,
     /// +1 or −1.
     pub(super) direction: f64,
     start: f64,
-    /// Turns of a cycle.
+    /// Turns per cycle.
     pub(super) turns: u32,
     /// Angles from the start at which a load or the mechanism is not smooth; 0 and the end of the cycle.
     edges: Vec<f64>,
@@ -76,7 +76,7 @@ impl<'a> Turning<'a> {
         let mut edges: Vec<f64> = from_start.chain([0.0, span]).collect();
         edges.sort_by(f64::total_cmp);
         edges.dedup_by(|b, a| *b - *a < 1e-9);
-        // An edge a hair before the end of the cycle gives way to the end.
+        // An edge just before the end of the cycle is replaced by the end.
         if let Some(last) = edges.last_mut() {
             *last = span;
         }
@@ -118,7 +118,7 @@ impl<'a> Turning<'a> {
         TAU * f64::from(self.turns)
     }
 
-    /// The edges, and `count` equal parts of each turn: each with whether it is one of these.
+    /// The edges, and `count` equal parts of each turn, each with a flag for the latter.
     pub(super) fn places(&self, count: usize) -> Vec<(f64, bool)> {
         let all = count * self.turns as usize;
         let parts = (0..=all).map(|k| (TAU * k as f64 / count as f64, true));
@@ -136,18 +136,18 @@ impl<'a> Turning<'a> {
         all
     }
 
-    /// In motion; nothing goes by the time.
+    /// In motion; nothing depends on time.
     pub(super) fn moment(&self) -> Moment {
         Moment::new(0.0, self.direction)
     }
 
-    /// What happens at a position and speed.
+    /// Derivatives and forces at a position and speed.
     pub(super) fn instant(&self, x: f64, speed: f64) -> Result<Instant, Error> {
         let link = [self.at(x), self.direction * speed];
         self.plant.instant(&self.moment(), link)
     }
 
-    /// Energy turned over in a radian at this speed (J): what works are measured by.
+    /// Exchanged energy per radian at this speed (J): the scale for works.
     pub(super) fn effort(&self, speed: f64) -> f64 {
         let [torque, _] = self.plant.motor(self.direction * speed);
         let drive = (torque * self.plant.ratio()).abs();
@@ -155,7 +155,7 @@ impl<'a> Turning<'a> {
         drive.max(load).max(1e-9 * self.inertia * speed * speed)
     }
 
-    /// From one place to the next one, in a motion whose full speed is `speed`, through all edges between.
+    /// From one place to another, in a motion with the full speed `speed`, through all edges between them.
     pub(super) fn advance(
         &self,
         y: State,
@@ -186,7 +186,7 @@ impl<'a> Turning<'a> {
         Ok(Reached::End(y))
     }
 
-    /// From one place to the next one, between which nothing jumps; `seen` is shown each step's end.
+    /// From one place to another without a jump between them; `seen` receives the end of each step.
     fn smooth(
         &self,
         accuracy: Accuracy,
@@ -198,7 +198,7 @@ impl<'a> Turning<'a> {
         let full = 0.5 * speed * speed;
         let energy = self.effort(speed);
         let torque = energy / self.plant.ratio().abs();
-        // Every value is measured by its own size, so that the tolerance means the same for each.
+        // Every value is scaled by its own size, so that the tolerance means the same for each.
         let sizes = [
             full,
             1.0 / speed,
@@ -239,7 +239,7 @@ impl<'a> Turning<'a> {
             return Ok(Reached::End(y));
         };
         if end[0] <= STOPPED {
-            // Near rest z falls in a straight line.
+            // Near rest z falls linearly.
             let share = (before.1[0] / (before.1[0] - end[0])).clamp(0.0, 1.0);
             return Ok(Reached::Stopped(from + before.0 + share * (x - before.0)));
         }
@@ -264,8 +264,7 @@ impl<'a> Turning<'a> {
         Ok((reached, course))
     }
 
-    /// The mean motor torque, over a cycle, that keeps a speed without stopping, in the sense in which it drives: less than zero where the motor
-    /// has to brake (N·m).
+    /// The mean motor torque over a cycle that keeps a speed without stopping, positive where it drives, negative where the motor must brake (N·m).
     pub(super) fn keeping(&self, speed: f64) -> Result<f64, SteadyError> {
         let needed = |x: f64| {
             let state = [self.at(x), self.direction * speed];
@@ -280,7 +279,7 @@ impl<'a> Turning<'a> {
         Ok(work / self.span() * self.sense())
     }
 
-    /// What an integral of a torque over these places is measured by: what is turned over, or what the links exchange at this speed.
+    /// Scale for an integral of a torque over these places: the exchanged energy, also between the links at this speed.
     pub(super) fn largest(
         &self,
         places: &[(f64, bool)],
@@ -299,7 +298,7 @@ impl<'a> Turning<'a> {
         (self.plant.ratio() * self.direction).signum()
     }
 
-    /// By how much the energy at the end of a cycle exceeds that at its start, from the start with this speed, as a share; −1 if the drive link stops.
+    /// Relative increase of the energy over a cycle from the start with this speed; −1 if the drive link stops.
     pub(super) fn rise(&self, speed: f64) -> Result<f64, SteadyError> {
         Ok(match self.turn(speed)? {
             Reached::End([z, ..]) => z / (0.5 * speed * speed) - 1.0,
@@ -307,13 +306,13 @@ impl<'a> Turning<'a> {
         })
     }
 
-    /// Energy won in a cycle from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive
-    /// link stops. What is rounding is 0.
+    /// Energy gained in a cycle from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive link stops.
+    /// Rounding counts as 0.
     pub(super) fn gain(&self, speed: f64) -> Result<f64, SteadyError> {
         Ok(self.gain_by(FINE, speed)?[0])
     }
 
-    /// The same with its sign for certain, and some digits.
+    /// The same with a certain sign, to some digits.
     pub(super) fn about_gain(&self, speed: f64) -> Result<f64, SteadyError> {
         let [gain, works] = self.gain_by(ROUGH, speed)?;
         if gain.abs() > CLOSE * works {
@@ -323,7 +322,7 @@ impl<'a> Turning<'a> {
         }
     }
 
-    /// With the sum of the works by magnitude, as the same share.
+    /// The gain, with the sum of the works' magnitudes as the same share.
     fn gain_by(&self, accuracy: Accuracy, speed: f64) -> Result<[f64; 2], SteadyError> {
         let ends = [0.0, self.span()];
         let reached = self.advance_by(accuracy, starting(speed), ends, speed, &mut |_, _| ())?;

@@ -1,9 +1,9 @@
-//! A segment that is so short in so long a motion that its times have few digits left.
+//! A segment so short within a long motion that its times have few digits left.
 
 use crate::model::machine::MachineFile;
 use crate::number::rounding::short;
 
-/// Share of a segment by which the rounding of its times is noticed.
+/// Share of a segment from which rounding of its times is reported.
 const NOTICED: f64 = 1e-5;
 
 /// A warning for each segment whose times are rounded.

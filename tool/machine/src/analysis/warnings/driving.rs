@@ -8,15 +8,15 @@ use crate::model::machine::MachineFile;
 use crate::model::schedule::Now;
 use crate::number::rounding::short;
 
-/// Positions or instants that are looked at.
+/// Positions or instants that are evaluated.
 const STEPS: usize = 720;
 
-/// Share of the work that a load does to and fro below which their difference is an error of the sum: a force of constant
-/// direction gives back over a cycle what it takes.
+/// Share of a load's total work back and forth below which the difference is an error of the sum: a force of constant direction returns over a cycle
+/// what it takes.
 const BALANCED: f64 = 1e-3;
 
-/// A warning for each process load that drives the machine by more than it resists: over the motion, or, without one, towards
-/// growing positions. Loads that stand for weights are none.
+/// A warning for each process load that drives the machine more than it resists: over the motion, or, without one, towards growing positions. Loads
+/// that represent weights are excluded.
 pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mechanism = file.machine.mechanism();
     let coordinate = mechanism.coordinate();
@@ -31,7 +31,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
             .collect(),
     };
     let loads = file.loads.iter().enumerate();
-    // A web pulls whether it is wound or unwound.
+    // A web pulls in both directions of winding.
     let loads: Vec<_> = loads
         .skip(mechanism.pulls())
         .filter(|(k, named)| !mechanism.is_weight(&named.load) && !file.schedule.is_of_carriage(*k))

@@ -1,4 +1,4 @@
-//! A slide whose way ends somewhere, and whose motion goes on with every cycle.
+//! A slide with limited travel whose motion advances with every cycle.
 
 use jred::Error;
 use jred::machine::Mechanism as _;
@@ -7,10 +7,10 @@ use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::number::rounding::short;
 
-/// Share of the way of a cycle that is rounding.
+/// Share of the travel per cycle that is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A warning for a cycle after which the slide is not back, if nothing says where its way ends.
+/// A warning for a cycle after which the slide is not back, if the end of its travel is not given.
 pub(super) fn of(file: &MachineFile) -> Result<Option<String>, Error> {
     let mechanism = file.machine.mechanism();
     let (Some(link), Some(motion)) = (mechanism.open_end(), &file.motion) else {

@@ -1,4 +1,4 @@
-//! A motion of the tool that comes close to a dead centre, where the drive link goes far for little of it.
+//! A motion of the tool that comes close to a dead centre, where the drive link moves far for little travel of the tool.
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error};
@@ -7,7 +7,7 @@ use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::number::rounding::short;
 
-/// Instants that are looked at.
+/// Instants that are evaluated.
 const STEPS: usize = 720;
 
 /// Share of the largest transfer function on the branch below which a motion is close to a dead centre.

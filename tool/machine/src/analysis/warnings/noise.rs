@@ -1,14 +1,14 @@
-//! A recorded motion whose noise is a part of its acceleration, or with a row that does not belong to it.
+//! A recorded motion whose noise is a part of its acceleration, or with a wrong row.
 
 use super::plausible::prescribed;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Outlier;
 use crate::number::rounding::significant;
 
-/// Share of the acceleration, both RMS, from which on noise is named.
+/// Share of the acceleration, both RMS, from which noise is reported.
 const NOISY: f64 = 0.1;
 
-/// A warning for a recording with a row that stands out.
+/// A warning for a recording with an outlier row.
 pub(super) fn outlier(file: &MachineFile) -> Option<String> {
     let Outlier {
         row,
@@ -38,7 +38,7 @@ pub(super) fn outlier(file: &MachineFile) -> Option<String> {
     ))
 }
 
-/// A warning for a recording whose curve goes through the noise of its rows.
+/// A warning for a recording whose curve follows the noise of its rows.
 pub(super) fn of(file: &MachineFile) -> Option<String> {
     let motion = file.motion.as_ref()?;
     let noise = motion.noise()?;

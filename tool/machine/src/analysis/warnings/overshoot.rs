@@ -1,12 +1,12 @@
-//! A segment whose law goes beyond the end of its move and comes back, or first goes the other way.
+//! A segment whose law goes beyond the end of its move and comes back, or first moves the other way.
 
 use crate::model::machine::MachineFile;
 use crate::model::motion::Overshoot;
 
-/// Share of the move that is too little to be noticed.
+/// Share of the move below which this is ignored.
 const LITTLE: f64 = 1e-6;
 
-/// A warning for each segment that turns back although nothing in it asks for it.
+/// A warning for each segment that turns back although no key of it requires that.
 pub(super) fn of(file: &MachineFile) -> Vec<String> {
     let Some(motion) = &file.motion else {
         return Vec::new();

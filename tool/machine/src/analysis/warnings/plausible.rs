@@ -1,6 +1,6 @@
 //! Implausible values, mostly wrong units. They cause warnings, never errors: a machine may be unusual.
 //!
-//! The limits are those of docs/machine-file.md: all shipped machines keep within them, and a unit that is wrong by a factor of 1000, or of an
+//! The limits are listed in docs/machine-file.md: all shipped machines keep within them, and a unit that is wrong by a factor of 1000, or of an
 //! inertia by 10 000, does not.
 
 use jred::machine::{Body, Joint, Jointed as _, Marker, Mechanism as _};
@@ -15,17 +15,17 @@ use crate::number::rounding::{short, significant};
 /// Gravity (m/s²): a tenth of the moon's, five times the earth's.
 const GRAVITY: [f64; 2] = [0.16, 50.0];
 
-/// Radius of gyration of a body over its size, the largest distance of its joints and points: a slender rod has 0.29, a crank that is a
-/// disc with a large gear some times its length.
+/// Radius of gyration of a body over its size, the largest distance between its joints and points: a slender rod has 0.29, a crank that is a disc
+/// with a large gear several times its length.
 const GYRATION: [f64; 2] = [1e-3, 10.0];
 
-/// The same over the size of the mechanism, of a body with one joint.
+/// The same over the size of the mechanism, for a body with one joint.
 const OF_MECHANISM: f64 = 10.0;
 
-/// Radius of gyration (m) where nothing has a size: one of a wheel.
+/// Radius of gyration (m) if nothing has a size: that of a wheel.
 const WHEEL: f64 = 10.0;
 
-/// Distance of a centre of mass from a body's origin, in its sizes or in those of the mechanism.
+/// Distance of a centre of mass from a body's origin, relative to its size or that of the mechanism.
 const CENTRE: f64 = 10.0;
 
 /// Largest over smallest: sizes, and masses of moving bodies.
@@ -84,7 +84,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
 const LENGTHS: [f64; 2] = [100.0, 1e5];
 const ANGLES: [f64; 2] = [1e4, 1e7];
 
-/// Instants of a smooth stretch whose speed and acceleration are compared with the limits: only their order of magnitude matters.
+/// Instants per smooth stretch whose speed and acceleration are compared with the limits: only their order of magnitude matters.
 const INSTANTS: u32 = 8;
 
 /// A warning for a prescribed motion that is implausibly fast.
@@ -121,7 +121,7 @@ pub(super) fn of_motion(file: &MachineFile) -> Option<String> {
     beyond(0, "a speed", "s").or_else(|| beyond(1, "an acceleration", "s^2"))
 }
 
-/// Unit of the prescribed coordinate, and that of the SI.
+/// The prescribed coordinate, and its SI unit.
 pub(super) fn prescribed(file: &MachineFile) -> Option<(Coordinate, &'static str)> {
     let drive = file.machine.mechanism().coordinate();
     let motion = file.motion.as_ref()?;
@@ -135,13 +135,13 @@ pub(super) fn prescribed(file: &MachineFile) -> Option<(Coordinate, &'static str
     ))
 }
 
-/// A body for its figures.
+/// A body with its figures.
 struct Part<'m> {
     name: &'m str,
     mass: f64,
     inertia: f64,
     com: [f64; 2],
-    /// Largest distance of two of its points (m).
+    /// Largest distance between two of its points (m).
     size: f64,
     /// Whether it turns, so that its moment of inertia counts.
     turns: bool,

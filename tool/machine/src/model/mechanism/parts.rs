@@ -5,20 +5,20 @@ use jred::machine::{Element, Load};
 /// A point of a link, with the name that tables and drawings use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPoint {
-    /// Such as `B`.
+    /// For example `B`.
     pub name: String,
     /// Index of the link.
     pub link: usize,
-    /// Where it is in the link's frame (m).
+    /// Its position in the link's frame (m).
     pub at: [f64; 2],
 }
 
-/// A joint in which two surfaces only press on each other, as a follower on its cam.
+/// A joint in which two surfaces only press on each other, like a follower on its cam.
 #[derive(Clone, Debug)]
 pub struct Contact {
     /// Index of the joint.
     pub joint: usize,
-    /// Whether the file names it; otherwise it is the only one.
+    /// Whether the file names it; otherwise there is only one.
     pub named: bool,
     /// The pieces of the drive's range in which it is smooth.
     pub pieces: Vec<jred::mechanism::cam::Piece>,
@@ -29,7 +29,7 @@ pub struct Contact {
 pub struct ChangePoint {
     /// Position of the drive link (rad, or m).
     pub at: f64,
-    /// How close to it the forces in the joints are not determined (rad, or m).
+    /// Distance from it below which the forces in the joints are not determined (rad, or m).
     pub within: f64,
 }
 
@@ -38,14 +38,14 @@ pub struct ChangePoint {
 pub struct Fact {
     /// Its name.
     pub label: String,
-    /// The figure, its unit and where it is.
+    /// The figure, its unit and position.
     pub text: String,
 }
 
 /// A load with the name that reports use.
 #[derive(Clone, Debug)]
 pub struct NamedLoad {
-    /// Name from the file, or made from what the load does.
+    /// Name from the file, or derived from the load's effect.
     pub name: String,
     /// The load.
     pub load: Load,
@@ -54,7 +54,7 @@ pub struct NamedLoad {
 /// A spring or a damper with the name that reports use.
 #[derive(Clone, Debug)]
 pub struct NamedElement {
-    /// Name from the file, or made from its ends.
+    /// Name from the file, or derived from its ends.
     pub name: String,
     /// The spring or damper.
     pub element: Element,

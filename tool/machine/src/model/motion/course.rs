@@ -1,4 +1,4 @@
-//! What the segments of a motion ask, in figures: largest speed, acceleration and jerk, and the characteristic values of VDI 2143.
+//! Figures of a motion's segments: largest speed, acceleration and jerk, and the characteristic values of VDI 2143.
 
 use std::convert::Infallible;
 
@@ -7,20 +7,20 @@ use crate::number::numerics;
 use super::Motion;
 use super::piece::Piece;
 
-/// Places of a smooth piece, and of a recorded one, at which the largest value is looked for before it is refined.
+/// Places of a smooth piece, and of a recorded one, at which the largest value is searched before it is refined.
 const PLACES: u32 = 200;
 const RECORDED: u32 = 10_000;
 
-/// Share of the motion's largest acceleration by which it may differ from one piece to the next: rounding.
+/// Share of the motion's largest acceleration below which a change from one piece to the next is rounding.
 const CONTINUOUS: f64 = 1e-6;
 
-/// The same of the largest speed over the shortest piece: what a polynomial rounds to where nothing accelerates.
+/// The same as a share of the largest speed over the shortest piece: rounding of a polynomial without acceleration.
 const ROUNDING: f64 = 1e-12;
 
-/// One segment of a motion: what it prescribes, of the tool or of the drive link.
+/// One segment of a motion, in the prescribed coordinate: of the tool or of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentCourse {
-    /// Its number, from 0 on.
+    /// Its index, from 0.
     pub segment: usize,
     /// Whether it prescribes the drive link.
     pub of_drive: bool,
@@ -32,14 +32,14 @@ pub struct SegmentCourse {
     pub speed: f64,
     /// Largest acceleration (per s²).
     pub acceleration: f64,
-    /// Largest jerk (per s³); `None`: the acceleration jumps, here or where the segment begins or ends.
+    /// Largest jerk (per s³); `None` if the acceleration jumps, inside the segment or at its ends.
     pub jerk: Option<f64>,
-    /// Largest product of speed and acceleration (per s³): what a constant inertia takes of power.
+    /// Largest product of speed and acceleration (per s³), to which the power of a constant inertia is proportional.
     pub dynamic: f64,
 }
 
 impl SegmentCourse {
-    /// [C_v, C_a, C_j, C_Mdyn]: its values for a distance of one in a time of one. None for a dwell.
+    /// [C_v, C_a, C_j, C_Mdyn]: its values for a distance of one in a time of one; `None` for a dwell.
     pub fn coefficients(&self) -> Option<[Option<f64>; 4]> {
         let (h, t) = (self.distance.abs(), self.duration);
         (h > 0.0).then(|| {
@@ -54,7 +54,7 @@ impl SegmentCourse {
 }
 
 impl Motion {
-    /// The segments one after another; a motion without segments is one.
+    /// The segments in order; a motion without segments is one.
     pub fn courses(&self) -> Vec<SegmentCourse> {
         let mut courses = Vec::new();
         for pieces in self.pieces.chunk_by(|a, b| a.segment == b.segment) {
@@ -82,8 +82,8 @@ impl Motion {
         courses
     }
 
-    /// By how much two accelerations may differ and be one: of the drive link, or of what is prescribed. The scale is the whole motion's: a
-    /// segment of constant speed has none of its own.
+    /// Difference below which two accelerations are equal: of the drive link, or of the prescribed coordinate. It scales with the whole motion,
+    /// because a segment of constant speed has no scale of its own.
     fn same_acceleration(&self, courses: &[SegmentCourse], of_drive: bool) -> f64 {
         let most = |value: fn(&SegmentCourse) -> f64| {
             let own = courses.iter().filter(|course| {
@@ -109,7 +109,7 @@ impl Motion {
             } else {
                 PLACES
             };
-            // At its end a piece has no acceleration of its own.
+            // The end of a piece belongs to the next one.
             let range = [piece.start, piece.end().next_down().max(piece.start)];
             let speed = |t: f64| self.at(t).omega;
             let acceleration = |t: f64| self.at(t).alpha;
@@ -119,8 +119,8 @@ impl Motion {
         peaks
     }
 
-    /// Whether the acceleration jumps within segment number `index`, or where it meets its neighbours, or rest, by more than what is the
-    /// `same` of the prescribed coordinate and of the drive link.
+    /// Whether the acceleration jumps within segment number `index`, or at its borders to neighbours or rest, by more than `same` of the prescribed
+    /// coordinate and of the drive link.
     fn acceleration_jumps(&self, index: usize, same: [f64; 2]) -> bool {
         let count = self.pieces.len();
         let ends = |piece: &Piece, end: bool| {
@@ -129,9 +129,9 @@ impl Motion {
         };
         self.pieces.iter().enumerate().any(|(k, piece)| {
             let neighbour = |other: Option<usize>, end: bool| {
-                // Beyond the ends of a motion that does not repeat it is at rest.
+                // Before and after a motion that does not repeat it is at rest.
                 let other = other.and_then(|k| self.pieces.get(k));
-                // The tool and the drive link have accelerations of their own: a join takes over what there is.
+                // Tool and drive link have different accelerations; a join takes over the existing one.
                 let compared = other.is_none_or(|other| other.of_drive == piece.of_drive);
                 let beyond = other.map_or(0.0, |other| ends(other, end));
                 let same = same[usize::from(piece.of_drive)];
@@ -145,7 +145,7 @@ impl Motion {
     }
 }
 
-/// The course with the largest values of one more piece.
+/// The course updated with the largest values of one more piece.
 fn with_piece(course: SegmentCourse, piece: &Piece) -> SegmentCourse {
     let places = if piece.is_recorded() {
         RECORDED

@@ -5,14 +5,14 @@ use jred::machine::motion::Polynomial;
 
 use super::Phase;
 
-/// What a move must keep (SI, all greater than zero).
+/// Limits of a move (SI, all greater than zero).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Largest speed.
     pub speed: f64,
     /// Largest acceleration while the speed grows.
     pub acceleration: f64,
-    /// Largest while it falls.
+    /// Largest deceleration.
     pub deceleration: f64,
     /// Largest jerk; `None`: the acceleration may jump.
     pub jerk: Option<f64>,
@@ -21,11 +21,11 @@ pub struct Limits {
 /// A move that is too short to change the speed within its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooShort {
-    /// The way that the change takes.
+    /// The distance that the change takes.
     pub least: f64,
 }
 
-/// A change of speed as fast as possible: the acceleration rises in `ramp`, stays for `hold`, falls in `ramp` (s).
+/// A change of speed as fast as possible: the acceleration rises in `ramp`, is constant for `hold`, falls in `ramp` (s).
 #[derive(Clone, Copy, Debug)]
 struct Change {
     from: f64,
@@ -92,7 +92,7 @@ fn push(phases: &mut Vec<Phase>, duration: f64, state: [f64; 3]) {
     }
 }
 
-/// Changes the speed from one to the other as fast as the limits allow; the distance is what it takes.
+/// Changes the speed from one to the other as fast as the limits allow; also returns the distance.
 pub fn change(speeds: [f64; 2], limits: &Limits) -> (f64, Vec<Phase>) {
     let change = Change::new(speeds[0], speeds[1], limits);
     let mut phases = Vec::new();
@@ -100,15 +100,15 @@ pub fn change(speeds: [f64; 2], limits: &Limits) -> (f64, Vec<Phase>) {
     (change.distance(), phases)
 }
 
-/// Moves over `distance` (not zero) as fast as the limits allow, between two speeds in its direction that keep the limit. At both
-/// ends the acceleration is zero, or jumps if no jerk is limited. The speed does not fall below the slower of the two.
+/// Moves over `distance` (not zero) as fast as the limits allow, between two speeds in its direction within the limit. At both ends the acceleration
+/// is zero, or jumps if the jerk is not limited. The speed does not fall below the slower of the two.
 ///
 /// # Errors
-/// The way is too short for the change of speed.
+/// The distance is too short for the change of speed.
 pub fn fastest(distance: f64, speeds: [f64; 2], limits: &Limits) -> Result<Vec<Phase>, TooShort> {
     let way = distance.abs();
     let [first, last] = speeds.map(|v| (v * distance.signum()).max(0.0));
-    // Up to the speed `top` and down from it, without a stay.
+    // Up to the speed `top` and down again, without constant speed.
     let through = |top: f64| {
         [
             Change::new(first, top, limits),
@@ -130,7 +130,7 @@ pub fn fastest(distance: f64, speeds: [f64; 2], limits: &Limits) -> Result<Vec<P
     };
     let [up, down] = through(top);
     let stay = ((way - up.distance() - down.distance()) / top).max(0.0);
-    // What the search for the highest speed leaves over is a rounding, not a stay.
+    // The remainder of the search for the highest speed is rounding, not constant speed.
     let stay = if top < limits.speed { 0.0 } else { stay };
     let mut phases = Vec::with_capacity(7);
     up.phases(&mut phases);
@@ -145,7 +145,7 @@ pub fn fastest(distance: f64, speeds: [f64; 2], limits: &Limits) -> Result<Vec<P
     Ok(phases)
 }
 
-/// The speed whose way is the one wanted: the way grows with it. Bisection to the last bit, whichever limits are reached.
+/// The speed with the given distance, which grows with the speed. Bisection to the last bit, for any combination of active limits.
 fn highest(way_through: impl Fn(f64) -> f64, way: f64, [mut low, mut high]: [f64; 2]) -> f64 {
     loop {
         let middle = low.midpoint(high);

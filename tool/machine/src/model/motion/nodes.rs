@@ -1,4 +1,4 @@
-//! A motion through nodes, each with position, speed and acceleration: what a computed motion is written as, exactly.
+//! A motion through nodes, each with position, speed and acceleration: the exact form of a computed motion.
 
 use jred::machine::motion::State;
 
@@ -9,7 +9,7 @@ use super::STANDSTILL;
 pub struct Node {
     /// Time (s).
     pub t: f64,
-    /// Time since the node before (s), of the first node 0: after a long motion `t` has too few digits for a short step.
+    /// Time since the previous node (s), 0 for the first node: after a long motion `t` has too few digits for a short step.
     pub step: f64,
     /// Position (rad, or m).
     pub phi: f64,
@@ -19,14 +19,14 @@ pub struct Node {
     pub alpha: [f64; 2],
 }
 
-/// What two speeds may differ by in the last digits, as a share of them: those of a sweep through short cells by some forty roundings. And two times.
+/// Relative difference of two speeds that is rounding: a sweep through short cells accumulates some forty rounding errors. And of two times.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const OF_TIME: f64 = 16.0 * f64::EPSILON;
 
-/// Share of the largest acceleration by which it may differ before and after a node, or from none: rounding.
+/// Share of the largest acceleration below which a jump at a node is rounding.
 const CONTINUOUS: f64 = 1e-6;
 
-/// Share of the range of the positions by which they may differ in one place: rounding.
+/// Share of the range of the positions below which two positions are equal: rounding.
 const PLACE: f64 = 1e-9;
 
 /// The step between two nodes over its share u:
@@ -35,7 +35,7 @@ const PLACE: f64 = 1e-9;
 /// v(u) = v₀ + a₀·u + ½·(a₁ − a₀)·u² + e·(3u² − 2u³)
 /// ```
 ///
-/// with a₀ and a₁ the accelerations times the step, and e what their mean misses of the change of the speed.
+/// with a₀ and a₁ the accelerations times the step, and e the difference of the change of speed and their mean.
 struct Step<'n> {
     before: &'n Node,
     after: &'n Node,
@@ -58,7 +58,7 @@ impl<'n> Step<'n> {
         }
     }
 
-    /// e as an acceleration has it: where it is rounding, as in a step that changes the speed by a few of its last digits, it is none.
+    /// e for the acceleration; zero if it is rounding, as in a step that changes the speed by a few of its last digits.
     fn felt(&self) -> f64 {
         let Self { before, after, .. } = self;
         let speed = after.omega.abs().max(before.omega.abs());
@@ -77,15 +77,15 @@ impl<'n> Step<'n> {
         self.after.step * u * (self.before.omega + u * curved)
     }
 
-    /// What the positions differ by beyond that.
+    /// Remaining difference of the positions.
     fn rest(&self) -> f64 {
         (self.after.phi - self.before.phi) - self.way(1.0)
     }
 }
 
 impl Node {
-    /// The state at a share of the step from the node before: the speed is the cubic through both speeds and accelerations, the position the
-    /// quintic that has positions as well.
+    /// The state at a share of the step from the node before: the speed is the cubic through both speeds and accelerations, the position the quintic
+    /// through the positions as well.
     pub fn after(&self, before: &Self, u: f64) -> State<f64> {
         let step = Step::between(before, self);
         let Step {
@@ -94,7 +94,7 @@ impl Node {
             missed,
             ..
         } = step;
-        // What is left of the position has neither slope nor curvature at the ends.
+        // The remainder of the position has neither slope nor curvature at the ends.
         let share = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
         State {
             phi: before.phi + step.way(u) + step.rest() * share,
@@ -103,8 +103,8 @@ impl Node {
         }
     }
 
-    /// The same; where it is nearer to this node than to the one before, the speed is that of the way back from here, so that just before a stop
-    /// its sign is that of the motion and not that of a rounding.
+    /// The same; in the half closer to this node the speed is computed backwards from here, so that just before a stop its sign is that of the motion
+    /// and not of rounding.
     pub fn at_share(&self, before: &Self, u: f64) -> State<f64> {
         let state = self.after(before, u);
         if u <= 0.5 {
@@ -123,14 +123,14 @@ impl Node {
         (step.bend + step.felt() * 6.0 * (1.0 - 2.0 * u)) / (self.step * self.step)
     }
 
-    /// What the step from the node before misses: of the position (rad, or m), and of the speed (rad/s, or m/s).
+    /// Errors of the step from the node before: of the position (rad, or m), and of the speed (rad/s, or m/s).
     pub fn missed_since(&self, before: &Self) -> [f64; 2] {
         let step = Step::between(before, self);
         [step.rest(), step.missed]
     }
 }
 
-/// The step at a time (s): its nodes and the share of it; at the end the last one. None of fewer than two nodes.
+/// The step at a time (s): its nodes and the share of it; at the end the last step. `None` for fewer than two nodes.
 pub fn step_at(nodes: &[Node], t: f64) -> Option<([&Node; 2], f64)> {
     let next = nodes.partition_point(|node| node.t <= t);
     let next = next.clamp(1, nodes.len().max(2) - 1);
@@ -143,12 +143,12 @@ pub fn step_at(nodes: &[Node], t: f64) -> Option<([&Node; 2], f64)> {
     Some(([before, after], share))
 }
 
-/// What counts as standing still in a motion.
+/// Thresholds for rest in a motion.
 struct Standstill {
     /// Largest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²).
     speed: f64,
     acceleration: f64,
-    /// Within this (rad, or m) two positions are one.
+    /// Distance (rad, or m) within which two positions are equal.
     place: f64,
 }
 
@@ -165,7 +165,7 @@ impl Standstill {
         }
     }
 
-    /// Whether the motion stands still between two nodes: speeds, way and accelerations are roundings.
+    /// Whether the motion rests between two nodes: speeds, travel and accelerations are rounding.
     fn between(&self, before: &Node, after: &Node) -> bool {
         let accelerations = [before.alpha[1], after.alpha[0]].map(f64::abs);
         let way = (after.phi - before.phi).abs();
@@ -177,7 +177,7 @@ impl Standstill {
                 .all(|a| a <= self.acceleration && a * after.step <= self.speed)
     }
 
-    /// The nodes of a pause, at rest; they stay where the first one is, but for a drift that is more than rounding.
+    /// The nodes of a pause, at rest at the position of the first one, except for a drift above rounding.
     fn settled(&self, pause: &[Node]) -> Vec<Node> {
         let mut at = pause.first().map_or(0.0, |node| node.phi);
         let settled = pause.iter().map(|node| {
@@ -195,8 +195,8 @@ impl Standstill {
     }
 }
 
-/// Nodes cut where the acceleration jumps and where a pause begins or ends; the node of a cut belongs to both sides. Those of a pause are at
-/// rest exactly: friction must not take a rounding of the speed for motion.
+/// Nodes cut where the acceleration jumps and where a pause begins or ends; the node of a cut belongs to both sides. Nodes of a pause are exactly at
+/// rest, so that friction does not treat rounding of the speed as motion.
 pub(super) fn runs(nodes: &[Node]) -> Vec<Vec<Node>> {
     let still = Standstill::of(nodes);
     let mut runs = Vec::new();

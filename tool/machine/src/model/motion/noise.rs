@@ -1,16 +1,16 @@
-//! The noise of a recorded motion: how far its rows scatter, and what the curve through them makes of it.
+//! The noise of a recorded motion: the scatter of its rows, and its effect on the curve through them.
 //!
-//! A row misses the cubic through its four neighbours, two on each side, by a combination of five independent errors, whatever the motion:
+//! A row differs from the cubic through its four neighbours, two on each side, by a combination of five independent errors, for any motion:
 //!
 //! ```text
 //! r = y − Σ L·y        σ² = r²/(1 + Σ L²)        L = −1/6, 4/6, 4/6, −1/6 at equal steps: 70/36
 //! ```
 //!
-//! The middle magnitude of these is 0.6745·σ of normal errors, and corners of the motion do not move it. Errors of rows make neighbouring r
-//! alternate (their correlation is −0.8 at equal steps); where the motion itself bends faster than a cubic they go together.
+//! The median magnitude of these is 0.6745·σ for normal errors, and corners of the motion do not change it. Errors of rows make neighbouring r
+//! alternate (their correlation is −0.8 at equal steps); where the motion itself bends faster than a cubic, neighbouring r have the same sign.
 //!
-//! Of rows at steps h the interpolating spline makes errors of 1.18·σ/h in its first derivative and 6·σ/h² in its second (RMS: the means
-//! over all frequencies of its response to a sine), the smoothing one with the cut-off ω σ·√(h·ω³/(8·√2)) and σ·√(h·ω⁵/(8·√2)).
+//! For rows at steps h the interpolating spline has errors of 1.18·σ/h in its first derivative and 6·σ/h² in its second (RMS: the means over all
+//! frequencies of its response to a sine), the smoothing spline with the cut-off ω has σ·√(h·ω³/(8·√2)) and σ·√(h·ω⁵/(8·√2)).
 
 use std::f64::consts::TAU;
 
@@ -18,42 +18,42 @@ use super::Motion;
 use super::piece::Kind;
 use crate::number::spline::Spline;
 
-/// Middle magnitude of normal errors of one.
+/// Median magnitude of normal errors with σ = 1.
 const MIDDLE: f64 = 0.674_489_75;
 
-/// Correlation of neighbouring rows above which it is the motion that bends.
+/// Correlation of neighbouring rows above which the motion itself bends.
 const ALTERNATES: f64 = -0.4;
 
-/// Of the interpolating spline: errors of the first and the second derivative, times σ/h and σ/h².
+/// Interpolating spline: errors of the first and the second derivative, times σ/h and σ/h².
 const FIRST: f64 = 1.179_960;
 const SECOND: f64 = 6.0;
 
-/// The fewest rows that tell how much rows usually scatter.
+/// Fewest rows for an estimate of the usual scatter.
 const SOME: usize = 32;
 
-/// Share of the acceleration of the motion that noise may have after smoothing.
+/// Share of the motion's acceleration that noise may have after smoothing.
 const QUIET: f64 = 0.05;
 
-/// Cut-off frequencies that are tried lie in this ratio at least.
+/// Least ratio of successive cut-off frequencies.
 const STEP: f64 = 1.25;
 
-/// Noise of a recorded motion, all RMS values, of what it prescribes.
+/// Noise of a recorded motion in its prescribed coordinate, all RMS values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// Whether speeds were recorded, not positions.
     pub of_speeds: bool,
-    /// Of the rows (rad or m, or per s).
+    /// Noise of the rows (rad or m, or per s).
     pub rows: f64,
-    /// Of the speed (per s).
+    /// Noise of the speed (per s).
     pub speed: f64,
-    /// Of the acceleration (per s²).
+    /// Noise of the acceleration (per s²).
     pub acceleration: f64,
-    /// The acceleration of the curve itself, noise included (per s²).
+    /// The acceleration of the curve itself, including noise (per s²).
     pub of_acceleration: f64,
 }
 
 impl Motion {
-    /// The noise of a recorded motion whose curve goes through every row; `None` where rows do not scatter, and of other motions.
+    /// The noise of a recorded motion whose curve passes through every row; `None` if rows do not scatter, and for other motions.
     pub fn noise(&self) -> Option<Noise> {
         let (curve, of_speeds) = self.curve()?;
         let (t, y) = curve.points();
@@ -74,7 +74,7 @@ impl Motion {
         })
     }
 
-    /// The highest cut-off frequency (Hz) of `smoothing` that leaves the noise 5 % of the acceleration; `None`: there is none.
+    /// The highest cut-off frequency (Hz) of `smoothing` that reduces the noise to 5 % of the acceleration; `None` if no cut-off does.
     pub fn quiet_cutoff(&self, noise: &Noise) -> Option<f64> {
         let (curve, of_speeds) = self.curve()?;
         let (t, _) = curve.points();
@@ -82,7 +82,7 @@ impl Motion {
         smoothing(curve, &t, order, noise.rows)
     }
 
-    /// The curve through the rows of a recorded motion, and whether it is one of speeds.
+    /// The curve through the rows of a recorded motion, and whether it is a curve of speeds.
     pub(super) fn curve(&self) -> Option<(&Spline, bool)> {
         match self.pieces.as_slice() {
             [piece] => match &piece.kind {
@@ -95,7 +95,7 @@ impl Motion {
     }
 }
 
-/// The middle one of the steps.
+/// The median of the steps.
 pub(super) fn usual_step(t: &[f64]) -> Option<f64> {
     middle(t.windows(2).map(|pair| pair[1] - pair[0]))
 }
@@ -106,7 +106,8 @@ fn middle(figures: impl Iterator<Item = f64>) -> Option<f64> {
     figures.get(figures.len() / 2).copied()
 }
 
-/// How far each row but the two at either end misses the cubic through its four neighbours, and how many errors of one row that is.
+/// Deviation of each row, except the two at either end, from the cubic through its four neighbours, and the factor from the error of one row to that
+/// of the deviation.
 pub(super) fn residuals<'c>(t: &'c [f64], y: &'c [f64]) -> impl Iterator<Item = [f64; 2]> + 'c {
     t.windows(5).zip(y.windows(5)).map(|(t, y)| {
         let (mut missed, mut square) = (y[2], 1.0);
@@ -120,7 +121,7 @@ pub(super) fn residuals<'c>(t: &'c [f64], y: &'c [f64]) -> impl Iterator<Item = 
     })
 }
 
-/// The middle magnitude of those residuals that are more than rounding, where there are some: a rest has none; else the rounding.
+/// The median magnitude of the residuals above rounding, if there are enough; otherwise the rounding. Residuals at rest are rounding.
 pub(super) fn usual(residuals: impl Iterator<Item = f64>, y: &[f64]) -> Option<f64> {
     let rounding = rounding(y);
     let sizes: Vec<f64> = (residuals.map(f64::abs))
@@ -132,7 +133,7 @@ pub(super) fn usual(residuals: impl Iterator<Item = f64>, y: &[f64]) -> Option<f
     middle(sizes.into_iter())
 }
 
-/// Magnitude of a residual that is one of the last digits of the numbers themselves.
+/// Magnitude of a residual from the last digits of the numbers.
 fn rounding(y: &[f64]) -> f64 {
     16.0 * f64::EPSILON * y.iter().fold(0.0_f64, |most, y| most.max(y.abs()))
 }
@@ -144,7 +145,7 @@ fn scatter(t: &[f64], y: &[f64]) -> Option<f64> {
     if middle <= rounding(y) {
         return None;
     }
-    // Where a corner is, a residual is no measure of the rest.
+    // At a corner the residual is not representative.
     let cut = |r: &f64| r.clamp(-4.0 * middle, 4.0 * middle);
     let products = residuals
         .windows(2)
@@ -175,7 +176,7 @@ fn smoothing(curve: &Spline, t: &[f64], order: usize, rows: f64) -> Option<f64> 
         if noise(omega) <= allowed {
             return Some(cutoff);
         }
-        // A lower cut-off leaves no more of the acceleration, and may have no more noise than that allows.
+        // A lower cut-off leaves no more of the acceleration, so the allowed noise does not grow.
         let allows = (allowed / noise(omega)).powf(2.0 / f64::from(power));
         cutoff *= allows.min(1.0 / STEP);
     }

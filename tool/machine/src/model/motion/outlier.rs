@@ -1,49 +1,49 @@
-//! A row of a recorded motion that does not belong to its neighbours.
+//! A row of a recorded motion that does not match its neighbours.
 //!
-//! A wrong value makes the rows around it miss the cubic through their neighbours as (1, −4, 6, −4, 1)/6, a jump of the position as
-//! (1, −3, 3, −1)/6, one of the speed at a row as (1, −2, 1)/6: the row in the middle against both beside it. A jump of the acceleration,
-//! which a motion may have, never does.
+//! A wrong value makes the rows around it deviate from the cubic through their neighbours as (1, −4, 6, −4, 1)/6, a jump of the position as (1, −3,
+//! 3, −1)/6, and a jump of the speed at a row as (1, −2, 1)/6: the sign of the middle row is opposite to both neighbours. A jump of the acceleration,
+//! which a motion may have, never gives this pattern.
 
 use super::Motion;
 use super::noise::{residuals, usual, usual_step};
 
-/// Residuals beside that of an outlier, as shares of it.
+/// Residuals next to that of an outlier, as shares of it.
 const BESIDE: [f64; 2] = [-1.1, -0.3];
 
-/// How many times the usual residual that of an outlier is. Of a million rows with normal errors the largest is 7.3 times it.
+/// Ratio of an outlier's residual to the usual one. Among a million rows with normal errors the largest ratio is 7.3.
 const UNUSUAL: f64 = 12.0;
 
-/// Share of the largest acceleration elsewhere from which on the false acceleration counts.
+/// Share of the largest acceleration elsewhere from which the false acceleration matters.
 const FALSE: f64 = 0.3;
 
 /// Second derivative at a row of the spline through 1 there and 0 elsewhere, times h²: 6·(√3 − 1).
 const BENT: f64 = 4.392_305;
 
-/// Rows on either side of one that feel it.
+/// Rows on either side of a row that it influences.
 const AROUND: usize = 8;
 
-/// A row that stands out.
+/// An outlier row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlier {
-    /// Number of the row, from 0 on.
+    /// Index of the row, from 0.
     pub row: usize,
     /// Time since the first row (s).
     pub t: f64,
     /// Whether speeds were recorded, not positions.
     pub of_speeds: bool,
-    /// How far it is from the cubic through its neighbours (rad or m, or per s).
+    /// Its deviation from the cubic through its neighbours (rad or m, or per s).
     pub by: f64,
     /// The largest acceleration of the curve near it, and away from it (per s²).
     pub accelerations: [f64; 2],
 }
 
 impl Motion {
-    /// The row of a recorded motion that stands out most; `None`: no row does.
+    /// The largest outlier of a recorded motion; `None` without outliers.
     pub fn outlier(&self) -> Option<Outlier> {
         let (curve, of_speeds) = self.curve()?;
         let (mut t, mut y) = curve.points();
         let (rows, h, end) = (t.len(), usual_step(&t)?, self.duration());
-        // Around a cycle every row has neighbours; otherwise the three at either end are not judged.
+        // In a cycle every row has neighbours; otherwise the three rows at either end are not judged.
         let before = if self.cyclic && rows > 2 * AROUND {
             let more = |from: usize, shift: f64, t: &mut Vec<f64>, y: &mut Vec<f64>| {
                 let added: Vec<[f64; 2]> = (from..from + 3).map(|k| [t[k] + shift, y[k]]).collect();

@@ -1,5 +1,4 @@
-//! Segments that turn back although nothing in them asks for it: their law goes beyond the end of the move and comes back, or first goes
-//! the other way.
+//! Segments that turn back without a key that requires it: their law goes beyond the end of the move and comes back, or first moves the other way.
 
 use std::convert::Infallible;
 
@@ -9,19 +8,19 @@ use crate::model::coordinate::Coordinate;
 use crate::number::numerics;
 use crate::number::rounding::short;
 
-/// Parts of a polynomial at whose ends the direction is taken.
+/// Parts of a polynomial at whose ends the direction is evaluated.
 const PARTS: u32 = 256;
 
 /// A speed below this share of the largest one of the segment counts as rest.
 const REST: f64 = 1e-12;
 
-/// An acceleration at rest counts from this share of the largest speed in the duration on.
+/// An acceleration at rest counts from this share of the largest speed per duration.
 const PUSHED: f64 = 1e-9;
 
 /// A segment of polynomials that turns back, although it neither starts nor ends against its move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overshoot {
-    /// Its number, from 0 on.
+    /// Its index, from 0.
     pub segment: usize,
     /// Whether it prescribes the drive link, not the tool.
     pub of_drive: bool,
@@ -29,21 +28,21 @@ pub struct Overshoot {
     pub span: [f64; 2],
     /// Its distance (rad, or m) without sign.
     pub distance: f64,
-    /// How far it goes away from its start on the other side, and how far beyond its end.
+    /// Travel beyond its start on the other side, and beyond its end.
     pub by: [f64; 2],
-    /// How far it goes backwards in all.
+    /// Total backward travel.
     pub back: f64,
-    /// Whether at its start, or its end, the acceleration at rest is against the move, or with it: that alone makes it turn back.
+    /// Whether the acceleration at rest at its start is against the move, and at its end with it: that alone makes it turn back.
     pub pushed: [bool; 2],
 }
 
 impl Overshoot {
-    /// Whether it is a blemish of the law: what goes farther back than the move itself is a motion of its own.
+    /// Whether it is a blemish of the law: a larger backward travel than the move itself is an intended motion.
     pub fn is_of_law(&self) -> bool {
         self.back < self.distance
     }
 
-    /// What the segment does, for a motion of a machine with this drive link.
+    /// Description for a motion of a machine with this drive link.
     pub fn says(&self, motion: &Motion, drive: Coordinate) -> String {
         let tool = motion.tool().filter(|_| !self.of_drive);
         let coordinate = tool.map_or(drive, ToolCoordinate::coordinate);
@@ -62,7 +61,7 @@ impl Overshoot {
 }
 
 impl Motion {
-    /// The segments whose law turns back; of recorded motions none, whose turns are what was recorded.
+    /// The segments whose law turns back; recorded motions are excluded, because their turns were recorded.
     pub fn overshoots(&self) -> Vec<Overshoot> {
         let segments = self.pieces.chunk_by(|a, b| a.segment == b.segment);
         segments.filter_map(overshoot).collect()
@@ -87,7 +86,7 @@ fn overshoot(pieces: &[Piece]) -> Option<Overshoot> {
     if way == 0.0 || against(start.omega) || against(end.omega) {
         return None;
     }
-    // Places where the direction changes, measured along the move.
+    // Positions where the direction changes, measured along the move.
     let mut turns = vec![0.0];
     let mut back_now = false;
     for piece in pieces {

@@ -7,7 +7,7 @@ use crate::number::spline::Spline;
 
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Number of its segment.
+    /// Index of its segment.
     pub(super) segment: usize,
     /// Whether it prescribes the drive link although the motion is of the tool.
     pub(super) of_drive: bool,
@@ -23,15 +23,15 @@ pub(super) enum Kind {
         course: Polynomial,
     },
     Move(Move<f64>),
-    /// φ is the curve and a steady advance.
+    /// φ is the sum of the curve and a steady advance.
     Positions {
         curve: Spline,
         /// rad/s
         advance: f64,
-        /// Speeds (rad/s) below this are standstill.
+        /// Speed (rad/s) below which it is at rest.
         standstill: f64,
     },
-    /// ω is the curve and a constant; φ its integral.
+    /// ω is the sum of the curve and a constant; φ its integral.
     Speeds {
         curve: Spline,
         start: f64,
@@ -39,7 +39,7 @@ pub(super) enum Kind {
         advance: f64,
         standstill: f64,
     },
-    /// Two at least, at the times of the motion.
+    /// At least two, at the times of the motion.
     Nodes(Vec<Node>),
 }
 
@@ -56,7 +56,7 @@ impl Piece {
         )
     }
 
-    /// Adds the times of the motion strictly between two at which rows stand.
+    /// Adds the times of the motion's rows strictly between two times.
     pub(super) fn rows_between(&self, [from, to]: [f64; 2], rows: &mut Vec<f64>) {
         match &self.kind {
             Kind::Polynomial { .. } | Kind::Move(_) => {}
@@ -72,7 +72,7 @@ impl Piece {
         }
     }
 
-    /// The third derivative at `t` (s) after its start; `None`: the acceleration jumps within the piece or at its ends.
+    /// The third derivative at `t` (s) after its start; `None` if the acceleration jumps within the piece or at its ends.
     pub(super) fn jerk(&self, t: f64) -> Option<f64> {
         match &self.kind {
             Kind::Polynomial { course, .. } => Some(course.at(t)[3]),
@@ -108,7 +108,7 @@ impl Piece {
                 advance,
                 standstill,
             } => {
-                // The end of a period is its beginning, a cycle later.
+                // The end of a period is its start, a cycle later.
                 let [value, d1, d2, _] = curve.at(t);
                 State {
                     phi: value + advance * t,

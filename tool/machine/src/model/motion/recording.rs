@@ -7,20 +7,20 @@ use crate::number::spline::{Fault, Spline, Way};
 pub enum Closing {
     /// It does not.
     Open,
-    /// It does, and goes on by this (rad, or m) in a cycle: whole turns, or nothing.
+    /// It does, and advances by this per cycle (rad, or m): whole turns, or zero.
     After(f64),
 }
 
 /// Rows of a recorded motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Recording<'r> {
-    /// Times from 0 on, rising, the last at the end of the motion (s).
+    /// Times from 0, rising, the last at the end of the motion (s).
     pub times: &'r [f64],
     /// Positions or speeds.
     pub values: &'r [f64],
-    /// Angular frequency at which smoothing halves an amplitude (rad/s); none: the curve goes through every row.
+    /// Angular frequency at which smoothing halves an amplitude (rad/s); `None`: the curve passes through every row.
     pub cutoff: Option<f64>,
-    /// Whether it repeats: then its last row is its first, a cycle later.
+    /// Whether it repeats: then its last row equals its first, a cycle later.
     pub closing: Closing,
 }
 
@@ -47,7 +47,7 @@ impl Recording<'_> {
 const ROWS_PER_CUTOFF: f64 = 4.0;
 const CUTOFFS: f64 = 2.0;
 
-/// The lowest and the highest cut-off frequency (Hz) that so many rows over a time (s) can show.
+/// The lowest and the highest cut-off frequency (Hz) that this number of rows over a time (s) can resolve.
 pub fn cutoffs(rows: usize, duration: f64) -> [f64; 2] {
     let rate = rows.saturating_sub(1) as f64 / duration;
     [CUTOFFS / duration, rate / ROWS_PER_CUTOFF]

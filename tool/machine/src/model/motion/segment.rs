@@ -1,4 +1,4 @@
-//! One segment of a motion: a move by a law, or polynomials one after another.
+//! One segment of a motion: a move by a law, or successive polynomials.
 
 use jred::machine::motion::{Law, Polynomial};
 
@@ -7,18 +7,17 @@ use super::Limits;
 /// One segment of a segmented motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// The drive link's position at its start, from which on the drive link is prescribed, not the tool; `None`: it goes on from the
-    /// segment before it.
+    /// The drive link's position at its start, if it prescribes the drive link instead of the tool; `None`: it continues from the previous segment.
     pub from: Option<f64>,
     /// Distance (rad, or m); zero for a dwell.
     pub distance: f64,
-    /// How it is covered.
+    /// The course over this distance.
     pub course: Course,
-    /// The limits that the file gives, of which the course is the fastest.
+    /// The limits in the file, for which the course is the fastest.
     pub limits: Option<Limits>,
 }
 
-/// How a segment goes from one end to the other.
+/// The course of a segment from one end to the other.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
     /// By a motion law, from rest to rest.
@@ -28,7 +27,7 @@ pub enum Course {
         /// Duration (s).
         duration: f64,
     },
-    /// By polynomials one after another.
+    /// By successive polynomials.
     Phases(Vec<Phase>),
 }
 
@@ -58,7 +57,7 @@ impl Segment {
         }
     }
 
-    /// Polynomials one after another, which cover the distance together.
+    /// Successive polynomials that cover the distance together.
     pub const fn phases(distance: f64, phases: Vec<Phase>) -> Self {
         let course = Course::Phases(phases);
         Self {
@@ -85,7 +84,7 @@ impl Segment {
         Self { limits, ..self }
     }
 
-    /// The same from a position of the drive link on, which is then prescribed.
+    /// The same from a position of the drive link, which is then prescribed.
     #[must_use]
     pub fn of_drive(self, from: f64) -> Self {
         let from = Some(from);

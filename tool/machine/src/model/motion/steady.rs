@@ -1,4 +1,4 @@
-//! Stretches of a motion at constant speed: where a machine does its work.
+//! Stretches of a motion at constant speed, in which a machine does its work.
 
 use super::Motion;
 use super::piece::{Kind, Piece};
@@ -6,25 +6,25 @@ use super::piece::{Kind, Piece};
 /// A stretch at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady {
-    /// Number of its segment, from 0 on.
+    /// Index of its segment, from 0.
     pub segment: usize,
     /// Its time (s).
     pub span: [f64; 2],
-    /// The speed (rad/s, or m/s) of what is prescribed, with its sign.
+    /// The speed (rad/s, or m/s) of the prescribed coordinate, with its sign.
     pub speed: f64,
-    /// Whether the segment is nothing else: a constant speed that is prescribed, not one that a limit leaves.
+    /// Whether the whole segment has constant speed because it is prescribed, not because of a limit.
     pub whole: bool,
 }
 
 impl Steady {
-    /// How long it lasts (s).
+    /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.span[1] - self.span[0]
     }
 }
 
 impl Motion {
-    /// The stretches of polynomials at constant speed, one after another.
+    /// The stretches of polynomials at constant speed, in order.
     pub fn steady(&self) -> Vec<Steady> {
         let mut found = Vec::new();
         for pieces in self.pieces.chunk_by(|a, b| a.segment == b.segment) {
@@ -42,7 +42,7 @@ impl Motion {
     }
 }
 
-/// The speed of a piece that has only one, not zero.
+/// The speed of a piece with constant nonzero speed.
 fn constant(piece: &Piece) -> Option<f64> {
     let Kind::Polynomial { course, .. } = &piece.kind else {
         return None;

@@ -1,5 +1,4 @@
-//! A coordinate of the tool as a function of the drive link's position, and its inverse: what a motion prescribed at the tool asks of the
-//! drive link.
+//! A coordinate of the tool as a function of the drive link's position, and its inverse: the drive link's motion for a motion prescribed at the tool.
 
 use std::f64::consts::TAU;
 
@@ -16,27 +15,27 @@ mod raw;
 
 use raw::{Knot, Raw};
 
-/// Places of a turn, or of a stroke, at which the coordinate is known beforehand.
+/// Places per turn or stroke at which the coordinate is tabulated.
 const PLACES: u32 = 1440;
 
-/// A transfer function below this share of its largest value is zero: there the tool stands whatever the drive link does.
+/// A transfer function below this share of its largest value is zero: there the tool is at rest whatever the drive link does.
 const STANDS: f64 = 1e-9;
 
-/// A transfer function that is nowhere larger (m or rad, per rad or m) is a rounding: the tool does not move at all.
+/// A transfer function that is nowhere larger than this (m or rad, per rad or m) is rounding: the tool does not move at all.
 const NOWHERE: f64 = 1e-12;
 
-/// Share by which the transfer function may vary of a coordinate that goes with the drive link evenly: rounding.
+/// Relative variation of the transfer function of a coordinate that is linear in the drive link's: rounding.
 const EVEN: f64 = 1e-9;
 
-/// The most steps of Newton's method; two are usual, and bisection needs fifty.
+/// Most Newton steps; two are usual, and bisection needs fifty.
 const MOST_STEPS: u32 = 100;
 
-/// What is measured at the tool.
+/// Measured quantity of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
     /// x (0) or y (1) of a point `[u, v]` of a link (m).
     Position {
-        /// Number of the link.
+        /// Index of the link.
         link: usize,
         /// The point in its frame (m).
         at: [f64; 2],
@@ -45,45 +44,45 @@ pub enum Measure {
     },
     /// Distance of a point `[u, v]` of a link along its path (m).
     Path {
-        /// Number of the link.
+        /// Index of the link.
         link: usize,
         /// The point in its frame (m).
         at: [f64; 2],
     },
     /// Angle of a link (rad).
     Angle {
-        /// Number of the link.
+        /// Index of the link.
         link: usize,
     },
     /// Displacement in a guide (m).
     Slide {
-        /// Number of the joint.
+        /// Index of the joint.
         joint: usize,
     },
 }
 
-/// Where the coordinate cannot lead the drive link.
+/// Why the coordinate cannot prescribe the drive link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standstill {
     /// It does not move anywhere.
     Everywhere,
-    /// Near the place that is asked for, the tool stands.
+    /// Near the requested position, the tool is at rest.
     Here,
     /// The mechanism cannot be placed.
     Unplaced(PoseError),
 }
 
-/// A coordinate of the tool on the part of the drive link's range on which it goes one way.
+/// A coordinate of the tool on the part of the drive link's range on which it is monotonic.
 #[derive(Clone, Debug)]
 pub struct ToolCoordinate {
     mechanism: AnyMechanism,
     measure: Measure,
     name: String,
-    /// In the order of φ, from end to end of the branch; at least two.
+    /// In order of φ, from end to end of the branch; at least two.
     knots: Vec<Knot>,
-    /// The drive link's position around which the branch lies, and the coordinate there.
+    /// A position of the drive link on the branch, and the coordinate there.
     near: [f64; 2],
-    /// What a turn adds, if the tool never turns back.
+    /// Its increase per turn, if the tool never turns back.
     per_turn: Option<f64>,
 }
 
@@ -91,7 +90,7 @@ impl ToolCoordinate {
     /// The coordinate on the branch around the drive link's position `near` (rad, or m). A distance along the path is zero there.
     ///
     /// # Errors
-    /// The tool stands there, or the mechanism cannot be placed.
+    /// The tool is at rest there, or the mechanism cannot be placed.
     pub fn new(
         mechanism: &AnyMechanism,
         measure: Measure,
@@ -146,7 +145,7 @@ impl ToolCoordinate {
         })
     }
 
-    /// Its name, such as "x of ram".
+    /// Its name, for example "x of ram".
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -169,12 +168,12 @@ impl ToolCoordinate {
         }
     }
 
-    /// Its value where the branch was asked for.
+    /// Its value at the position that selected the branch.
     pub const fn value_near(&self) -> f64 {
         self.near[1]
     }
 
-    /// What a turn of the drive link adds; `None`: it turns back within one, or the drive link has a stroke.
+    /// Its increase per turn of the drive link; `None` if it turns back within a turn, or the drive link has a stroke.
     pub const fn per_turn(&self) -> Option<f64> {
         self.per_turn
     }
@@ -193,7 +192,7 @@ impl ToolCoordinate {
         })
     }
 
-    /// The coordinate as one that goes with the drive link evenly, where it does.
+    /// The coordinate as an [`Axis`], if it is linear in the drive link's.
     pub fn axis(&self) -> Option<Axis> {
         let (first, last) = self.knots.first().zip(self.knots.last())?;
         let scale = (last.value - first.value) / (last.phi - first.phi);
@@ -224,8 +223,7 @@ impl ToolCoordinate {
         Ok(found)
     }
 
-    /// The drive link's state that gives the tool this one: φ̇ = ṡ/s′, φ̈ = (s̈ − s″·φ̇²)/s′. A value beyond the branch is taken for its
-    /// end.
+    /// The drive link's state for a state of the tool: φ̇ = ṡ/s′, φ̈ = (s̈ − s″·φ̇²)/s′. A value beyond the branch is replaced by its end.
     pub fn drive(&self, tool: State<f64>) -> State<f64> {
         let (turns, value) = match (self.per_turn, self.knots.first()) {
             (Some(per_turn), Some(first)) => {
@@ -243,7 +241,7 @@ impl ToolCoordinate {
         }
     }
 
-    /// The drive link's position that gives the tool this value.
+    /// The drive link's position for a value of the tool.
     pub fn drive_at(&self, value: f64) -> f64 {
         let at_rest = State {
             phi: value,
@@ -252,7 +250,7 @@ impl ToolCoordinate {
         self.drive(at_rest).phi
     }
 
-    /// Newton's method between two knots, whose cubic φ(s) is the start; where it leaves the bracket, bisection.
+    /// Newton's method between two knots, starting from their cubic φ(s); bisection where it leaves the bracket.
     fn inverse(&self, value: f64) -> (f64, Transfer) {
         let rising = self.knots.first().zip(self.knots.last());
         let rising = rising.is_none_or(|(first, last)| first.value <= last.value);
@@ -273,7 +271,7 @@ impl ToolCoordinate {
         let mut found = Transfer::constant(value);
         found.d1 = a.slope;
         for _ in 0..MOST_STEPS {
-            // Between two knots the mechanism was placed at both ends: it is placed here.
+            // The mechanism was placed at both knots, so it can be placed between them.
             let Ok(here) = raw.from(Some(&a), phi) else {
                 break;
             };

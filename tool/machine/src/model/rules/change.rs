@@ -16,9 +16,9 @@ pub enum What {
     Warn(Rule, f64),
     /// The rule is not checked.
     Off(Rule),
-    /// Both limits at once, so that none of the set below remains.
+    /// Both limits together, so that no limit of the base set remains.
     Both(Rule, Limit),
-    /// Which λ is checked.
+    /// The choice of λ to check.
     InertiaOf(InertiaOf),
     /// Limits of λ by moves per minute.
     InertiaByMoves(Vec<Moves>),
@@ -27,7 +27,7 @@ pub enum What {
 }
 
 impl What {
-    /// The rule that it belongs to.
+    /// The rule that it changes.
     pub const fn rule(&self) -> Rule {
         match self {
             Self::Fail(rule, _) | Self::Warn(rule, _) | Self::Off(rule) | Self::Both(rule, _) => {
@@ -39,14 +39,14 @@ impl What {
     }
 }
 
-/// One change, with its source and its place in the text.
+/// One change, with its source and its position in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// The change.
     pub what: What,
     /// Source.
     pub source: String,
-    /// Where it is written.
+    /// Position in the text.
     pub place: Range<usize>,
 }
 
@@ -82,7 +82,7 @@ impl RuleSet {
     /// This set with changes.
     ///
     /// # Errors
-    /// A rule that is off and has a limit, or whose warning lies beyond its limit.
+    /// A rule is off and has a limit, or its warning lies beyond its limit.
     pub fn with(mut self, changes: &Changes) -> Result<Self, Contradiction> {
         for Change { what, source, .. } in &changes.0 {
             let index = what.rule() as usize;
@@ -120,7 +120,7 @@ impl RuleSet {
         Ok(self)
     }
 
-    /// This set with what a machine file says on top of it; kept for [`Self::based_on`].
+    /// This set with the changes of a machine file, which are kept for [`Self::based_on`].
     ///
     /// # Errors
     /// As [`Self::with`].
@@ -130,7 +130,7 @@ impl RuleSet {
         Ok(set)
     }
 
-    /// Another set with what the machine file said on top of this one.
+    /// Another set with the changes of the machine file to this one.
     ///
     /// # Errors
     /// As [`Self::with`].
@@ -138,7 +138,7 @@ impl RuleSet {
         other.with_own(self.own.clone())
     }
 
-    /// Whether anything of the set was changed in the machine file.
+    /// Whether the machine file changes the set.
     pub const fn is_changed(&self) -> bool {
         !self.own.0.is_empty()
     }

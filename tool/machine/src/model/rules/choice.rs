@@ -1,10 +1,10 @@
-//! Values that a rule may check, where there is a choice.
+//! Choices between values that a rule may check.
 
 use serde::Serialize;
 
 use crate::number::figures::Figures;
 
-/// Which λ of the cycle is checked. With J(φ) the inertia ratio is a curve.
+/// The λ of the cycle that is checked. With J(φ) the inertia ratio is a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InertiaOf {
@@ -20,10 +20,10 @@ pub enum InertiaOf {
 }
 
 impl InertiaOf {
-    /// As machine files write them.
+    /// Words for machine files.
     pub const WORDS: [&'static str; 4] = ["max", "mean", "rms", "min"];
 
-    /// The choice of a word.
+    /// The choice for a word.
     pub fn of(word: &str) -> Option<Self> {
         match word {
             "max" => Some(Self::Max),
@@ -44,7 +44,7 @@ impl InertiaOf {
         }
     }
 
-    /// In words for reports.
+    /// Description for reports.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Min => "checked at the smallest λ over the cycle",
@@ -68,10 +68,10 @@ pub enum MeanTorque {
 }
 
 impl MeanTorque {
-    /// As machine files write them.
+    /// Words for machine files.
     pub const WORDS: [&'static str; 2] = ["3", "10/3"];
 
-    /// The choice of a word.
+    /// The choice for a word.
     pub fn of(word: &str) -> Option<Self> {
         match word {
             "3" => Some(Self::Cubic),
@@ -102,7 +102,7 @@ pub struct Moves {
 /// Choices of a rule set other than limits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Choices {
-    /// Which λ is checked.
+    /// The λ that is checked.
     pub inertia_ratio_of: InertiaOf,
     /// Exponent of the mean torque of a gearbox.
     pub gearbox_mean_exponent: MeanTorque,

@@ -1,13 +1,13 @@
-//! What a rule finds, and how it comes out.
+//! The finding of a rule, and its verdict.
 
 use serde::Serialize;
 
-/// A value and the rating it is compared with, in the same unit (SI).
+/// A value and its rating, in the same unit (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The figure.
     pub value: f64,
-    /// The rating; NaN where it is not known.
+    /// The rating; NaN without data.
     pub rating: f64,
 }
 
@@ -25,7 +25,7 @@ impl Finding {
     /// No data: neither value nor rating.
     pub const UNKNOWN: Self = Self::new(f64::NAN, f64::NAN);
 
-    /// Whether both figure and rating are known. An infinite rating, no limit at all, is known.
+    /// Whether both figure and rating are known. An infinite rating means no limit and is known.
     pub const fn is_known(&self) -> bool {
         !(self.value.is_nan() || self.rating.is_nan())
     }

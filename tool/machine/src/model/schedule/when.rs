@@ -1,4 +1,4 @@
-//! When something of a machine acts, and instants at which that is asked.
+//! Times at which a part of a machine acts, and the instants that are compared with them.
 
 use crate::number::rounding::figure;
 
@@ -11,19 +11,19 @@ pub enum Travel {
     Backward,
 }
 
-/// When something of the machine acts or is there.
+/// Times at which a part of the machine acts or is present.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct When {
     /// Times [from, to) of the motion (s), the last up to its end; `None`: always.
     pub spans: Option<Vec<[f64; 2]>>,
     /// Whether the file names segments for these times.
     pub by_segment: bool,
-    /// In one direction of travel only.
+    /// Only in this direction of travel.
     pub travel: Option<Travel>,
 }
 
 impl When {
-    /// The times of segments, such as `from 0.3 s to 0.5 s and from 1 s to 1.2 s`; `None` where the file says times itself, or none.
+    /// The times of segments, for example `from 0.3 s to 0.5 s and from 1 s to 1.2 s`; `None` if the file gives times directly, or no times.
     pub fn times_in_words(&self) -> Option<String> {
         let spans = self.spans.as_ref().filter(|_| self.by_segment)?;
         let spans = spans.iter();
@@ -32,7 +32,7 @@ impl When {
         Some(words.collect::<Vec<_>>().join(" and "))
     }
 
-    /// Whether that is now, in a motion that lasts until `end`: at a time of a motion, if there is one, and with the speed ω, if it is known.
+    /// Whether the instant is included, in a motion that lasts until `end`: by its time, if there is one, and by the speed ω, if known.
     pub fn holds(&self, now: &Now, end: f64) -> bool {
         let in_time = self.spans.as_ref().is_none_or(|spans| {
             now.t.is_some_and(|t| {
@@ -51,16 +51,16 @@ impl When {
     }
 }
 
-/// An instant: a time of the motion (s) and a speed of the drive link, as far as they are known.
+/// An instant: a time of the motion (s) and a speed of the drive link, if known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Now {
     /// Time of the motion (s).
     pub t: Option<f64>,
     /// Speed of the drive link (rad/s, or m/s).
     pub omega: Option<f64>,
-    /// At rest, where a move begins: its direction, as a sign.
+    /// At rest, at the start of a move: its direction, as a sign.
     pub starts: Option<f64>,
-    /// In motion: its direction, as a sign, where the speed alone does not say it because it is zero for an instant.
+    /// In motion: its direction, as a sign, where the speed is zero for an instant.
     pub moves: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Now {
         }
     }
 
-    /// Whether the drive link is known to stand still.
+    /// Whether the drive link is known to be at rest.
     pub fn is_at_rest(&self) -> bool {
         self.omega == Some(0.0) && self.moves.is_none()
     }

@@ -1,4 +1,4 @@
-//! Mechanisms with stand-ins: any one with stand-ins after its own links, or a drive link alone.
+//! Mechanisms with virtual links: any mechanism with virtual links after its own ones, or a single drive link.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use jred::{Domain, Error, Link};
 use super::{Course, StandIn};
 use crate::model::mechanism::Inner;
 
-/// A mechanism with stand-ins after its own links.
+/// A mechanism with virtual links after its own links.
 #[derive(Clone, Debug)]
 pub(crate) struct Tabulated {
     inner: Arc<dyn Inner>,
@@ -44,7 +44,7 @@ impl Tabulated {
         })
     }
 
-    /// The mechanism without them.
+    /// The mechanism without virtual links.
     pub(crate) fn inner(&self) -> &dyn Inner {
         self.inner.as_ref()
     }
@@ -86,7 +86,7 @@ impl Mechanism for Tabulated {
 }
 
 impl Jointed for Tabulated {
-    /// Those of the mechanism; then for each stand-in its bearing and its gearing.
+    /// The joints of the mechanism, then the bearing and the gearing of each virtual link.
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let own = self.own();
         let inner: Frames = frames.iter().take(own).copied().collect();
@@ -103,7 +103,7 @@ impl Jointed for Tabulated {
                 Wrench::moment(Body::Link(k), 1.0),
             ];
             for joint in [Joint::Revolute(bearing), Joint::Transmission(gearing)] {
-                // Cannot fail: two joints a link.
+                // Cannot fail: two joints per link.
                 let _ = joints.push(joint);
             }
         }

@@ -1,4 +1,4 @@
-//! A force or a moment over a position: that of the drive link, or a coordinate of a point.
+//! A force or a moment over a position: of the drive link, or a coordinate of a point.
 
 use std::f64::consts::TAU;
 
@@ -10,15 +10,15 @@ use crate::number::numerics;
 use crate::number::parabola::peak;
 use crate::number::spline::Spline;
 
-/// Places of the drive link's range between which a point turns back or passes a row at most once.
+/// Number of parts of the drive link's range in each of which a point turns back or passes a row at most once.
 const PLACES: u32 = 1440;
 
-/// What the rows of a table run over.
+/// The variable of a table's rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Over {
     /// The position of the drive link.
     Drive,
-    /// x or y of a point, counted from a value of it.
+    /// x or y of a point, relative to a zero.
     Point {
         /// Index of its link.
         link: usize,
@@ -32,7 +32,7 @@ pub enum Over {
 }
 
 impl Over {
-    /// Its value where the links are at `frames`.
+    /// Its value with the links at `frames`.
     fn value(self, phi: f64, frames: &[Frame]) -> Transfer {
         match self {
             Self::Drive => Transfer::variable(phi),
@@ -111,13 +111,12 @@ impl Over {
 pub struct Table {
     curve: Spline,
     over: Over,
-    /// The rows, a part of so many turns of the drive link, come again after these; 0: never.
+    /// Number of turns of the drive link after which the rows repeat; 0: never.
     turns: u32,
 }
 
 impl Table {
-    /// A curve over a part of what its rows run over, which comes again after so many turns of the drive link (0: never); it begins and ends
-    /// with zero.
+    /// A curve over a part of its variable that begins and ends with zero and repeats after this number of turns of the drive link (0: never).
     pub fn new(curve: Spline, over: Over, turns: u32) -> Self {
         Self {
             turns: if over == Over::Drive { turns } else { 0 },
@@ -126,7 +125,7 @@ impl Table {
         }
     }
 
-    /// A curve over the whole range of what its rows run over.
+    /// A curve over the whole range of its variable.
     pub const fn whole(curve: Spline, over: Over) -> Self {
         Self {
             curve,
@@ -135,12 +134,12 @@ impl Table {
         }
     }
 
-    /// Its curve, what its rows run over, and whether they come again with every turn of the drive link.
+    /// Its curve, its variable, and whether it repeats with the turns of the drive link.
     pub(crate) const fn parts(&self) -> (&Spline, Over, bool) {
         (&self.curve, self.over, self.turns > 0)
     }
 
-    /// The force with three derivatives by φ where the links are at `frames`.
+    /// The force with three derivatives by φ, with the links at `frames`.
     pub(super) fn at(&self, phi: f64, frames: &[Frame]) -> Transfer {
         let mut place = self.over.value(phi, frames);
         let [from, to] = self.curve.range();

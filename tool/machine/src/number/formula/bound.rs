@@ -4,14 +4,14 @@ use jred_enclosure::Interval;
 
 use super::{FUNCTIONS, Formula, Node, Operation};
 
-/// Units of the last place by which functions of the standard library may be off, with room to spare.
+/// Largest relative error of standard library functions, with a margin.
 const OFF: f64 = 8.0 * f64::EPSILON;
 
 /// Largest whole exponent that is multiplied out.
 const LARGEST_EXPONENT: f64 = 64.0;
 
 impl Formula {
-    /// An interval with all its values where each variable is anywhere in its own; all numbers where there may be a pole.
+    /// An interval that contains all its values while each variable is anywhere in its interval; all numbers if there may be a pole.
     pub fn bounds(&self, variables: &[Interval]) -> Interval {
         bounds(&self.root, variables)
     }
@@ -44,7 +44,7 @@ fn bounds(node: &Node, variables: &[Interval]) -> Interval {
     }
 }
 
-/// aᵇ: by products for a whole exponent, else of positive a only.
+/// aᵇ: by products for a whole exponent, otherwise only for positive a.
 fn power(a: Interval, b: Interval) -> Interval {
     if !a.is_bounded() || !b.is_bounded() {
         return Interval::ALL;
@@ -72,12 +72,12 @@ fn power(a: Interval, b: Interval) -> Interval {
     Interval::ALL
 }
 
-/// A value of the standard library, with what it may be off.
+/// A value of the standard library, with its error.
 fn rounded(value: f64) -> Interval {
     Interval::around(value, OFF * value.abs())
 }
 
-/// A function that rises throughout.
+/// A rising function.
 fn rising(x: Interval, f: fn(f64) -> f64) -> Interval {
     rounded(f(x.lo())).hull(rounded(f(x.hi())))
 }

@@ -17,7 +17,7 @@ const SAFETY: f64 = 0.9;
 const GROWTH: f64 = 6.0;
 const SHRINKAGE: f64 = 0.333;
 
-/// A place and the values there.
+/// A position and the values there.
 pub type Point<const N: usize> = (f64, [f64; N]);
 
 /// Why an integration did not reach its end.
@@ -25,14 +25,14 @@ pub type Point<const N: usize> = (f64, [f64; N]);
 pub enum Stopped<E> {
     /// f cannot be evaluated.
     Function(E),
-    /// More steps would be needed than allowed.
+    /// More steps are needed than allowed.
     TooManySteps {
-        /// Place reached.
+        /// Position reached.
         x: f64,
     },
     /// The step has become too small for the digits of x.
     StepTooSmall {
-        /// Place reached.
+        /// Position reached.
         x: f64,
     },
 }
@@ -43,22 +43,22 @@ impl<E> From<E> for Stopped<E> {
     }
 }
 
-/// The error allowed per step and value, relative for values above 1 and absolute below, and the most steps.
+/// The allowed error per step and value, relative for values above 1 and absolute below, and the most steps.
 ///
 /// A stiff problem is integrated in small steps until there are too many.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {
     /// Tolerance.
     pub tolerance: f64,
-    /// Steps allowed, rejected ones included.
+    /// Allowed steps, including rejected ones.
     pub most_steps: u32,
 }
 
 impl Accuracy {
     /// The steps from `y` at x = 0 to x = `end` > 0, both included, or to the first one that is `enough`.
     ///
-    /// f may bend, but not jump, where one of the values that `bends` gives passes zero; it gives as many at every place, none of an f
-    /// that is smooth. Each is measured by what it is made of, so that 1e-13 of it is rounding. A step ends at such a place.
+    /// f may bend, but not jump, where one of the values of `bends` passes zero. The number of values is the same everywhere, zero for a smooth f.
+    /// Each is relative to its terms, so that 1e-13 is rounding. A step ends at such a position.
     ///
     /// # Errors
     /// Those of `f`, `bends` and `enough`; too many steps, or too small ones.
@@ -85,7 +85,7 @@ impl Accuracy {
                 h = end - x;
             }
             let Some(mut step) = Step::new(&f, x, h, &y, slope)? else {
-                // So far out that numbers end: stiff friction in a long step.
+                // Beyond the range of numbers: stiff friction in a long step.
                 h *= SHRINKAGE;
                 growth = 1.0;
                 continue;
@@ -93,7 +93,7 @@ impl Accuracy {
             let mut error = step.error(&y, self.tolerance);
             let mut next = h;
             let mut ahead = None;
-            // A step that is rejected once may be too long; twice, f may bend in it.
+            // A step that is rejected once may be too long; after the second rejection f may bend in it.
             if !sides.is_empty() && (error <= 1.0 || growth < GROWTH) {
                 let to = f(x + h, &step.y)?;
                 let begin = bends::Begin { x, y: &y, slope };
@@ -181,7 +181,7 @@ struct Step<const N: usize> {
 }
 
 impl<const N: usize> Step<N> {
-    /// `None`: a value on the way is no number.
+    /// The step; `None` if an intermediate value is not finite.
     fn new<E>(
         f: impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
         x: f64,
@@ -240,7 +240,7 @@ mod tests {
         most_steps: 100_000,
     };
 
-    /// Of an f that bends nowhere.
+    /// An f without bends.
     #[expect(clippy::unnecessary_wraps, reason = "others can fail")]
     fn smooth<const N: usize, E>(_: f64, _: &[f64; N]) -> Result<Vec<f64>, E> {
         Ok(Vec::new())
@@ -258,7 +258,7 @@ mod tests {
         step.unwrap()
     }
 
-    /// Each stage lies where its shares say.
+    /// The position of each stage is the sum of its row.
     #[test]
     fn nodes_are_the_sums_of_their_rows() {
         for (row, c) in A.iter().zip(C) {
@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// A polynomial is integrated without error up to order 8 and not beyond; the estimates see it from orders 5 and 3 on.
+    /// A polynomial is integrated exactly up to order 8 and not beyond; the estimates detect it from orders 5 and 3.
     #[test]
     fn polynomials_are_exact_in_one_step() {
         for power in 0..10 {
@@ -283,7 +283,7 @@ mod tests {
         }
     }
 
-    /// Half the step has a 2⁹th of the error: a pendulum, whose f is not linear, with time in it.
+    /// Half the step has 1/2⁹ of the error: for a pendulum with a nonlinear, time-dependent f.
     #[test]
     fn the_error_of_a_step_falls_with_its_ninth_power() {
         let f = |x: f64, y: &[f64; 2]| [y[1], -y[0].sin() * (1.0 + x)];
@@ -297,7 +297,7 @@ mod tests {
         assert!((7.5..10.0).contains(&order), "{order}");
     }
 
-    /// Growth over 1500 steps and more: no end before the end.
+    /// Growth over 1500 steps and more, without an early end.
     #[test]
     fn a_long_way_keeps_its_tolerance() {
         let f = |_: f64, y: &[f64; 1]| Ok::<_, Infallible>([y[0]]);
@@ -309,7 +309,7 @@ mod tests {
         assert!((y / 600f64.exp() - 1.0).abs() < 1e-8, "{y}");
     }
 
-    /// y′ = |cos x|: with steps that end where f bends, both tolerances are kept, and the fine one takes two thirds of the steps at most.
+    /// y′ = |cos x|: with steps that end where f bends, both tolerances are satisfied, and the fine one takes at most two thirds of the steps.
     #[test]
     fn a_step_ends_where_f_bends() {
         // ∫|cos x| dx over 10.
@@ -331,7 +331,7 @@ mod tests {
         assert!((found - exact).abs() < FINE.tolerance, "{found} {exact}");
         let (_, blind) = last(FINE.steps(f, smooth, [0.0], 10.0, enough));
         assert!(3 * count < 2 * blind, "{count} {blind}");
-        // Each place is a step's end.
+        // Each position is the end of a step.
         let steps = FINE.steps(f, bends, [0.0], 10.0, |_, _| Ok(false)).unwrap();
         for k in 0..3 {
             let place = (f64::from(k) + 0.5) * std::f64::consts::PI;
@@ -386,7 +386,7 @@ mod tests {
             );
             assert!(found.is_err(), "{found:?}");
         }
-        // A step in which numbers end is none.
+        // A step that leaves the range of numbers is rejected.
         let stiff = |_: f64, y: &[f64; 1]| Ok::<_, ()>([-1e100 * y[0].powi(5)]);
         assert!(
             Step::new(stiff, 0.0, 1e-98, &[1.0], [-1e100])

@@ -1,13 +1,13 @@
-//! Gauss and Kronrod's rules: a rule of Gauss, the places that make one of nearly twice its degree of it, and what both differ by.
+//! Gauss-Kronrod rules: a Gauss rule, additional places that give nearly twice its degree, and the difference of both.
 //!
 //! ```text
 //! ∫₋₁¹ f dx ≈ K = Σ wₖ·f(xₖ)        error ≈ s·min(1, (200·|K − G|/s)^1.5)        s = ∫|f − f‾| dx
 //! ```
 //!
-//! K with 2n + 1 places is exact to degree 3n + 1, G with n of them to 2n − 1. The estimate is that of R. Piessens and others, QUADPACK,
-//! Springer 1983: where both rules converge, K does so by far more digits than G, and where they do not, as at a kink, it is cautious. It is taken for no less than 0.15·|K − G|.
-//! The polynomial through the places is taken in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM
-//! Review 46 (2004) 501).
+//! K with 2n + 1 places is exact to degree 3n + 1, G with n of them to 2n − 1. The estimate is by R. Piessens and others, QUADPACK, Springer 1983:
+//! where both rules converge, K is better than G by many more digits; where they do not, as at a kink, the estimate is cautious. It is limited to at
+//! least 0.15·|K − G|. The polynomial through the places is evaluated in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange
+//! interpolation, SIAM Review 46 (2004) 501).
 
 /// Most places of a rule.
 pub const MOST_PLACES: usize = 15;
@@ -17,7 +17,7 @@ pub const MOST_PLACES: usize = 15;
 pub struct Rule {
     places: &'static [f64],
     weights: &'static [f64],
-    /// Weights of the rule of Gauss; zero at the places that it lacks.
+    /// Weights of the Gauss rule; zero at the additional places.
     gauss: &'static [f64],
     /// Weights of the barycentric form.
     barycentric: &'static [f64],
@@ -34,10 +34,10 @@ pub struct Estimate {
     pub size: f64,
 }
 
-/// Share of |K − G| that an estimate is not below: at a slight kink K is hardly better than G.
+/// Least estimate as a share of |K − G|: at a slight kink K is hardly better than G.
 const OF_DIFFERENCE: f64 = 0.15;
 
-/// Share of ∫|f| that an estimate is not below: rounding.
+/// Least estimate as a share of ∫|f|: rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl Rule {
@@ -51,7 +51,7 @@ impl Rule {
         self.weights
     }
 
-    /// The rule of so many places.
+    /// The rule with this number of places.
     pub const fn of_count(count: usize) -> Option<&'static Self> {
         match count {
             7 => Some(&KRONROD_7),
@@ -106,9 +106,8 @@ impl Rule {
         half * terms.map(|(x, w)| w * f(middle + half * x)).sum::<f64>()
     }
 
-    /// The integral of `f` over [a, b]: the part with the largest error is cut into halves until all of them together are estimated below
-    /// `share` of ∫|f| or below `least`; or until cuts help no more, as those of a curve of roundings. The value at a place that is not
-    /// finite makes the sum so.
+    /// The integral of `f` over [a, b]. The part with the largest error is halved until the total error is estimated below `share` of ∫|f| or below
+    /// `least`, or until halving no longer helps, as for a curve that is only rounding. A non-finite value makes the result non-finite.
     pub fn adaptive(
         &self,
         [a, b]: [f64; 2],
@@ -166,11 +165,11 @@ struct Part {
     size: f64,
 }
 
-/// The most parts of one integral: a kink takes some forty, down to the rounding of its place.
+/// The most parts of one integral: a kink takes some forty, down to the rounding of its position.
 const MOST_PARTS: usize = 400;
 
-/// Share of an error above which a cut leaves what it should lower, and how many such cuts end the search: that of roundings is met at once,
-/// that of a curve which the places do not see yet some times.
+/// Share of an error above which a halving is useless, and the number of useless halvings that end the search: for rounding they come immediately,
+/// for a curve not yet resolved by the places only sometimes.
 const USELESS: f64 = 0.9;
 const MOST_USELESS: u32 = 20;
 
@@ -181,7 +180,7 @@ const fn barycentric<const N: usize>(places: &[f64; N]) -> [f64; N] {
         let mut j = 0;
         while j < N {
             if j != k {
-                // Twice the way, so that the products stay near 1.
+                // Doubled distances, so that the products stay near 1.
                 weights[k] /= 2.0 * (places[k] - places[j]);
             }
             j += 1;
@@ -203,7 +202,7 @@ const PLACES_7: [f64; 7] = [
 
 const BARYCENTRIC_7: [f64; 7] = barycentric(&PLACES_7);
 
-/// Three places of Gauss among seven.
+/// Three Gauss places among seven.
 pub static KRONROD_7: Rule = Rule {
     places: &PLACES_7,
     weights: &[
@@ -239,7 +238,7 @@ const PLACES_15: [f64; 15] = [
 
 const BARYCENTRIC_15: [f64; 15] = barycentric(&PLACES_15);
 
-/// Seven places of Gauss among fifteen.
+/// Seven Gauss places among fifteen.
 pub static KRONROD_15: Rule = Rule {
     places: &PLACES_15,
     weights: &[
@@ -289,7 +288,7 @@ mod tests {
         rule.places().iter().map(|x| f(*x)).collect()
     }
 
-    /// Both rules integrate Legendre's polynomials of their degree to rounding, and the next one no more.
+    /// Both rules integrate Legendre polynomials of their degree to rounding, and not the next one.
     #[test]
     fn degrees() {
         // P_n by its recurrence; its integral is zero for n > 0.
@@ -319,7 +318,7 @@ mod tests {
         }
     }
 
-    /// Through a polynomial of its degree it is that, between the places, at them and at the ends.
+    /// A polynomial of its degree is reproduced between the places, at them and at the ends.
     #[test]
     fn the_polynomial_through_the_places() {
         for (rule, n) in RULES {
@@ -337,7 +336,7 @@ mod tests {
         }
     }
 
-    /// The error is not above its estimate where a curve is smooth, and where it has a kink.
+    /// The error is not above its estimate for a smooth curve, and for one with a kink.
     #[test]
     fn errors_are_estimated() {
         type Curve = fn(f64) -> f64;
@@ -358,7 +357,7 @@ mod tests {
         }
     }
 
-    /// What is no number comes out as none, at once.
+    /// A non-finite value gives a non-finite sum immediately.
     #[test]
     fn what_is_not_finite_stays_so() {
         let sum = KRONROD_15.adaptive([-1.0, 1.0], (1e-12, 0.0), &|x| {

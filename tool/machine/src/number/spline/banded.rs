@@ -1,26 +1,25 @@
-//! Linear equations in which each unknown meets its two neighbours on either side; in a ring, the last meet the first.
+//! Linear equations in which each unknown is coupled to its two neighbours on either side; in a ring, the last unknowns are coupled to the first.
 
-/// The two sides of such equations: coefficients at the offsets −2 to 2 from the diagonal, and the right side.
+/// The equations: coefficients at the offsets −2 to 2 from the diagonal, and the right side.
 pub(super) struct System {
     pub(super) rows: Vec<[f64; 5]>,
     pub(super) right: Vec<f64>,
 }
 
-/// Right sides that are carried along: the given one, and the columns of the two unknowns that close a ring.
+/// Simultaneous right sides: the given one, and the columns of the two unknowns that close a ring.
 type Right = [f64; 3];
 
 impl System {
-    /// The unknowns, where the rows end: coefficients beyond the first or the last unknown must be zero. Gauss without
-    /// exchange of rows: the matrices here are diagonally dominant or definite, but for the two rows at the ends of a
-    /// not-a-knot spline, whose first pivots are steps.
+    /// The unknowns of an open chain: coefficients beyond the first or the last unknown must be zero. Gaussian elimination without exchange of rows:
+    /// the matrices here are diagonally dominant or definite, except for the two rows at the ends of a not-a-knot spline, whose first pivots are
+    /// steps.
     pub(super) fn solve(self) -> Vec<f64> {
         let right = self.right.iter().map(|r| [*r, 0.0, 0.0]).collect();
         let solution = eliminate(self.rows, right);
         solution.into_iter().map(|s| s[0]).collect()
     }
 
-    /// The unknowns of a ring of at least four: those of the open chain for a given last two, which then follow from the
-    /// last two rows.
+    /// The unknowns of a ring of at least four: the open chain is solved for given last two unknowns, which then follow from the last two rows.
     pub(super) fn solve_ring(self) -> Vec<f64> {
         let n = self.rows.len();
         let open = n - 2;
@@ -40,7 +39,7 @@ impl System {
             right.push(carried);
         }
         let chain = eliminate(rows, right);
-        // Each of the last two rows with the chain put in: a·p + b·q = r.
+        // Each of the last two rows after substituting the chain: a·p + b·q = r.
         let closing = [open, open + 1].map(|k| {
             let mut equation = [0.0, 0.0, self.right[k]];
             for (offset, value) in self.rows[k].iter().enumerate() {

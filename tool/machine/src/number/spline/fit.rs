@@ -37,7 +37,7 @@ pub(super) fn bounded(x: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
     }
 }
 
-/// Pieces over one period: `knots` has one more, the end.
+/// Pieces over one period; `knots` has one more knot, the end.
 pub(super) fn periodic(knots: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
     let h = steps(knots);
     let closed = |values: &[f64]| -> Vec<f64> {
@@ -90,7 +90,7 @@ fn by_slope(y: &[f64], h: &[f64], t: &[f64]) -> Vec<[f64; 4]> {
     (0..h.len()).map(piece).collect()
 }
 
-/// Slope between two pieces of the mean slopes s: zero at an extreme, else the parabola's, at most twice the flatter one.
+/// Slope between two pieces with mean slopes s: zero at an extreme, else the parabola's, at most twice the flatter one.
 fn steffen(s: [f64; 2], h: [f64; 2]) -> f64 {
     if s[0] * s[1] <= 0.0 {
         return 0.0;
@@ -100,7 +100,7 @@ fn steffen(s: [f64; 2], h: [f64; 2]) -> f64 {
     parabola.clamp(-most, most)
 }
 
-/// Slope at an end: the parabola's through three points, not against the first piece and at most twice its slope.
+/// Slope at an end: that of the parabola through three points, not opposite to the first piece and at most twice its slope.
 fn end_slope(s: [f64; 2], h: [f64; 2]) -> f64 {
     let parabola = s[0] + (s[0] - s[1]) * h[0] / (h[0] + h[1]);
     if parabola * s[0] <= 0.0 {
@@ -110,7 +110,7 @@ fn end_slope(s: [f64; 2], h: [f64; 2]) -> f64 {
     }
 }
 
-/// A curve that is zero somewhere stands level there, so that it stays on its side.
+/// Makes a curve level where it is zero, so that it stays on its side.
 fn at_zero(y: &[f64], mut tangents: Vec<f64>) -> Vec<f64> {
     for (tangent, _) in tangents.iter_mut().zip(y).filter(|(_, y)| **y == 0.0) {
         *tangent = 0.0;
@@ -118,7 +118,7 @@ fn at_zero(y: &[f64], mut tangents: Vec<f64>) -> Vec<f64> {
     tangents
 }
 
-/// Second derivatives with the first two and the last two pieces being one cubic each.
+/// Second derivatives for which the first two and the last two pieces are one cubic each.
 fn not_a_knot(y: &[f64], h: &[f64]) -> Vec<f64> {
     let mean = slopes(y, h);
     let last = h.len() - 1;
@@ -153,8 +153,8 @@ fn jump(before: f64, after: f64) -> [f64; 3] {
     [1.0 / before, -1.0 / before - 1.0 / after, 1.0 / after]
 }
 
-/// Row of R + λ·Qᵀ·W⁻¹·Q and the two columns of Q for the knot between the steps `h[1]` and `h[2]`; `h[0]` and `h[3]` are those
-/// further out, weights those of the three knots.
+/// Row of R + λ·Qᵀ·W⁻¹·Q and the two columns of Q for the knot between the steps `h[1]` and `h[2]`; `h[0]` and `h[3]` are the outer steps, the
+/// weights belong to the three knots.
 fn reinsch(h: [f64; 4], weights: [f64; 3], stiffness: f64) -> [f64; 5] {
     let [before, this, after] = [[h[0], h[1]], [h[1], h[2]], [h[2], h[3]]].map(|[a, b]| jump(a, b));
     let [w0, w1, w2] = weights;
@@ -201,7 +201,7 @@ fn ring(y: &[f64], h: &[f64], mean: &[f64], stiffness: f64) -> (Vec<f64>, Vec<f6
 fn smooth_bounded(y: &[f64], h: &[f64], stiffness: f64) -> (Vec<f64>, Vec<f64>) {
     let n = y.len();
     let mean = slopes(y, h);
-    // Beyond the ends the steps go on; what would be multiplied by them is zero.
+    // Beyond the ends the steps continue; their coefficients are zero.
     let step = |k: usize, offset: usize| {
         let index = (k + offset).saturating_sub(2).min(h.len() - 1);
         h[index]

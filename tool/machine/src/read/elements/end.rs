@@ -16,11 +16,11 @@ const GROUND: &str = "ground";
 pub(super) struct End {
     pub(super) marker: Marker,
     pub(super) text: String,
-    /// A point, not only a body.
+    /// Whether it is a point, not only a body.
     pub(super) point: bool,
 }
 
-/// A text that names a body or a point, or a table with a body and coordinates.
+/// Parses a text that names a body or a point, or a table with a body and coordinates.
 pub(super) fn end(item: &Item, mechanism: &AnyMechanism) -> Result<End> {
     if !item.is_table() {
         let text = item.text("slider")?;

@@ -1,4 +1,4 @@
-//! What a spring or damper does over the whole range of the drive link.
+//! Checks of a spring or damper over the whole range of the drive link.
 
 use std::f64::consts::TAU;
 
@@ -42,7 +42,7 @@ impl Survey<'_> {
         for k in 0..=PLACES {
             let part = step * f64::from(k);
             let now = length(domain.position(part))?;
-            // At a point that is reached exactly the direction, and with it the slope, is not a number.
+            // Where the points coincide exactly, the direction and so the slope is NaN.
             moves |= now.d1.is_nan() || now.d1.abs() > 1e-12;
             longest = longest.max(now.value.abs());
             if now.value < shortest {
@@ -93,7 +93,7 @@ impl Survey<'_> {
             .help("move one of the two points aside slightly")
     }
 
-    /// The element must have the same effect after each turn.
+    /// Checks that the element has the same effect after each turn.
     fn repeats(&self, length: impl Fn(f64) -> Result<Transfer>) -> Result<()> {
         for phi in [0.4, 2.9, 5.1] {
             let (now, later) = (length(phi)?, length(phi + TAU)?);

@@ -20,10 +20,10 @@ const FORCE_Y: usize = 5;
 const FORCE_COLUMN: usize = 6;
 const MOMENT: usize = 7;
 
-/// A step of the rows this many times the usual one is a gap, if the force changes over it.
+/// Factor to the usual step from which a step of the rows is a gap, if the force changes over it.
 const GAP: f64 = 20.0;
 
-/// Share of a column's largest value by which a smooth curve may go beyond all its rows: through a step it goes 11 % beyond.
+/// Share of a column's largest value by which a smooth curve may exceed all its rows: through a step it exceeds them by 11 %.
 const SWING: f64 = 0.1;
 
 type Result<T> = std::result::Result<T, Fault>;
@@ -149,7 +149,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<StandIn>> {
     Ok(stand_ins)
 }
 
-/// A force needs a direction, a direction a force.
+/// Checks that a force has a direction, and a direction a force.
 fn check_direction(target: &Target, has_force: bool, text: &str) -> Result<()> {
     match &target.along {
         None if has_force => Err(Problem::new("the column Force has no direction")
@@ -274,7 +274,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Where the rows end, as positions of the drive link.
+    /// The ends of the rows, as positions of the drive link.
     fn edges(&self) -> Result<Vec<f64>> {
         let x = self.positions.x();
         let (true, Some(first), Some(last)) = (self.target.rows.partly, x.first(), x.last()) else {
@@ -290,7 +290,7 @@ impl Sheet<'_> {
         })
     }
 
-    /// Rows outside of which there is nothing begin and end with zero.
+    /// Checks that rows over a part of the range begin and end with zero.
     fn check_ends(&self, column: usize, values: &[f64]) -> Result<()> {
         let last = values.len().saturating_sub(1);
         for (row, value) in [(0, values.first()), (last, values.last())] {
@@ -305,7 +305,7 @@ impl Sheet<'_> {
         Ok(())
     }
 
-    /// The curve through the rows of a force: twice continuously differentiable, unless it is said to be monotone.
+    /// The curve through the rows of a force: twice continuously differentiable, unless monotone is requested.
     fn smooth(&self, column: usize, values: &[f64]) -> Result<Spline> {
         self.check_ends(column, values)?;
         self.check_gaps(column, values)?;
@@ -345,7 +345,7 @@ impl Sheet<'_> {
         Ok(curve)
     }
 
-    /// No step is so much longer than the others that the force between its ends would be a guess.
+    /// Checks that no step is so long that the force inside it would be a guess.
     fn check_gaps(&self, column: usize, values: &[f64]) -> Result<()> {
         let steps: Vec<f64> = (self.positions.x().windows(2))
             .map(|x| x[1] - x[0])

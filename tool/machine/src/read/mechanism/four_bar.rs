@@ -100,8 +100,8 @@ pub(super) fn side(item: Option<Item>) -> Result<Side> {
     })
 }
 
-/// A crank that cannot turn fully: shown at its length, or at that of the `last` link, to the slider, if that is too
-/// short; the cure as help.
+/// A crank that cannot turn fully: shown at the crank's length, or at that of the `last` link (to the slider) if that is too short. The help says how
+/// to cure it.
 pub(super) fn blocked(
     section: &Section,
     crank: &Value,

@@ -37,7 +37,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     parts::linear_stroke(section, mechanism, Hoist::LOAD, 1)
 }
 
-/// A rope and the mass that hangs on it.
+/// A rope and the mass suspended from it.
 fn hanging(section: &Section) -> Result<Suspended> {
     let radius = section.quantity("radius", &LENGTH)?.positive()?;
     let falls = section

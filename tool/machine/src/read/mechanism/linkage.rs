@@ -1,4 +1,4 @@
-//! `type = "linkage"`: bodies and joints of any topology, from an approximate drawing.
+//! `type = "linkage"`: bodies and joints of any topology, with an approximate drawing.
 
 mod bodies;
 mod cam;
@@ -22,13 +22,13 @@ use bodies::Bodies;
 use joints::Held;
 use problems::Context;
 
-/// Positions kept along the drive's range: between them one step of Newton's method is enough.
+/// Positions stored along the drive's range: from the nearest of them one step of Newton's method converges.
 const STATIONS: usize = 256;
 
 /// The most change points in the drive's range.
 const CHANGE_POINTS: usize = 16;
 
-/// The linkage in a box: with all its stations it is too large to be moved about on the stack.
+/// A linkage on the heap: with all its stations it is too large for the stack.
 #[derive(Debug)]
 struct Boxed(Box<dyn Inner>);
 
@@ -126,7 +126,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     Ok(cam::described(mechanism, &joints))
 }
 
-/// Out of line, so that the stations leave the stack with it.
+/// Not inlined, so that the stations leave the stack when it returns.
 #[inline(never)]
 fn assembled(context: &Context, domain: Domain) -> std::result::Result<Boxed, LinkageError> {
     let linkage = context.linkage()?;
@@ -134,7 +134,7 @@ fn assembled(context: &Context, domain: Domain) -> std::result::Result<Boxed, Li
     Ok(Boxed(Box::new(assembly)))
 }
 
-/// The linkage through its change points, with these.
+/// The linkage assembled through its change points, and these points.
 #[inline(never)]
 fn kept_on_branch(
     context: &Context,
@@ -191,7 +191,7 @@ fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
     Ok(drive)
 }
 
-/// A full turn, or the stroke that the file gives.
+/// A full turn, or the stroke in the file.
 fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
     let (kind, example) = match coordinate {
         Coordinate::Angle => (&ANGLE, "stroke = [\"-30 deg\", \"60 deg\"]"),
@@ -210,7 +210,7 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
     Domain::stroke(from, to).map_err(|error| super::core(section, error))
 }
 
-/// A body that turns needs a moment of inertia, even if it is zero.
+/// Checks that a body that turns has a moment of inertia in the file, even if it is zero.
 fn inertias(assembly: &Boxed, bodies: &Bodies) -> Result<()> {
     let open: Vec<usize> = (0..bodies.moving.len())
         .filter(|k| bodies.moving.get(*k).is_some_and(|body| !body.has_inertia))

@@ -39,7 +39,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 
-/// The types of mechanism, as machine files write them.
+/// The types of mechanism in machine files.
 const SLIDER_CRANK: &str = "slider-crank";
 const GEAR_TRAIN: &str = "gear-train";
 const BELT: &str = "belt";
@@ -68,10 +68,10 @@ const WINDER: &str = "winder";
 /// A reader of one type of mechanism; keys that it does not read are refused.
 type Reader = fn(&Section) -> Result<AnyMechanism>;
 
-/// A reader of one that names a file in the machine file's folder.
+/// A reader of a type that names a file in the machine file's folder.
 type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
-/// Every type with all its keys besides those of every type, where they do not depend on others, and its reader.
+/// Each type with its reader and its own keys; no keys where they depend on other values.
 const TYPES: [(&str, &[&str], Reader); 22] = [
     (
         SLIDER_CRANK,
@@ -181,19 +181,19 @@ const TYPES: [(&str, &[&str], Reader); 22] = [
     (WINDER, &["core", "web", "full_diameter"], winder::read),
 ];
 
-/// Every type that is, or may be, read from a file of its own.
+/// The types that are, or can be, read from a file of their own.
 const FILE_TYPES: [(&str, FileReader); 2] = [
     (DISC_CAM, disc_cam::read),
     (REDUCED_CURVES, reduced_curves::read),
 ];
 
-/// The types of mechanism that machine files can name.
+/// The types of mechanism that a machine file can have.
 pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
     let files = FILE_TYPES.iter().map(|(name, _)| *name);
     TYPES.iter().map(|(name, ..)| *name).chain(files)
 }
 
-/// The mechanism, in this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
+/// The mechanism under this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
 pub(super) fn read(
     section: &Section,
     gravity: [f64; 2],
@@ -234,7 +234,7 @@ pub(super) fn read(
 /// The types whose part slides along x.
 const AXES: [&str; 5] = [RACK, BALL_SCREW, BELT_AXIS, CONVEYOR, FEED_ROLL];
 
-/// How the x axis lies in this `gravity` (m/s²).
+/// Direction of the x axis under this `gravity` (m/s²), in words.
 fn inclination([x, y]: [f64; 2]) -> String {
     let lies = if x == 0.0 && y == 0.0 {
         return "without gravity".to_owned();
@@ -256,10 +256,10 @@ fn inclination([x, y]: [f64; 2]) -> String {
     )
 }
 
-/// Share of gravity below which a component is a rounding.
+/// Share of gravity below which a component counts as zero.
 const LEVEL: f64 = 1e-12;
 
-/// `stroke` of a drive link that turns: a part of its turn as its range. Mechanisms that cannot turn fully have a stroke of their own.
+/// Applies `stroke` to a drive link that turns: its range is a part of the turn. Mechanisms that cannot turn fully read a stroke of their own.
 fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
     if mechanism.domain() != Domain::Turn || mechanism.coordinate() != Coordinate::Angle {
         return Ok(mechanism);
@@ -275,7 +275,7 @@ fn swing(section: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
     Ok(mechanism.on_stroke(stroke))
 }
 
-/// `stroke` of a drive link that turns: two angles (rad) less than a turn apart.
+/// `stroke` of a drive link that turns: two angles (rad), less than a turn apart.
 fn stroke<'a>(section: &Section<'a>) -> Result<Option<(Item<'a>, [f64; 2])>> {
     let Some(item) = section.get("stroke") else {
         return Ok(None);
@@ -294,7 +294,7 @@ fn stroke<'a>(section: &Section<'a>) -> Result<Option<(Item<'a>, [f64; 2])>> {
     Ok(Some((item, stroke)))
 }
 
-/// A stroke that a mechanism cannot follow; the `joint` is open or locks there, in words such as "the rod is perpendicular to the guide".
+/// A stroke that a mechanism cannot follow. `open` and `locked` describe the joint there, for example "the rod is perpendicular to the guide".
 fn stopped(
     section: &Section,
     stroke: &Item,
@@ -319,7 +319,7 @@ fn stopped(
     }
 }
 
-/// What opens, and what locks, where the last link of a mechanism no longer reaches its guide.
+/// Descriptions for a mechanism whose last link no longer reaches its guide.
 const ROD: [&str; 2] = [
     "the rod does not reach the guide",
     "the rod is perpendicular to the guide",
@@ -334,7 +334,7 @@ fn link(section: &Section) -> Result<Link> {
     Link::new(MassProperties { mass, inertia, com }).map_err(|error| core(section, error))
 }
 
-/// An error of the core that no key is known for.
+/// An error of the core without a key to show it at.
 fn core(section: &Section, error: impl Into<Error>) -> Problem {
     let error = error.into();
     let problem = section.problem(format!("{}: {error}", section.title()), "in this table");

@@ -7,7 +7,7 @@ use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-/// Largest ratio either way.
+/// Largest ratio in either direction.
 const LARGEST: f64 = 1e4;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {

@@ -1,4 +1,4 @@
-//! Parts that several mechanisms have: links that only slide, and wheels that only turn.
+//! Parts common to several mechanisms: links that only slide, and wheels that only turn.
 
 use jred::machine::{MassProperties, Mechanism as _};
 use jred::{Domain, Link};
@@ -15,7 +15,7 @@ use crate::units::kind::{INERTIA, Kind, LENGTH, MASS};
 /// Largest friction coefficient of a guide.
 const MOST_FRICTION: f64 = 2.0;
 
-/// Mass and centre of mass of a link that slides without turning. The section may contain other keys that were already read.
+/// Mass and centre of mass of a link that slides without turning. Other keys of the section must have been read before.
 pub(super) fn slide(section: &Section) -> Result<Link> {
     let mass = section.quantity("mass", &MASS)?.not_negative()?;
     let com = section.point("com", &LENGTH)?;
@@ -39,8 +39,8 @@ pub(super) fn guided(section: &Section) -> Result<(Link, f64)> {
     Ok((slide(section)?, friction))
 }
 
-/// Moment of inertia and, for the forces in its bearings, mass of a part that turns about its own axis, on which its centre
-/// of mass lies. The section may contain other keys that were already read.
+/// Moment of inertia of a part that turns about its own axis through its centre of mass, and its mass for the bearing forces. Other keys of the
+/// section must have been read before.
 pub(super) fn wheel(section: &Section) -> Result<Link> {
     let mass = mass(section)?;
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
@@ -56,7 +56,7 @@ pub(super) fn wheel(section: &Section) -> Result<Link> {
     .map_err(|error| core(section, error))
 }
 
-/// The mass (kg) of a part that may leave it out.
+/// The mass (kg) of a part; zero if not given.
 pub(super) fn mass(section: &Section) -> Result<f64> {
     section
         .optional("mass", &MASS)?
@@ -76,8 +76,8 @@ pub(in crate::read) fn ends(item: &Item, kind: &'static Kind, example: &str) -> 
         .help(format!("the second end must be the larger one: {example}")))
 }
 
-/// A linear axis on the `stroke` of link number `link` along x (0) or y (1), if the file gives one. The link's way is
-/// proportional to the drive link's.
+/// A linear axis on the `stroke` of link number `link` along x (0) or y (1), if the file gives one. The link's displacement must be proportional to
+/// the drive link's.
 pub(super) fn linear_stroke(
     section: &Section,
     mechanism: AnyMechanism,

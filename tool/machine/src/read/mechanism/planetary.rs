@@ -106,7 +106,7 @@ fn teeth(section: &Section) -> Result<u32> {
     Ok(teeth)
 }
 
-/// Gears that do not fit together, shown where the planets are.
+/// Gears that do not fit together; shown at the planets.
 fn unfit(section: &Section, planets: &Section, error: BuildError) -> Problem {
     let help = match error {
         BuildError::Misfit(Misfit::PlanetTeeth { .. }) => {

@@ -29,11 +29,10 @@ const VISCOUS: usize = 4;
 const COULOMB: usize = 5;
 const SLOPE: usize = 6;
 
-/// Share of the work that a potential's torque does one way by which it may miss zero over a turn: what is left is taken off
-/// as a constant torque.
+/// Tolerance of the work of a potential's torque over a turn, as a share of ∫|T|·dφ. The rest is subtracted as a constant torque.
 const CONSERVED: f64 = 1e-3;
 
-/// Smaller values are rounding errors of the file and not reported.
+/// Smaller shares are rounding errors of the file and not reported.
 const ROUNDING: f64 = 1e-6;
 
 const ANGLES: [Known; 7] = [
@@ -56,7 +55,7 @@ const LENGTHS: [Known; 7] = [
     known(&["m'", "m_red'"], &MASS_SLOPE),
 ];
 
-/// Other columns that `jred reduce` writes: derived from those that are read, or parts of them, or for a motion.
+/// Other columns that `jred reduce` writes: derivatives or parts of the columns that are read, or results for a motion.
 fn of_reduce(name: &str) -> bool {
     let prefixes = [
         "J_red ", "m_red ", "T_drive", "F_drive", "T_input", "F_input",
@@ -96,7 +95,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     Ok(mechanism)
 }
 
-/// The curves of a file.
+/// The contents of a file.
 struct Curves {
     drive: DriveLink,
     stand_ins: Vec<StandIn>,
@@ -193,7 +192,7 @@ impl Curves {
     }
 }
 
-/// The columns, for a rotating or a sliding drive link, depending on its position column.
+/// The columns; the position column decides whether the drive link turns or slides.
 fn read_columns(
     text: &str,
     turn: bool,
@@ -213,7 +212,7 @@ fn read_columns(
         &LENGTHS,
         "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
     );
-    // By its name, or by its unit where the name is also that of an angle.
+    // By its name, or by its unit if the name is also that of an angle.
     let slides = columns::has(
         text,
         layout,
@@ -250,7 +249,7 @@ fn read_columns(
     Ok((columns, coordinate))
 }
 
-/// How well the rows carry the curve, and how its slope agrees with one that the file gives.
+/// How well the rows resolve the curve, and how well its slope agrees with the slope in the file.
 fn agreement(
     positions: &Positions,
     columns: &Columns,
@@ -287,7 +286,7 @@ fn agreement(
     facts
 }
 
-/// The torque of a potential: over a turn it does no work.
+/// The torque of a potential, which does no work over a turn.
 fn conserved(
     positions: &Positions,
     columns: &Columns,
@@ -319,7 +318,7 @@ fn conserved(
         "{} N m were subtracted from its torque so that its work over a turn is zero",
         figure(mean)
     );
-    // The curve is linear in its values: without the mean its integral is nothing but rounding.
+    // The curve is linear in its values: without the mean, its integral is rounding error only.
     let curve = positions.curve(&torque, Way::Interpolating)?;
     Ok((
         curve,

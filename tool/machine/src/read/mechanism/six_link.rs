@@ -33,7 +33,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         rocker: rocker_length.si,
         rod: rod_length.si,
         centres,
-        // The core measures the guide downwards, as the printed equations do.
+        // The core measures the guide downwards, as the published equations do.
         below: -guide,
     };
     let links = [

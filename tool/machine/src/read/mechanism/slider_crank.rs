@@ -62,7 +62,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             "is too short for a full turn of the crank: it does not reach the guide at φ = {:.2}°",
             phi.to_degrees()
         );
-        // It reaches the guide just so, and could fold there or go on.
+        // The rod just reaches the guide: a change point.
         let through = if rod_length.si >= shortest * (1.0 - 1e-9) {
             "; if something guides it through this change point, describe it as type = \"linkage\" with keep_branch = true"
         } else {

@@ -46,7 +46,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let mechanism = match stroke(section)? {
         Some((item, stroke)) => TogglePress::over_stroke(dimensions, knee, branch, stroke, links)
             .map_err(|error| {
-            // Joint 2 is the knuckle, in which the rod pushes the upper link.
+            // Joint 2 is the knuckle; there the rod pushes the upper link.
             let words = match error {
                 BuildError::Pose(
                     PoseError::DeadPoint { joint: 2, .. }

@@ -1,7 +1,7 @@
-//! `type = "belt-axis"`, `"conveyor"` and `"feed-roll"`: a wheel that pulls something along at its circumference.
+//! `type = "belt-axis"`, `"conveyor"` and `"feed-roll"`: a wheel that moves a load at its circumference.
 //!
-//! All three are a rack and pinion to the core. What runs with the belt without being lifted, as the belt itself, which hangs
-//! in a closed loop, and the other wheels, is inertia of the driven wheel: `m·r²` and `J·(d/d_k)²`.
+//! To the core all three are a rack and pinion. Parts that run with the belt without being lifted (the belt, a closed loop, and the other wheels) are
+//! inertia of the driven wheel: `m·r²` and `J·(d/d_k)²`.
 
 use std::f64::consts::PI;
 
@@ -20,15 +20,15 @@ use crate::units::kind::{INERTIA, LENGTH, MASS};
 /// Most wheels of one size.
 const MOST_WHEELS: u32 = 1000;
 
-/// What the parts of an axis are called.
+/// Names of the parts of an axis.
 struct Words {
     kind: &'static str,
     wheel: &'static str,
     slide: &'static str,
     joints: [&'static str; 3],
-    /// Whether a belt runs round the wheels, and which share of it slides on its bed.
+    /// Share of the belt that slides on its bed; `None` without a belt.
     belt: Option<f64>,
-    /// Whether its way ends: a conveyor and a feed roll go on without end.
+    /// Whether the axis has a stroke; a conveyor and a feed roll run without end.
     ends: bool,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
     )
 }
 
-/// The carrying half of the belt slides on the bed with the goods.
+/// A belt whose carrying half slides on the bed with the goods.
 pub(super) fn read_conveyor(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
@@ -124,7 +124,7 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
     parts::linear_stroke(section, mechanism, RackAndPinion::RACK, 0)
 }
 
-/// The effective diameter (m): given, or pitch times teeth over π.
+/// The effective diameter (m): as given, or pitch · teeth / π.
 fn diameter(wheel: &Section) -> Result<f64> {
     let (pitch, teeth) = (wheel.get("pitch"), wheel.get("teeth"));
     let Some(item) = wheel.get("diameter") else {
@@ -146,7 +146,7 @@ fn diameter(wheel: &Section) -> Result<f64> {
     item.quantity(&LENGTH)?.positive()
 }
 
-/// The moment of inertia of other wheels (kg·m²) at the driven wheel of this `diameter`; of its size unless they say theirs.
+/// The moment of inertia of other wheels (kg·m²), referred to the driven wheel of this `diameter`; by default they have the same diameter.
 fn idler_inertia(idler: &Section, diameter: f64) -> Result<f64> {
     idler.expects(&["diameter", "count", "inertia"]);
     let own = match idler.optional("diameter", &LENGTH)? {

@@ -1,4 +1,4 @@
-//! `type = "winder"`: a roll that grows with the web wound onto it.
+//! `type = "winder"`: a roll whose radius grows with the web wound onto it.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             .problem(&what, "nothing is wound")
             .help("give the diameter of the full roll, such as \"800 mm\""));
     }
-    // The core keeps J above zero on the empty roll.
+    // J of the empty roll must be greater than zero.
     let inertia = core_section.quantity("inertia", &INERTIA)?.positive()?;
     core_section.finish()?;
     let thickness = web.quantity("thickness", &LENGTH)?.positive()?;
@@ -65,8 +65,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         ))
 }
 
-/// The web's pull F₀·(1 − t·(1 − r₀/r)): its torque F·r is linear in r, so it is a force on the web and a moment on the roll. The
-/// kinetic energy that the web brings at its speed v is a force ½·μ·v² the other way.
+/// The web's pull F₀·(1 − t·(1 − r₀/r)) as loads: its torque F·r is linear in r, thus a force on the web and a moment on the roll. The kinetic energy
+/// that the web brings in at its speed v is a force ½·μ·v² in the opposite direction.
 fn pull(web: &Section, roll: &Roll) -> Result<Vec<NamedLoad>> {
     let tension = web.quantity("tension", &FORCE)?.not_negative()?;
     let taper = match web.optional("taper", &SHARE)? {

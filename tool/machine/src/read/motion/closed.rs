@@ -13,10 +13,10 @@ use crate::text::section::Section;
 
 use super::Prescribed;
 
-/// A cycle closes if its moves miss a whole number of turns by less than this (turns).
+/// A cycle closes if its moves miss a whole number of turns by less than this (turns per segment); on a stroke, as a share of the sum of its moves.
 const CLOSED: f64 = 1e-9;
 
-/// A cycle on a stroke ends where it began.
+/// Checks that a cycle on a stroke ends where it began.
 fn check_returns(
     section: &Section,
     parts: &[Section],
@@ -46,7 +46,7 @@ fn check_returns(
     )))
 }
 
-/// A cycle ends where it began, or so far on that the machine comes round.
+/// Checks that a cycle ends where it began, or after an advance over which the machine repeats.
 pub(super) fn check(
     section: &Section,
     parts: &[Section],
@@ -83,7 +83,7 @@ pub(super) fn check(
     for (part, segment) in moves.take(20) {
         problem = problem.at(part.header(), axis.distance(segment.distance));
     }
-    // What is indexed by a part of a turn comes round after some cycles.
+    // Indexing by 1/n turn closes after n cycles.
     let repeats = (1.0 / turns).abs();
     let cure = if repeats > 1.5 && (repeats - repeats.round()).abs() < CLOSED * repeats {
         format!(
@@ -108,7 +108,7 @@ pub(super) fn check(
     )))
 }
 
-/// The process load that differs most, by its name.
+/// The load whose process torque differs most, as a clause with its name.
 fn of_load(prescribed: &Prescribed, difference: &Difference, start: f64, way: f64) -> String {
     let mechanism = prescribed.machine.mechanism();
     let there = difference.phi + prescribed.advance(start, way);
@@ -129,7 +129,7 @@ fn of_load(prescribed: &Prescribed, difference: &Difference, start: f64, way: f6
         })
 }
 
-/// " of the drive link" where something else is prescribed.
+/// " of the drive link" if another coordinate is prescribed.
 pub(in crate::read) fn of_the_drive(prescribed: &Prescribed) -> &'static str {
     if prescribed.tool.is_some() {
         " of the drive link"
@@ -138,7 +138,7 @@ pub(in crate::read) fn of_the_drive(prescribed: &Prescribed) -> &'static str {
     }
 }
 
-/// How the machine differs after what is prescribed has gone on by `way` from `start`.
+/// How the machine differs after the prescribed coordinate has advanced by `way` from `start`; `None` if it does not.
 pub(in crate::read) fn difference(
     section: &Section,
     prescribed: &Prescribed,
@@ -152,7 +152,7 @@ pub(in crate::read) fn difference(
     })
 }
 
-/// "J_red is 0.12 kg m^2 at φ = 40 deg, and 0.13 kg m^2 after the cycle"
+/// "J_red is 0.12 kg m^2 at φ = 40 deg, and 0.13 kg m^2 a cycle later"
 pub(in crate::read) fn in_words(difference: &Difference) -> String {
     let Difference {
         curve,

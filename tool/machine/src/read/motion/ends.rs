@@ -5,12 +5,12 @@ use crate::text::item::{Item, Value};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-/// The ends of a segment; the values that are not given come from its neighbours.
+/// The ends of a segment; values that are not given come from its neighbours.
 #[derive(Default)]
 pub(super) struct Ends {
     pub(super) speeds: [Option<Value>; 2],
     pub(super) accelerations: [Option<f64>; 2],
-    /// Of polynomials of sixth and seventh degree.
+    /// For polynomials of sixth and seventh degree.
     pub(super) jerks: [Option<f64>; 2],
 }
 
@@ -27,7 +27,7 @@ impl Ends {
         })
     }
 
-    /// Those of the polynomial called `name`: of sixth degree it has the jerk at one end, of seventh at both.
+    /// Values for the polynomial `name`: of sixth degree it has the jerk at one end, of seventh at both.
     pub(super) fn of_polynomial(
         section: &Section,
         law: &Item,
@@ -48,7 +48,7 @@ impl Ends {
             si(section.optional("end_jerk", drive.jerk())?),
         ];
         if name == "polynomial-7" {
-            // A jerk that nobody gives is none.
+            // A jerk that is not given is zero.
             ends.jerks = ends.jerks.map(|jerk| jerk.or(Some(0.0)));
         } else if ends.jerks.iter().flatten().count() != 1 {
             let zero = format!("0 {}", drive.jerk().unit);

@@ -1,5 +1,5 @@
-//! `law = "join"`: from where a motion of the tool ends, through dead centres, to rest or to the start of the cycle. It is a polynomial of
-//! fifth degree of the drive link's position.
+//! `law = "join"`: from the end of a motion of the tool, through dead centres, to rest or to the start of the cycle. It is a polynomial of fifth
+//! degree of the drive link's position.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use super::Prescribed;
 use super::ends::Ends;
 use super::segment::Written;
 
-/// Shares of a turn by which a join would go round once more: rounding.
+/// Share of a turn that counts as rounding, so that a join does not make one turn more.
 const ROUNDING: f64 = 1e-9;
 
 /// Checks the places of joins in the motion.
@@ -40,7 +40,7 @@ pub(super) fn check(
     }
     for (index, (written, _)) in written.iter().enumerate() {
         let Written::Join { to, .. } = written else {
-            // Behind a join, moves of the tool have no start that is known.
+            // After a join, the start of a tool's move is not known.
             if index > first && prescribed.tool.is_some() && !written.is_dwell() {
                 return Err(part(index)
                     .problem(
@@ -90,7 +90,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Puts the joins, and the dwells behind them, in their places on the drive link's way.
+/// Replaces the joins, and the dwells after them, by their motion of the drive link.
 pub(super) fn resolve(
     written: &[(Written, Ends)],
     segments: &mut [Segment],
@@ -103,7 +103,7 @@ pub(super) fn resolve(
     };
     let origin = prescribed.drive_state(state(start, origin));
     let mut position = start;
-    // The drive link's state, once a join has begun.
+    // The drive link's state, from the first join on.
     let mut drive: Option<State<f64>> = None;
     let mut before = [0.0; 2];
     for ((written, _), segment) in written.iter().zip(segments) {
@@ -128,7 +128,7 @@ pub(super) fn resolve(
     }
 }
 
-/// The way from one position to another: on a stroke straight, on a turn the next time ahead in the direction of motion.
+/// The distance between two positions. On a turn: to the next such position in the direction of motion.
 fn ahead(from: State<f64>, to: State<f64>, domain: Domain) -> f64 {
     let way = to.phi - from.phi;
     if domain != Domain::Turn {
@@ -145,7 +145,7 @@ fn ahead(from: State<f64>, to: State<f64>, domain: Domain) -> f64 {
     } else {
         turns - turns.ceil()
     };
-    // What lies a rounding behind is a turn ahead, and what lies a rounding ahead is here.
+    // A target just behind, which would be a turn ahead, counts as reached.
     let rest = if 1.0 - rest.abs() < ROUNDING {
         0.0
     } else {

@@ -1,4 +1,4 @@
-//! One `[[motion.segment]]` as it is written.
+//! One `[[motion.segment]]` as written.
 
 use jred::machine::motion::Law;
 
@@ -13,7 +13,7 @@ use crate::units::kind::TIME;
 use super::Prescribed;
 use super::ends::Ends;
 
-/// The laws beyond those from rest to rest.
+/// The laws in addition to those from rest to rest.
 const CONSTANT_SPEED: &str = "constant-speed";
 const POLYNOMIALS: [&str; 3] = ["polynomial-5", "polynomial-6", "polynomial-7"];
 const JERK_LIMITED: &str = "jerk-limited";
@@ -28,9 +28,9 @@ const LIMITS: [&str; 4] = [
     "max_jerk",
 ];
 
-/// What a segment says of its course.
+/// A segment, as far as the file defines it.
 pub(super) enum Written {
-    /// All of it.
+    /// Completely defined.
     Known(Segment),
     /// A polynomial over a distance in a duration.
     Polynomial { distance: f64, duration: f64 },
@@ -41,19 +41,19 @@ pub(super) enum Written {
         law: Law,
         shares: [f64; 2],
     },
-    /// As fast as limits allow, over a distance, or for a change of speed.
+    /// As fast as limits allow: over a distance, or for a change of speed.
     Limited {
         distance: Option<Value>,
         limits: Limits,
-        /// As the file gives the largest speed; a change of speed may do without.
+        /// Largest speed as the file gives it; optional for a change of speed.
         speed: Option<Value>,
     },
-    /// By a polynomial of the drive link's position to rest at a place of it, or to the start of the cycle.
+    /// A polynomial of the drive link's position, to rest at the position `to` or to the start of the cycle.
     Join { duration: f64, to: Option<Value> },
 }
 
 impl Written {
-    /// Whether it takes speeds at its ends from its neighbours.
+    /// Whether its end speeds can come from its neighbours.
     pub(super) const fn is_open(&self) -> bool {
         !matches!(self, Self::Known(_))
     }
@@ -68,7 +68,7 @@ impl Written {
     }
 }
 
-/// One move or one dwell, with what it says of its ends.
+/// One move or one dwell, and the values of its ends.
 pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Written, Ends)> {
     let drive = prescribed.axis;
     let law_key = section.get("law");
@@ -109,7 +109,7 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
             .problem(&stands(zero), "no move")
             .help("write a pause as dwell = \"0.25 s\", without law and duration"));
     }
-    // Without a law and a duration, both are missing: the duration is named first, as it is asked for of every law.
+    // Without a law and a duration, the duration is reported first: every law needs one.
     let Some(law_key) = law_key else {
         section.quantity("duration", &TIME)?.positive()?;
         return Err(section.missing("law", "law = \"polynomial-345\""));
@@ -120,7 +120,7 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
     Ok(read)
 }
 
-/// A move by the law that is named.
+/// A move by the named law.
 fn by_law(
     section: &Section,
     law_key: &Item,
@@ -181,7 +181,7 @@ fn by_law(
     })
 }
 
-/// Where a key belongs that a move does not have.
+/// Explains keys that a move does not have.
 fn explain(key: &str, limited: bool) -> Option<&'static str> {
     match key {
         "accelerate" | "decelerate" if limited => {
@@ -210,7 +210,7 @@ fn explain(key: &str, limited: bool) -> Option<&'static str> {
     }
 }
 
-/// A polynomial that joins what is before it to what is after it.
+/// A polynomial that joins the segments before and after it.
 fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Written, Ends)> {
     if let Some(way) = way {
         return Err(way
@@ -249,7 +249,7 @@ fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<Segment> 
     Ok(Segment::dwell(duration))
 }
 
-/// Distance and duration, where the law needs both.
+/// Distance and duration, for a law that needs both.
 fn timed(section: &Section, distance: Option<Value>) -> Result<(f64, f64)> {
     let distance = distance.map_or_else(
         || Err(section.missing("move", "move = \"…\", the distance")),
@@ -258,7 +258,7 @@ fn timed(section: &Section, distance: Option<Value>) -> Result<(f64, f64)> {
     Ok((distance, section.quantity("duration", &TIME)?.positive()?))
 }
 
-/// What is wrong with a distance or a speed below which nothing moves.
+/// The message about a distance or a speed that is too small for any motion.
 fn stands(value: &Value) -> String {
     if value.si == 0.0 {
         return "is zero, so nothing moves".to_owned();
@@ -321,7 +321,7 @@ fn limited(
     with_jerk: bool,
     drive: DriveLink,
 ) -> Result<Written> {
-    // A change of speed ends at its speeds.
+    // A change of speed is limited by the speeds of its ends.
     let speed = if distance.is_some() {
         Some(section.quantity("max_speed", drive.speed())?)
     } else {

@@ -1,4 +1,4 @@
-//! The segments of a motion, one after another: their open ends, and whether they fit.
+//! The segments of a motion in sequence: open ends, and whether they fit together.
 
 use jred::machine::motion::{End, Polynomial};
 
@@ -16,7 +16,7 @@ use super::{Prescribed, closed, finish, start};
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;
 
-/// Share of the largest speed by which the speeds of two neighbours may differ: rounding of what the file gives.
+/// Share of the largest speed by which the speeds of two neighbours may differ: rounding in the file.
 const CONTINUOUS: f64 = 1e-6;
 
 /// The motion of a section with segments.
@@ -64,14 +64,14 @@ pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> 
         let part = parts.get(index).unwrap_or(section);
         part.problem(format!("{} {what}", part.title()), "this segment")
     })?;
-    // A join at the end closes the cycle by itself.
+    // A final join closes the cycle.
     if cyclic && !written.iter().any(|(written, _)| written.is_join()) {
         closed::check(section, &parts, &segments, start, prescribed)?;
     }
     Ok(motion)
 }
 
-/// The segments as they are written, in their order.
+/// The segments as written, in their order.
 struct Chain<'a> {
     parts: &'a [Section<'a>],
     written: &'a [(Written, Ends)],
@@ -80,7 +80,7 @@ struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// The neighbour before (0) or after (1) segment number `index`; a cycle goes round.
+    /// The index of the segment before (0) or after (1) segment `index`; in a cycle the last is before the first.
     fn neighbour(&self, index: usize, side: usize) -> Option<usize> {
         let count = self.written.len();
         match side {
@@ -92,7 +92,7 @@ impl Chain<'_> {
         }
     }
 
-    /// The speed at the start (0) or end (1) of a segment as far as the segment itself gives it.
+    /// The speed at the start (0) or end (1) of a segment, if the segment gives it.
     fn own_speed(&self, index: usize, side: usize) -> Option<f64> {
         let (written, ends) = &self.written[index];
         match written {
@@ -101,7 +101,7 @@ impl Chain<'_> {
         }
     }
 
-    /// The speeds at the ends of a segment: its own, else those of its neighbours, else it is at rest there.
+    /// The speeds at the ends of a segment: its own, else those of its neighbours, else zero.
     fn speeds(&self, index: usize) -> [f64; 2] {
         [0, 1].map(|side| {
             let beyond = || {
@@ -112,7 +112,7 @@ impl Chain<'_> {
         })
     }
 
-    /// All segments with their ends known: polynomials last, because they take accelerations from their neighbours.
+    /// All segments with complete ends. Polynomials are last, because they take accelerations from their neighbours.
     fn segments(&self) -> Result<Vec<Segment>> {
         let mut known: Vec<Option<Segment>> = Vec::with_capacity(self.written.len());
         for (index, (written, ends)) in self.written.iter().enumerate() {
@@ -120,7 +120,7 @@ impl Chain<'_> {
             known.push(match written {
                 Written::Known(segment) => Some(segment.clone()),
                 Written::Polynomial { .. } => None,
-                // Its ends are those of the drive link, which are known last.
+                // A placeholder: its ends are those of the drive link, which are known last.
                 Written::Join { duration, .. } => Some(Segment::dwell(*duration)),
                 Written::Trapezoid {
                     distance,
@@ -182,7 +182,7 @@ impl Chain<'_> {
             .collect())
     }
 
-    /// Speeds at the ends of a limited segment keep its limit and go its way; a change of speed changes it.
+    /// Checks that end speeds are within the limit and in the direction of the move, and that a change of speed changes it.
     fn check_limits(
         &self,
         index: usize,
@@ -253,7 +253,7 @@ impl Chain<'_> {
             .help("lengthen the move, allow more acceleration or jerk, or change the speeds at its ends")
     }
 
-    /// Where one segment ends, the next one goes on at the same speed.
+    /// Checks that each segment starts at the speed with which the one before ends.
     fn check_speeds(&self, segments: &[Segment]) -> Result<()> {
         let ends: Vec<[f64; 2]> = segments
             .iter()
@@ -267,7 +267,7 @@ impl Chain<'_> {
                 continue;
             };
             let after = ends[next][0];
-            // A join goes on from whatever is before it, and the last one to the start of the cycle.
+            // A join starts with any speed; the last one ends with that of the cycle's start.
             let joined =
                 self.written[next].0.is_join() || self.written[index].0.is_join() && next < index;
             if joined || (after - before).abs() <= CONTINUOUS * most {
@@ -300,7 +300,7 @@ impl Chain<'_> {
         Ok(())
     }
 
-    /// No move leaves the stroke of the drive link, at its end or on the way.
+    /// Checks that no move leaves the stroke of the drive link, at its end or between its ends.
     fn check_stroke(&self, motion: &Motion, drive: DriveLink) -> Result<()> {
         let reaches = motion.reaches();
         let outside = |reach: &&Reach| reach.of_drive && !drive.reaches(reach.position);
@@ -309,7 +309,7 @@ impl Chain<'_> {
             let Some(part) = self.parts.get(index) else {
                 continue;
             };
-            // The first that is outside may lie on the way, where a law has several pieces: the farthest is what to shorten.
+            // A law of several pieces can turn back outside: the farthest position is reported.
             let of_segment = |reach: &&Reach| reach.segment == index;
             let beyond = |reach: &Reach| drive.beyond(reach.position);
             let reach = reaches.iter().filter(of_segment).filter(outside);
@@ -334,7 +334,7 @@ impl Chain<'_> {
     }
 }
 
-/// Constant acceleration, constant speed, constant deceleration between two speeds; the middle one follows from the distance.
+/// Constant acceleration, constant speed, constant deceleration between two speeds; the middle speed follows from the distance.
 fn trapezoid(
     distance: f64,
     duration: f64,
@@ -351,7 +351,7 @@ fn trapezoid(
         }
     };
     let mut phases = vec![phase(accelerate, first, middle)];
-    // Shares that are one together may be rounded.
+    // The sum of the shares can be one except for rounding.
     let steady = 1.0 - accelerate - decelerate;
     if steady > 1e-12 {
         phases.push(phase(steady, middle, middle));

@@ -1,4 +1,4 @@
-//! `of` and `near` in `[motion]`: the coordinate of the tool whose motion is prescribed, and where it can lead the drive link.
+//! `of` and `near` in `[motion]`: the tool coordinate whose motion is prescribed, and its range.
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -17,23 +17,23 @@ use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// Share of the tool's way within which it is at its dead centre: nearer to it the drive link's acceleration has no bound.
+/// Share of the tool's path that counts as its dead centre: the drive link's acceleration grows without bound towards it.
 const AT_DEAD_CENTRE: f64 = 1e-8;
 
-/// Share of a stroke that is a rounding.
+/// Share of a stroke that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The same of the curve through recorded rows, which swings about a rest at the end of the stroke.
+/// The same for the curve through recorded rows, which overshoots a rest at the end of the stroke.
 const OF_CURVE: f64 = 1e-7;
 
-/// The coordinate whose motion is prescribed: that of the drive link, or one of the tool.
+/// The coordinate whose motion is prescribed: the drive link's, or one of the tool.
 pub(in crate::read) struct Prescribed<'a> {
-    /// Its kind and range: those of the tool's coordinate, if there is one.
+    /// Its kind and range: the tool coordinate's, if there is one.
     pub(in crate::read) axis: DriveLink,
     pub(in crate::read) drive: DriveLink,
     pub(in crate::read) tool: Option<ToolCoordinate>,
     pub(in crate::read) machine: &'a Machine<AnyMechanism>,
-    /// Its loads with their names.
+    /// The machine's loads with their names.
     pub(in crate::read) loads: &'a [NamedLoad],
 }
 
@@ -109,14 +109,14 @@ impl<'a> Prescribed<'a> {
         })
     }
 
-    /// Where the motion starts, if the file does not say it.
+    /// Start of the motion, if the file does not give it.
     pub(in crate::read) fn start(&self) -> f64 {
         self.tool
             .as_ref()
             .map_or_else(|| self.axis.start(), ToolCoordinate::value_near)
     }
 
-    /// The start lies on the stroke, or on the tool's branch.
+    /// Checks that the start is on the stroke, or on the tool's branch.
     pub(in crate::read) fn check_start(&self, start: &Value) -> Result<()> {
         if self.axis.reaches(start.si) {
             return Ok(());
@@ -144,7 +144,7 @@ impl<'a> Prescribed<'a> {
         })
     }
 
-    /// Whether the tool's way ends where the stroke of the drive link does, and nowhere before.
+    /// Whether the tool's path ends exactly where the drive link's stroke ends.
     fn has_no_dead_centre(&self, tool: &ToolCoordinate) -> bool {
         let (Domain::Stroke { from, to }, Some([[low, _], [high, _]])) =
             (self.drive.domain, tool.ends())
@@ -155,7 +155,7 @@ impl<'a> Prescribed<'a> {
         at_end(low) && at_end(high)
     }
 
-    /// What a turn of the drive link adds to the coordinate, if it goes on without end.
+    /// Change of the coordinate over a turn of the drive link; `None` if its range is limited.
     pub(in crate::read) fn per_turn(&self) -> Option<f64> {
         match &self.tool {
             Some(tool) => tool.per_turn(),
@@ -163,7 +163,7 @@ impl<'a> Prescribed<'a> {
         }
     }
 
-    /// A motion of this coordinate.
+    /// Turns a motion of this coordinate into one of the machine.
     pub(in crate::read) fn of_tool(&self, motion: Motion) -> Motion {
         match &self.tool {
             Some(tool) => motion.of_tool(tool.clone()),
@@ -171,7 +171,7 @@ impl<'a> Prescribed<'a> {
         }
     }
 
-    /// The drive link's state where that of the coordinate is this one.
+    /// The drive link's state at this state of the coordinate.
     pub(in crate::read) fn drive_state(&self, state: State<f64>) -> State<f64> {
         match &self.tool {
             Some(tool) => tool.drive(state),
@@ -179,7 +179,7 @@ impl<'a> Prescribed<'a> {
         }
     }
 
-    /// How far the drive link goes on while the coordinate goes on by `way` from `start`.
+    /// Advance of the drive link while the coordinate advances by `way` from `start`.
     pub(in crate::read) fn advance(&self, start: f64, way: f64) -> f64 {
         let Some(tool) = &self.tool else {
             return way;
@@ -187,7 +187,7 @@ impl<'a> Prescribed<'a> {
         tool.drive_at(start + way) - tool.drive_at(start)
     }
 
-    /// The tool stays on its branch; `problem` makes the message from what is wrong with segment number so-and-so.
+    /// Checks that the tool stays on its branch. `problem` makes the error from the segment's index and the message.
     pub(in crate::read) fn check_reach(
         &self,
         motion: &Motion,
@@ -203,7 +203,7 @@ impl<'a> Prescribed<'a> {
             Domain::Turn => false,
             Domain::Stroke { from, to } => (phi - from).min(to - phi) <= ROUNDING * (to - from),
         };
-        // How far the tool stays away from each end.
+        // Margin at each end of the tool's path.
         let [low, high] = ends.map(|[phi, _]| {
             if is_stroke(phi) {
                 -OF_CURVE * way
@@ -233,7 +233,7 @@ impl<'a> Prescribed<'a> {
             let [phi, end] = ends[usize::from(value > ends[0][1] + 0.5 * way)];
             let drive = mechanism.coordinate();
             let turned = match mechanism.domain() {
-                // What is a rounding before a whole turn is its start.
+                // Just below a whole turn is its start.
                 Domain::Turn if (phi / TAU - (phi / TAU).round()).abs() < ROUNDING => 0.0,
                 Domain::Turn => phi.rem_euclid(TAU),
                 Domain::Stroke { .. } => phi,
@@ -254,7 +254,7 @@ impl<'a> Prescribed<'a> {
                 tool.symbol(),
                 self.axis.distance(end)
             );
-            // The first that is out of reach may lie on the way: the farthest says how much too far.
+            // Of several positions out of reach in a segment, the farthest is reported.
             let farthest = (reaches.iter())
                 .filter(|reach| reach.segment == segment && !reach.of_drive)
                 .map(|reach| reach.position)
@@ -287,7 +287,7 @@ impl<'a> Prescribed<'a> {
     }
 }
 
-/// The measure that `of` names, and its name.
+/// The measure that `of` defines, and its name.
 fn measure(of: &Item, mechanism: &AnyMechanism) -> Result<(Measure, String)> {
     let section = of.section("[motion.of]".into())?;
     let keys = ["point", "link", "slide"];

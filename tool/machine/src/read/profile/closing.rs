@@ -1,4 +1,4 @@
-//! Whether a recorded cycle closes: its speeds at both ends, and what it goes on by.
+//! Closing of a recorded cycle: its speeds at both ends, and its advance.
 
 use super::{Fault, Prescribed, Repeats, SPEED};
 use crate::number::rounding::figure;
@@ -6,14 +6,14 @@ use crate::read::motion::closed;
 use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
-/// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
-/// or of the stroke, unless the file says how much it may miss.
+/// A cyclic profile closes if it misses a whole number of turns, or on a stroke its start, by less than this share of a turn or of the stroke. The
+/// file can give another tolerance.
 pub(super) const CLOSED: f64 = 1e-5;
 
 /// Share of the largest speed by which the first and the last speed of a cycle may differ.
 const SPEED_CLOSED: f64 = 0.01;
 
-/// The first and the last speed of a cycle are one.
+/// Checks that the first and the last speed of a cycle agree.
 pub(super) fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
     let [first, .., last] = speeds else {
         return Ok(());
@@ -35,8 +35,8 @@ pub(super) fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()
     )
 }
 
-/// What a cycle goes on by (rad or m): whole turns, or nothing on a stroke, if its way from the start misses them by no more than `most`;
-/// else any way after which the machine is the same.
+/// Advance of a cycle (rad or m): whole turns, or zero on a stroke, if its distance from the start misses them by at most `most`; else any distance
+/// after which the machine is the same.
 pub(super) fn closed(
     [start, way]: [f64; 2],
     most: f64,
@@ -89,7 +89,7 @@ pub(super) fn closed(
         .into())
 }
 
-/// A little more, with two digits.
+/// The gap plus 5 %, rounded up to two digits.
 fn rounded_up(gap: f64) -> f64 {
     let unit = 10f64.powf(gap.log10().floor() - 1.0);
     (gap / unit * 1.05).ceil() * unit

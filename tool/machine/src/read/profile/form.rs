@@ -1,4 +1,4 @@
-//! The columns of a recorded motion: over the time, or over the angle of a master.
+//! The columns of a recorded motion: over time, or over the angle of a master.
 
 use super::Request;
 use crate::model::coordinate::Coordinate;
@@ -16,7 +16,7 @@ pub(super) const POSITION: usize = 1;
 pub(super) const SPEED: usize = 2;
 pub(super) const ACCELERATION: usize = 3;
 
-/// Of an electronic cam: the master's angle, and the derivatives with respect to it.
+/// Columns of an electronic cam: the master's angle, and the derivatives with respect to it.
 const MASTER: usize = 4;
 const SLOPE: usize = 5;
 const BEND: usize = 6;
@@ -32,7 +32,7 @@ const ANGLES: [Known; 7] = [
     known(&["phi''", "psi''", "bend"], &CAM_TURNING),
 ];
 
-/// The columns of one that slides.
+/// The columns of a drive link that slides.
 const LENGTHS: [Known; 7] = [
     known(&["t", "time"], &TIME),
     known(&["s", "x", "y", "position"], &LENGTH),
@@ -43,7 +43,7 @@ const LENGTHS: [Known; 7] = [
     known(&["s''", "x''", "y''", "bend"], &CAM_ACCELERATION),
 ];
 
-/// The columns of a file, over the time.
+/// The columns of a file, converted to functions of time.
 pub(super) fn read_columns(
     text: &str,
     coordinate: Coordinate,
@@ -85,7 +85,7 @@ pub(super) fn read_columns(
     Ok(columns)
 }
 
-/// Turns the columns of an electronic cam into those over the time: the master turns evenly.
+/// Converts the columns of an electronic cam to time; the master turns at constant speed.
 fn over_master(columns: &mut Columns, request: &Request, text: &str) -> Result<(), Fault> {
     let Some(master) = columns.get(MASTER).map(<[f64]>::to_vec) else {
         return match &request.master_speed {

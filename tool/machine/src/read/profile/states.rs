@@ -1,5 +1,5 @@
-//! A profile with position, speed and acceleration in each row: the motion itself, with its corners. Two rows of the same time are a jump of
-//! the acceleration.
+//! A profile with position, speed and acceleration in each row: the motion itself, with its corners. Two rows with the same time are a step of the
+//! acceleration.
 
 use crate::model::motion::Node;
 use crate::text::columns::Columns;
@@ -8,11 +8,11 @@ use crate::text::problem::{Problem, Result};
 use super::{POSITION, SPEED, TIME_COLUMN};
 use crate::number::spline::{Fault, Spline, Way};
 
-/// Share of the largest speed times the step by which a position may miss the speeds, and of the largest acceleration times the step by which
-/// a speed may miss the accelerations: more is another unit.
+/// Tolerances between rows: of the position in shares of the largest speed times the step, of the speed in shares of the largest acceleration times
+/// the step. Larger deviations mean a wrong unit.
 const MISSED: [f64; 2] = [0.05, 0.7];
 
-/// The same of the largest speed and of the largest position, for short steps: digits that were cut.
+/// Share of the range of positions, and of the largest speed, that is added for short steps: rounding of the digits.
 const DIGITS: f64 = 1e-4;
 
 const CURE: &str = "each column is the derivative of the one before over the time: check the units; to lay a smooth curve through the \
@@ -34,7 +34,7 @@ pub(super) fn slopes(
     Ok(times.iter().map(|t| curve.at(*t)[1]).collect())
 }
 
-/// The nodes of the rows, at these times, with these accelerations.
+/// The nodes for these rows, times and accelerations.
 pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> Result<Vec<Node>> {
     let column = |index: usize| columns.get(index).unwrap_or_default();
     let [positions, speeds] = [POSITION, SPEED].map(column);

@@ -1,4 +1,4 @@
-//! Loads of one name: one load that has other values at other times or places.
+//! Loads with the same name: one load with different values at different times or positions.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::number::rounding::figure;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// Loads of one name are parts of one load: on one link, and no two of them act at the same instant in the same place.
+/// Checks that loads of one name act on one link, and never two of them at the same instant and position.
 pub(super) fn check_contradictions(acting: &[Acting], course: &Course) -> Result<()> {
     let text = |acting: &Acting, key: &'static str| {
         let item = acting.section.peek(key)?;
@@ -68,11 +68,11 @@ pub(super) fn check_contradictions(acting: &[Acting], course: &Course) -> Result
     Ok(())
 }
 
-/// A `[[load]]` of the file: when it acts, and where.
+/// A `[[load]]` of the file with the times and positions at which it acts.
 pub(super) struct Acting<'s> {
     section: Section<'s>,
     part: Part<'s>,
-    /// From which position to which (rad, or m), and after how many turns that comes again, 0: never; `None`: everywhere.
+    /// Positions from and to (rad or m), and the number of turns after which they recur (0: never); `None`: at all positions.
     window: Option<([f64; 2], u32)>,
 }
 
@@ -89,14 +89,14 @@ impl<'s> Acting<'s> {
         }
     }
 
-    /// Whether there are positions at which both act; those at which one ends and the other begins are none.
+    /// Whether both act at some position; a common end does not count.
     fn meets(&self, other: &Self) -> bool {
         let (Some(([a, b], turns)), Some(([c, d], others))) = (self.window, other.window) else {
             return true;
         };
         let rounding = 1e-9 * (b - a).min(d - c);
         if turns > 0 && others > 0 {
-            // Windows that come again after other numbers of turns are apart by any multiple of what divides both.
+            // The distance between windows that recur after different numbers of turns takes all multiples of the greatest common divisor.
             let (mut common, mut rest) = (turns, others);
             while rest > 0 {
                 (common, rest) = (rest, common % rest);

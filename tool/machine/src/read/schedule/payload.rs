@@ -1,4 +1,4 @@
-//! `[[payload]]`: what a link picks up and sets down.
+//! `[[payload]]`: a part that a link picks up and sets down.
 
 use jred::Machine;
 use jred::machine::Mechanism as _;
@@ -16,10 +16,10 @@ use crate::text::section::Section;
 /// The most payloads of a machine.
 const MOST: usize = 16;
 
-/// Share of the largest speed of its place over the motion below which a payload is picked up and set down at rest.
+/// Share of the largest speed of its attachment point over the motion below which a payload counts as at rest.
 const AT_REST: f64 = 1e-6;
 
-/// Instants of the motion at which the speed of a place is looked at.
+/// Instants of the motion at which the speed of the attachment point is evaluated.
 const INSTANTS: u32 = 1000;
 
 /// All payloads of the file.
@@ -50,7 +50,7 @@ pub(super) fn read(
     Ok(payloads)
 }
 
-/// A payload of the same name is not picked up while it is carried.
+/// Checks that a payload is not picked up again while one of the same name is carried.
 fn check_once(payloads: [&Payload; 2], sections: [&Section; 2]) -> Result<()> {
     let [first, second] = payloads.map(|payload| payload.when.spans.clone().unwrap_or_default());
     let both = |[a, b]: &[f64; 2]| second.iter().any(|[c, d]| c < b && a < d);
@@ -108,7 +108,7 @@ fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) 
     Ok(payload)
 }
 
-/// When it is picked up and set down; `None` if it always is carried.
+/// Times of pick-up and set-down (s); `None` if it is always carried.
 fn ends(payload: &Payload, motion: &Motion, item: &Item) -> Result<Option<[f64; 2]>> {
     let spans = joined(payload.when.spans.clone().unwrap_or_default());
     let end = motion.duration();
@@ -127,7 +127,7 @@ fn ends(payload: &Payload, motion: &Motion, item: &Item) -> Result<Option<[f64; 
     }
 }
 
-/// It is at rest where it is picked up and where it is set down.
+/// Checks that it is at rest where it is picked up and where it is set down.
 fn check_at_rest(
     payload: &Payload,
     machine: &Machine<AnyMechanism>,
@@ -138,7 +138,7 @@ fn check_at_rest(
     let Some(ends) = ends else {
         return Ok(());
     };
-    // Speeds of its place (m/s) and of its rotation (rad/s).
+    // Speeds of its attachment point (m/s) and of its rotation (rad/s).
     let speeds = |t: f64| {
         let state = motion.at(t);
         let frames = machine.mechanism().frames(state.phi).map_err(|error| {
@@ -157,7 +157,7 @@ fn check_at_rest(
         let here = speeds(motion.duration() * f64::from(k) / f64::from(INSTANTS))?;
         most = [0, 1].map(|k| most[k].max(here[k]));
     }
-    // An end at the end of a motion that does not repeat is no event: the motion ends.
+    // The start and the end of a motion that does not repeat are not events.
     let at_ends = |t: &f64| !motion.cyclic && (*t <= 0.0 || *t >= motion.duration());
     let events = [("picked up", ends[0]), ("set down", ends[1])];
     for (what, t) in events.into_iter().filter(|(_, t)| !at_ends(t)) {

@@ -14,13 +14,13 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, FORCE, GAIN, LENGTH, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 
-/// The most cycles that are followed: each has its corners.
+/// The most cycles of a simulation: each adds corners of the motion.
 const MOST_CYCLES: f64 = 1000.0;
 
-/// A stop that gives back more than this would bounce without end.
+/// Larger coefficients of restitution would make the stop bounce without end.
 const MOST_RESTITUTION: f64 = 0.99;
 
-/// What the parts of a simulation refer to.
+/// Context of the parts of a simulation.
 #[derive(Clone, Copy)]
 pub(in crate::read) struct Around<'a> {
     pub(in crate::read) drive: DriveLink,
@@ -31,12 +31,12 @@ pub(in crate::read) struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// Whether the motor acts on a link that slides, by a force.
+    /// Whether the motor acts as a force on a link that slides.
     fn pushes(&self) -> bool {
         self.drive.slides() && self.drive_train.stages().is_empty()
     }
 
-    /// A part that a machine with a variator cannot have.
+    /// A part that is not allowed in a machine with a variator.
     fn part<'a>(&self, item: &Item<'a>, title: &str) -> Result<Section<'a>> {
         if self.variator {
             return Err(item
@@ -47,7 +47,7 @@ impl Around<'_> {
     }
 }
 
-/// The controller, for a motor at a shaft over so long (s), with a torque over the speed.
+/// The controller. `at`: the motor's shaft; `duration`: of the simulation (s); `torque`: the motor's torque over the speed.
 pub(super) fn control(
     simulation: &Section,
     around: Around,
@@ -117,7 +117,7 @@ pub(super) fn control(
     }))
 }
 
-/// Refuses a motor whose torque is no limit for both directions.
+/// Refuses a motor whose torque is not a limit in both directions.
 fn limits(control: &Item, torque: &Characteristic) -> Result<()> {
     let fault = match torque {
         Characteristic::Points(points) => points
@@ -134,7 +134,7 @@ fn limits(control: &Item, torque: &Characteristic) -> Result<()> {
         .help("give torque, torque_speed or dc_motor with speeds and torques that are not negative"))
 }
 
-/// The stop in the middle of a motion of this length (s).
+/// The controlled stop during a simulation of this `duration` (s).
 pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Result<Option<Halt>> {
     let Some(item) = simulation.get("stop") else {
         return Ok(None);
@@ -169,7 +169,7 @@ pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Resul
     }))
 }
 
-/// The end stops; `start` is where the motion begins.
+/// The end stops. `start`: start position of the motion.
 pub(super) fn end_stops(
     simulation: &Section,
     around: Around,
@@ -208,7 +208,7 @@ pub(super) fn end_stops(
     let cure = "place the end stops within the stroke";
     let reached = |given: &Given| places.reached(given, "out of reach", cure);
     let [first, second] = [reached(&first)?, reached(&second)?];
-    // An axis may count against its drive link.
+    // The axis can count in the opposite direction to the drive link.
     let [from, to] = [first.min(second), first.max(second)];
     if !(from..=to).contains(&start) {
         return Err(at

@@ -14,11 +14,11 @@ use crate::units::kind::{
 /// The most points of a torque-speed curve.
 const MAX_POINTS: usize = 1000;
 
-/// What a file says of its motor.
+/// Motor data of a file.
 pub(super) struct Given {
-    /// Torque over speed, when the current has settled.
+    /// Torque over speed at steady current.
     pub(super) characteristic: Characteristic,
-    /// The winding, where the current takes time to settle, with the place where the file says so.
+    /// The winding, if the current has a time constant, with its place in the file.
     pub(super) winding: Option<(Winding, Value)>,
 }
 
@@ -31,7 +31,7 @@ impl Given {
     }
 }
 
-/// The torque or force over the speed; not given: that of a drive.
+/// The torque or force over the speed; `None` if not given, for the torque of a drive.
 pub(super) fn effort(
     section: &Section,
     [key, curve_key]: [&'static str; 2],
@@ -41,7 +41,7 @@ pub(super) fn effort(
     let no_speed = format!("0 {}", drive.speed().unit);
     let no_effort = format!("0 {}", drive.effort().unit);
     let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
-    // A motor by its formula turns.
+    // Only rotary motors have a formula.
     let formulas: &[&'static str] = if drive.slides() {
         &[]
     } else {
@@ -97,7 +97,7 @@ fn dc_motor(item: &Item) -> Result<Given> {
     }))
 }
 
-/// A DC motor by its winding: T_stall = k·U/R, ω₀ = U/k.
+/// A DC motor from its winding: T_stall = k·U/R, ω₀ = U/k.
 fn wound(section: &Section) -> Result<Given> {
     let voltage = section.quantity("voltage", &VOLTAGE)?;
     let resistance = section.quantity("resistance", &RESISTANCE)?.positive()?;
@@ -174,8 +174,7 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
     })
 }
 
-/// The breakdown slip by the name plate: with the rated torque T_n at the slip s_n, and k = T_b/T_n, Kloss' formula has
-/// s_b = s_n·(k + √(k² − 1)).
+/// The breakdown slip from the name plate. With the rated torque T_n at the slip s_n and k = T_b/T_n, Kloss' formula gives s_b = s_n·(k + √(k² − 1)).
 fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Result<Option<f64>> {
     let (torque, power) = (
         section.optional("rated_torque", &TORQUE)?,

@@ -1,4 +1,4 @@
-//! Positions and speeds of a simulation: those of the axis, or of the drive link where its units are others.
+//! Positions and speeds of a simulation: of the axis, or of the drive link if the unit says so.
 
 use jred::Domain;
 
@@ -17,12 +17,12 @@ pub(super) struct Places {
     axis: Axis,
 }
 
-/// What was given, and what it is at the drive link.
+/// A given value, and its equivalent at the drive link.
 pub(super) struct Given {
     pub(super) value: Value,
     /// At the drive link.
     pub(super) drive: f64,
-    /// Whether it was given as one of the axis.
+    /// Whether it was given for the axis.
     of_axis: bool,
 }
 
@@ -34,7 +34,7 @@ impl Places {
         }
     }
 
-    /// The drive link as if its coordinate was that of the axis: for kinds of quantities.
+    /// The drive link with the coordinate of the axis, for the kinds of its quantities.
     fn spoken(&self) -> DriveLink {
         DriveLink {
             coordinate: self.axis.coordinate,
@@ -42,22 +42,22 @@ impl Places {
         }
     }
 
-    /// Whether people speak of another coordinate than the drive link's.
+    /// Whether the axis has a coordinate other than the drive link's.
     pub(super) fn has_axis(&self) -> bool {
         self.axis != Axis::of_drive(self.drive.coordinate)
     }
 
-    /// Whether `start_position` has a meaning: that of another coordinate, or of a link that slides.
+    /// Whether `start_position` has a meaning: the axis has a coordinate of its own, or the drive link slides.
     pub(super) fn has_positions(&self) -> bool {
         self.drive.slides() || self.has_axis()
     }
 
-    /// Whether it is a length that they speak of.
+    /// Whether the coordinate of the axis is a length.
     pub(super) fn is_length(&self) -> bool {
         self.axis.coordinate == Coordinate::Length
     }
 
-    /// A position of the axis, or of the drive link where the unit says so.
+    /// A position of the axis, or of the drive link if the unit says so.
     pub(super) fn position(&self, item: &Item) -> Result<Given> {
         let spoken = item.quantity(self.spoken().position());
         self.either(
@@ -77,7 +77,7 @@ impl Places {
         })
     }
 
-    /// A speed of the axis, or of the drive link where the unit says so.
+    /// A speed of the axis, or of the drive link if the unit says so.
     pub(super) fn speed(&self, item: &Item) -> Result<Given> {
         let spoken = item.quantity(self.spoken().speed());
         self.either(
@@ -87,7 +87,7 @@ impl Places {
         )
     }
 
-    /// What is read as a quantity of the axis, else, if the drive link has other units, as one of that.
+    /// A quantity of the axis; if it cannot be read as one and the drive link has other units, a quantity of the drive link.
     fn either(
         &self,
         spoken: Result<Value>,
@@ -115,7 +115,7 @@ impl Places {
         }
     }
 
-    /// Refuses a position that the stroke does not contain; a rounding beyond an end is the end.
+    /// Refuses a position outside the stroke; a position beyond an end by rounding is the end.
     pub(super) fn reached(&self, given: &Given, label: &str, cure: &str) -> Result<f64> {
         if !self.drive.reaches(given.drive) {
             let range = match self.axis.range(self.drive.domain) {

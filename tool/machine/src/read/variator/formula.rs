@@ -1,4 +1,4 @@
-//! A variator's ratio by a formula, which must stay positive and bounded at every instant of the simulation.
+//! A variator's ratio by a formula; it must stay positive and bounded at every instant of the simulation.
 
 use jred::friction::{Course as _, OperatingPoint};
 use jred_enclosure::Interval;
@@ -11,10 +11,10 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::TIME;
 
-/// Times of a simulation at which a formula is tried.
+/// Instants of a simulation at which a formula is evaluated.
 const TRIED: u32 = 4000;
 
-/// `ratio = "0.8 + 0.3*sin(2*pi*t)"`: a formula of the time (s) and of the angle of the input shaft (rad).
+/// `ratio = "0.8 + 0.3*sin(2*pi*t)"`: a formula of the time (s) and the angle of the input shaft (rad).
 pub(super) fn formula(item: &Item, root: &Section) -> Result<Ratio> {
     let text = item.text("0.8 + 0.3*sin(2*pi*t)")?;
     let formula = Formula::parse(text, &VARIABLES).map_err(|fault| {
@@ -29,7 +29,7 @@ pub(super) fn formula(item: &Item, root: &Section) -> Result<Ratio> {
              ratio = \"0.8 + 0.3*sin(2*pi*t)\"",
         )
     })?;
-    // Until the end of the simulation; over the angle, over one turn from the start. Beyond, the simulation looks itself.
+    // Checked to the end of the simulation, and over one turn of the input shaft from the start. The simulation itself checks what is beyond.
     let simulation = root.peek("simulation").filter(Item::is_table);
     let duration = match simulation {
         Some(item) => match item.section("[simulation]".into())?.peek("duration") {
@@ -73,7 +73,7 @@ pub(super) fn formula(item: &Item, root: &Section) -> Result<Ratio> {
 /// The cure of a formula that leaves its range.
 const POSITIVE: &str = "the output speed over the input speed is positive at every instant of the simulation: check the signs, and what is divided by";
 
-/// A time, and an angle where the ratio depends on it.
+/// A time, and an angle if the ratio depends on it, in words.
 fn place(ratio: &Ratio, t: f64, phi: f64) -> String {
     if ratio.is_turned() {
         format!("t = {} s, phi = {} rad", figure(t), figure(phi))
@@ -82,7 +82,7 @@ fn place(ratio: &Ratio, t: f64, phi: f64) -> String {
     }
 }
 
-/// How a ratio leaves its range at a time (s) and an angle (rad), if it does.
+/// How a ratio leaves its range at a time (s) and an angle (rad); `None` if it does not.
 fn leaves(ratio: &Ratio, t: f64, phi: f64) -> Option<String> {
     let found = ratio.at(OperatingPoint::at_time(t).with_angle(phi));
     let value = found.value;
@@ -104,16 +104,17 @@ fn leaves(ratio: &Ratio, t: f64, phi: f64) -> Option<String> {
     })
 }
 
-/// Parts of a range that are looked into at first.
+/// Intervals of a range at the start of the bisection.
 const PARTS: u32 = 64;
 
-/// Share of a range below which a part is a place.
+/// Share of a range below which an interval counts as a point.
 const PLACE: f64 = 1e-12;
 
-/// Most parts that are looked into.
+/// Most intervals that are bisected.
 const MOST_PARTS: u32 = 400_000;
 
-/// Where the bounds of a formula do not lie within those of a ratio, over all times of the simulation and one turn of the input shaft.
+/// A time and an angle near which the bounds of a formula exceed those of a ratio, within the simulation and one turn of the input shaft. `None` if
+/// interval arithmetic shows that they never do.
 fn unbounded(ratio: &Ratio, duration: f64) -> Option<[f64; 2]> {
     let turn = if ratio.is_turned() {
         std::f64::consts::TAU

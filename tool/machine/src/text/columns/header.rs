@@ -1,4 +1,4 @@
-//! Which column of a file is which, and what to write into the machine file where that cannot be told.
+//! Assignment of a file's columns to the format's, and cures if it is ambiguous.
 
 use super::layout::{Layout, Title};
 use super::{Fault, Format, Known};
@@ -8,13 +8,13 @@ use crate::text::problem::{Problem, quoted};
 use crate::units::quantity::unit_of;
 use crate::units::{self, did_you_mean};
 
-/// For each title of the file the format's column that it is, and its unit if the machine file gives it; `None` if it is passed over.
+/// For each title the index of the format's column, and its unit if the machine file gives it; `None` if the column is ignored.
 type Indices<'l> = Vec<Option<(usize, Option<&'l str>)>>;
 
-/// A column of the format: its index, its unit and the size of that (SI).
+/// A column of the format: its index, its unit, and the size of the unit (SI).
 pub(super) type Found = (usize, Option<String>, f64);
 
-/// For each title of the file the format's column that it is; `None` if it is passed over.
+/// For each title the column of the format; `None` if the column is ignored.
 pub(super) fn columns(
     table: &Table,
     titles: &[Title],
@@ -48,7 +48,7 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// By the titles that the machine file gives; other columns are passed over.
+/// Assignment by the titles in the machine file; other columns are ignored.
 fn mapped<'l>(titles: &[Title], format: &Format, layout: &'l Layout) -> Result<Indices<'l>, Fault> {
     let mut found = vec![None; titles.len()];
     for mapped in layout.mapped.iter().flatten() {
@@ -94,7 +94,7 @@ fn mapped<'l>(titles: &[Title], format: &Format, layout: &'l Layout) -> Result<I
     Ok(found)
 }
 
-/// By the names of the format.
+/// Assignment by the names of the format.
 fn named<'l>(
     table: &Table,
     titles: &[Title],
@@ -133,8 +133,8 @@ fn named<'l>(
     Ok(found)
 }
 
-/// The line for the machine file that says which column is which, behind another cure: by names, by units, or by the order of the columns
-/// where they have neither. Empty if it cannot be told.
+/// A line for the machine file that assigns the columns, as an addition to another cure: by names, by units, or by order if the columns have neither.
+/// Empty if fewer than two columns can be assigned.
 fn or_mapped(titles: &[Title], format: &Format, layout: &Layout) -> String {
     let measures = |title: &Title, known: &Known| {
         let unit = title.unit.as_deref().unwrap_or_default();
@@ -184,7 +184,7 @@ fn or_mapped(titles: &[Title], format: &Format, layout: &Layout) -> String {
     )
 }
 
-/// A file that begins with numbers, or with a line of text above its header: what to write into the machine file.
+/// Refuses a file that begins with numbers or with lines of text above its header; the cure is a key for the machine file.
 pub(super) fn check_first_lines(
     text: &str,
     titles: &[Title],

@@ -1,4 +1,4 @@
-//! How a CSV file of another program is laid out, as the machine file says: what is above its header, its titles, and what they mean.
+//! Layout of another program's CSV file, as the machine file describes it: lines above the header, titles, and their meaning.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -14,7 +14,7 @@ use crate::units::{Fault, unit};
 /// Most lines above a header.
 const MOST_LINES: u32 = 10_000;
 
-/// What the machine file says of the layout of a file.
+/// The layout of a file, as the machine file gives it.
 #[derive(Default)]
 pub(crate) struct Layout<'a> {
     /// The table of the machine file, for messages.
@@ -23,13 +23,13 @@ pub(crate) struct Layout<'a> {
     skipped: usize,
     /// The titles of a file without a header, and the key that gives them.
     pub(super) titles: Option<(Vec<String>, Item<'a>)>,
-    /// Which column of the file is which.
+    /// Assignment of the file's columns.
     pub(super) mapped: Option<Vec<Mapped<'a>>>,
-    /// rad of one count.
+    /// Angle of one count (rad).
     count: Option<f64>,
 }
 
-/// A column that the machine file names: the known name, and the title in the file, with its unit if that has none.
+/// A column that the machine file assigns: its known name and its title in the file, with a unit if the title there has none.
 pub(super) struct Mapped<'a> {
     pub(super) name: &'a str,
     pub(super) title: Title,
@@ -76,7 +76,7 @@ impl<'a> Layout<'a> {
         })
     }
 
-    /// The text with the lines above the header as comments, every byte in its place.
+    /// The text with the lines above the header made comments; all bytes keep their positions.
     pub(super) fn without_skipped<'t>(&self, text: &'t str) -> Cow<'t, str> {
         if self.skipped == 0 {
             return Cow::Borrowed(text);
@@ -96,7 +96,7 @@ impl<'a> Layout<'a> {
         Cow::Owned(out)
     }
 
-    /// The size of a unit (SI) of a column, counts among them.
+    /// The size (SI) of a column's unit; counts are possible too.
     pub(super) fn scale(
         &self,
         unit: Option<&str>,
@@ -123,7 +123,7 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// Of "counts", "counts/s" and "counts/s^2" how often they are divided by a time.
+/// The order of the time derivative of "counts", "counts/s" or "counts/s^2".
 fn counts(text: &str) -> Option<usize> {
     const COUNTS: [&str; 6] = ["counts", "count", "cnt", "inc", "incs", "increments"];
     let tidy = unit::tidy(text);
@@ -146,7 +146,7 @@ pub(super) struct Title {
 }
 
 impl Title {
-    /// Splits `phi [deg]` and `Time (sec)`; what is in round brackets but no unit belongs to the name.
+    /// Splits `phi [deg]` and `Time (sec)`. Round brackets that do not contain a unit belong to the name.
     pub(super) fn of(whole: &str) -> Self {
         let whole = whole.trim();
         let bracketed = whole.strip_suffix(']').and_then(|t| t.rsplit_once('['));
@@ -162,7 +162,7 @@ impl Title {
         }
     }
 
-    /// The same with a unit behind the last underscore, as in "time_s", if that leaves a known name.
+    /// The title with the part after the last underscore as its unit, as in "time_s", if the rest is a known name.
     pub(super) fn underscored(self, known: &[Known]) -> Self {
         let is_known = |name: &str| known.iter().any(|known| known.is(name));
         if self.unit.is_some() || is_known(&self.name) {
@@ -178,7 +178,7 @@ impl Title {
         }
     }
 
-    /// Whether a title of the machine file means this one of the file.
+    /// Whether a title in the machine file refers to this one.
     pub(super) fn is_meant_by(&self, asked: &Self) -> bool {
         let same = |a: &str, b: &str| a.to_lowercase() == b.to_lowercase();
         let units = match (&self.unit, &asked.unit) {

@@ -1,4 +1,4 @@
-//! Quantities as people write them, right and wrong.
+//! Quantities as users write them, right and wrong.
 
 use super::read;
 use crate::units::kind::{

@@ -1,16 +1,16 @@
-//! What to do where there is no motion.
+//! Cures where no motion exists.
 
 use jred_machine::number::rounding::short;
 
 use super::NoMotion;
 use crate::fastest::field::Binding;
 
-/// Cure of a limit of the force in a joint.
+/// Cure for a limit of the force in a joint.
 const LARGER_FORCE: &str =
     "allow a larger force in the joint (--max-reaction), or take weight or load off it";
 
 impl NoMotion {
-    /// What to do where the machine stops on its way.
+    /// Cure where the machine stops on its path.
     fn of_a_stop(&self) -> String {
         match self {
             Self::Stops {
@@ -50,7 +50,7 @@ impl NoMotion {
         }
     }
 
-    /// What to do about it.
+    /// The cure.
     pub fn cure(&self) -> String {
         match self {
             Self::Duty(fault) => fault.cure(),
@@ -113,7 +113,7 @@ impl NoMotion {
                 rates,
                 ..
             } => {
-                // Without a limit of a rate there is a motion, whatever other limit is in the way.
+                // Without a rate limit a motion exists, no matter which other limit is in the way.
                 let options = [
                     (Binding::Jerk, "a larger jerk (--max-jerk)"),
                     (Binding::TorqueRate, "a larger torque rate (--max-torque-rate)"),

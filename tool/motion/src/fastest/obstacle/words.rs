@@ -1,4 +1,4 @@
-//! The same in words.
+//! Messages of [`NoMotion`](super::NoMotion).
 
 use crate::fastest::leg::MOST_STEPS;
 use std::fmt;
@@ -9,7 +9,7 @@ use super::super::field::Binding;
 use super::{Empty, NoMotion};
 
 impl NoMotion {
-    /// Which limits leave nothing at a place.
+    /// Limits that leave no acceleration at a place.
     fn at_a_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::JointForce {
@@ -37,7 +37,7 @@ impl NoMotion {
         }
     }
 
-    /// Where the machine stops on its way, and what is missing.
+    /// A machine that stops on its path, and the missing torque.
     fn stops(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Stops {
@@ -140,7 +140,7 @@ impl NoMotion {
         }
     }
 
-    /// What a search came to that did not find one.
+    /// Why the search failed.
     fn not_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::RmsTooLarge {

@@ -1,4 +1,4 @@
-//! Where pieces meet: a border is best where the active limit changes. A limit is active where the motion meets it.
+//! Borders of pieces, best placed where the active limit changes. A limit is active where the motion meets it.
 
 use super::interior::Programme as _;
 use super::limits::Margins;
@@ -11,24 +11,23 @@ use crate::trace::{Node, Trace};
 /// Borders that are closer than this share of u are one border.
 const APART: f64 = 1e-9;
 
-/// A limit counts as met when the motion comes within this share of it.
+/// A limit counts as met within this share of it.
 const MET: f64 = 1e-3;
 
-/// Share by which a limit of speed, acceleration or torque may be exceeded between stations. Beyond it the polynomial is taken to oscillate.
+/// Share by which a limit of speed, acceleration or torque may be exceeded between stations. Beyond it the polynomial is considered to oscillate.
 const SWINGS: f64 = 1e-4;
 
-/// The same for the torque rate; beyond it the piece is divided if it is long.
+/// The same for the torque rate; beyond it a long piece is divided.
 const CHANGES: f64 = 1e-2;
 
 /// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree oscillates there.
 const STEEP: f64 = 0.1;
 
-/// Shortest piece as a share of u. In a piece of length h rounding of w appears in w″, and so in the jerk, divided by h². Where the limits of
-/// rates are high, the ramps are short, and so may the pieces be.
+/// Shortest piece as a share of u. In a piece of length h, rounding of w appears in w″, and so in the jerk, divided by h². With high rate limits the
+/// ramps are short, and shorter pieces are allowed.
 const SHORTEST: f64 = 6e-4;
 
-/// A limit that is met at a station: which of its inequalities, its multiplier per weight (what easing it would save), and its value, 0 where it is just
-/// met.
+/// A limit that is met at a station: its inequality, its multiplier per weight (the gain of easing it), and its value, 0 where it is just met.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Met {
     pub(super) limit: Binding,
@@ -37,7 +36,7 @@ pub(super) struct Met {
     pub(super) value: f64,
 }
 
-/// The limit whose easing would save most.
+/// The limit with the largest gain of easing it.
 pub(super) fn strongest(met: &[Met]) -> Option<Met> {
     let each = met.iter().copied().filter(|met| met.force > 0.0);
     each.max_by(|a, b| a.force.total_cmp(&b.force))
@@ -94,7 +93,7 @@ impl Asked<'_> {
             let Some(limit) = row.limit.filter(|_| row.value > -MET) else {
                 continue;
             };
-            // Where power changes its direction the torque bends and the jerk jumps. The torque rate on each side counts as a limit of its own.
+            // Where power changes direction the torque bends and the jerk jumps, so the torque rate on each side counts as a limit of its own.
             let flow = if limit == Binding::TorqueRate {
                 let station = &mesh.stations[row.station];
                 let state = problem.state(station, &mesh.values(&found.point.x, station.element));
@@ -113,21 +112,21 @@ impl Asked<'_> {
         met
     }
 
-    /// The active limit at each station, and which of its inequalities: the upper and the lower one are two.
+    /// The active limit at each station, and its inequality (upper and lower limits are two).
     pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
         let met = self.all_met(found).into_iter();
         met.map(|met| strongest(&met).map(|met| (met.limit, met.row)))
             .collect()
     }
 
-    /// For each piece: whether the active limit changes in it or at one of its borders, and whether it changes in it.
+    /// For each piece: whether the active limit changes in it or at its borders, and whether it changes in it.
     pub(super) fn changes(&self, found: &Found) -> Vec<[bool; 2]> {
         let met = self.met(found);
         let all: Vec<_> = met.chunks(SHARES.len()).collect();
         let changes = |(index, own): (usize, &&[_])| {
             let inner = &own[1..SHARES.len() - 1];
             let inside = inner.windows(2).any(|pair| pair[0] != pair[1]);
-            // The stations at borders belong to two pieces and tell little of either: the middles of neighbours are compared.
+            // Stations at borders belong to two pieces and describe neither well: the middles of neighbours are compared.
             let beside = |other: Option<usize>| {
                 let other = other.and_then(|other| all.get(other));
                 other.is_some_and(|other| other[3] != own[3])
@@ -148,8 +147,8 @@ impl Asked<'_> {
         }
     }
 
-    /// Divides the pieces in which limits are exceeded by much, and makes those that oscillate cubics. A margin would slow their neighbours
-    /// down instead. Returns whether anything changed.
+    /// Divides the pieces in which limits are exceeded by much, and turns oscillating pieces into cubics. A margin would slow their neighbours
+    /// instead. Returns whether anything changed.
     pub(super) fn divide(&self, warm: &mut Warm, exceeded: &[[f64; 3]]) -> bool {
         let shortest = self.shortest();
         let mut borders = Vec::with_capacity(warm.borders.len());
@@ -190,7 +189,7 @@ impl Asked<'_> {
         least <= STEEP * most
     }
 
-    /// Middles of the pieces in which the active limit changes, or w changes by much.
+    /// Middles of the pieces in which the active limit or w changes much.
     pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
         let pieces = found.mesh.elements.iter().zip(self.changes(found));
         let shortest = self.shortest();
@@ -204,8 +203,7 @@ impl Asked<'_> {
         finer.collect()
     }
 
-    /// The borders with a new one at each place where the active limit changes, which replaces those around it; `None`: it changes at borders
-    /// only.
+    /// The borders, with a new one at each place where the active limit changes, in place of those around it; `None` if it changes only at borders.
     pub(super) fn moved(
         &self,
         borders: &[Border],
@@ -235,8 +233,8 @@ impl Asked<'_> {
                 && right > left + 1
                 && whole[left] != whole[right]
             {
-                // Between two pieces with one limit each there is a gap. The jerks on its two sides are continued to where the accelerations meet:
-                // time, acceleration and jerk where the gap begins and ends.
+                // Between two pieces with one limit each there is a gap. The jerks on both sides are extrapolated to where the accelerations meet,
+                // from time, acceleration and jerk at both ends of the gap.
                 let side = |node: usize, other: usize| {
                     let [a, b] = [node, other].map(|k| &nodes[k]);
                     let alpha =

@@ -1,4 +1,4 @@
-//! A torque at a station, with first and second derivatives by the values of its piece.
+//! A torque at a station, with first and second derivatives with respect to the values of its piece.
 
 use super::mesh::{Local, Station};
 use crate::collocation::torque::Torque;
@@ -21,12 +21,12 @@ pub(super) struct Effort {
     pub(super) gradient: Local,
     /// Factor of the square of w's basis in the second derivatives.
     pub(super) bend: f64,
-    /// Where power changes its direction: a factor, and the form whose square it belongs to.
+    /// Where power changes direction: a factor, and the linear form whose square it multiplies.
     pub(super) turn: (f64, Local),
 }
 
 impl Effort {
-    /// With its derivatives; `rate`: what the torque rises with the speed itself; bends are rounded over loads ± `range`.
+    /// The torque with its derivatives; `rate`: slope of the torque by the speed itself; bends are rounded over loads ± `range`.
     pub(super) fn of(
         station: &Station,
         state: &State,
@@ -53,7 +53,7 @@ impl Effort {
         }
     }
 
-    /// The part of a term's second derivatives in which the torque turns, times a factor.
+    /// The part of a term's second derivatives from the bend of the torque, times a factor.
     pub(super) const fn turned(&self, factor: f64) -> (f64, Local) {
         (factor * self.turn.0, self.turn.1)
     }

@@ -4,10 +4,10 @@
 //! minimise Σ f(y)   subject to   c(y) + s = 0,  s ≥ 0
 //! ```
 //!
-//! where each f and c depends on the values y of one piece. Newton's method solves the conditions of optimality with s·λ = μ·weight for slacks s
-//! and multipliers λ, while μ falls to zero. Slacks and multipliers are eliminated, so that the matrix has the band of the pieces. Negative
-//! second derivatives are left out of the matrix where it would not be positive definite. A step is halved until it leads to a point that
-//! violates limits less, or costs less, than each point before (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
+//! where each f and c depends on the values y of one piece. Newton's method solves the optimality conditions with s·λ = μ·weight for slacks s and
+//! multipliers λ, while μ falls to zero. Slacks and multipliers are eliminated, so that the matrix keeps the band of the pieces. Negative second
+//! derivatives are omitted where the matrix would not be positive definite. A step is halved until its end violates limits less, or costs less, than
+//! each earlier point (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
 
 use super::mesh::{Local, Mesh, VALUES};
 use super::newton::{Kkt, Steps, along};
@@ -17,7 +17,7 @@ use crate::fastest::field::Binding;
 #[derive(Clone, Debug)]
 pub(super) struct Term {
     pub(super) element: usize,
-    /// Which limit it is, and at which station.
+    /// The limit, and its station.
     pub(super) limit: Option<Binding>,
     pub(super) station: usize,
     pub(super) value: f64,
@@ -29,7 +29,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// A term that is zero, to be filled in.
+    /// A zero term, to be filled in.
     pub(super) const fn straight(element: usize, weight: f64) -> Self {
         Self {
             element,
@@ -43,12 +43,11 @@ impl Term {
     }
 }
 
-/// What is minimised.
+/// The optimisation problem.
 pub(super) trait Programme {
     /// The pieces.
     fn mesh(&self) -> &Mesh;
-    /// Terms of the objective, and limits, at a point; always the same number of each. `None`: at this point w is not positive, so there is no
-    /// motion.
+    /// Terms of the objective, and limits, at a point; always the same number of each. `None` if w is not positive, so that there is no motion.
     fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]>;
     /// The largest share of a step after which w is still positive.
     fn reach(&self, x: &[f64], step: &[f64]) -> f64;
@@ -64,39 +63,39 @@ pub(super) struct Point {
 /// Most steps with one μ.
 const STEPS: u32 = 80;
 
-/// Errors of the gradient and of the limits that are accepted after that many steps.
+/// Errors of the gradient and of the limits that are accepted after `STEPS` steps.
 const BENT: [f64; 2] = [1e-2, 1e-6];
 
 /// Most halvings of a step.
 const HALVINGS: u32 = 30;
 
-/// Largest share of a step's way to where a slack or a multiplier would be zero.
+/// Largest share of the step that would make a slack or a multiplier zero.
 const INSIDE: f64 = 0.995;
 
-/// Error of the gradient, as a share of its terms, and of the limits that may be left at the end.
+/// Accepted error of the gradient, as a share of its terms, and of the limits at the end.
 const STATIONARY: f64 = 1e-6;
 const FEASIBLE: f64 = 1e-9;
 
-/// Errors of the gradient and of the limits below which Newton's step is taken without a look at the filter.
+/// Errors of the gradient and of the limits below which Newton's step skips the filter.
 const CLOSE: [f64; 2] = [1e-3, 1e-6];
 
-/// The sum of s·λ may be this many times what μ aims at when μ falls.
+/// μ falls when the sum of s·λ is at most this many times its target.
 const GAP: f64 = 2.0;
 
-/// After so many steps without gain, a point that violates limits by less than this share is as good as rounding allows.
+/// Steps without gain after which a point that violates limits by less than this share counts as exact within rounding.
 const IDLE: u32 = 3;
 const ROUNDED: f64 = 1e-8;
 
 /// Least gain of a step, as a share of the violation of limits.
 const FILTER: f64 = 1e-5;
 
-/// A slack is set to the distance from its limit if that is more than this share of the slack after the step.
+/// A slack is set to the distance from its limit if that exceeds this share of the slack after the step.
 const KEPT: f64 = 0.1;
 
-/// Least slack at the start: a number, and a multiple of μ, of which the smaller counts.
+/// Least slack at the start: the smaller of a number and a multiple of μ.
 const SLACK: [f64; 2] = [1e-2, 10.0];
 
-/// A point on the way: unknowns, slacks, terms and limits there.
+/// An iterate: unknowns, slacks, terms and limits.
 pub(super) struct Iterate {
     pub(super) x: Vec<f64>,
     pub(super) slacks: Vec<f64>,
@@ -104,7 +103,7 @@ pub(super) struct Iterate {
     pub(super) rows: Vec<Term>,
 }
 
-/// Where the method failed: the limit that is violated most there, at which station, and by which share.
+/// A failure of the method: the most violated limit, its station, and the share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stuck {
     pub(super) limit: Option<Binding>,
@@ -115,7 +114,7 @@ pub(super) struct Stuck {
 /// The minimum, from a point, with μ falling from one value to another.
 ///
 /// # Errors
-/// The method does not come to its end.
+/// The method does not converge.
 pub(super) fn minimise(
     programme: &impl Programme,
     start: &[f64],
@@ -151,7 +150,7 @@ pub(super) fn minimise(
                 (10.0 * mu).clamp(STATIONARY, 0.1)
             };
             let is_rounded = idle >= IDLE && at.missed() <= ROUNDED;
-            // At a bend of the torque the gradient jumps. Steps across it gain nothing, but the error that remains is small.
+            // At a bend of the torque the gradient jumps. Steps across it gain nothing, but the remaining error is small.
             let is_bent = steps_of_mu >= STEPS && missed[0] < BENT[0] && missed[1] < BENT[1];
             if !(is_rounded || is_bent)
                 && (missed[0] > enough || missed[1] > mu.clamp(FEASIBLE, 1e-3) || missed[2] > GAP)
@@ -173,7 +172,7 @@ pub(super) fn minimise(
             return Err(at.stuck());
         };
         let dual = longest(&lambda, &steps.multipliers);
-        // Near the solution for this μ Newton's step is right, although a curved limit may be violated by more than the step gains.
+        // Near the solution for this μ Newton's step is right, even if it violates a curved limit by more than it gains.
         let missed = kkt.missed(&at, &lambda, mu);
         let is_near = missed[0] < CLOSE[0] && missed[1] < CLOSE[1];
         let Some((next, gains)) = at.after(programme, &steps, mu, &mut filter, is_near) else {
@@ -183,7 +182,7 @@ pub(super) fn minimise(
         idle = if gains { 0 } else { idle + 1 };
         for (k, (l, d)) in lambda.iter_mut().zip(&steps.multipliers).enumerate() {
             *l += dual * d;
-            // s·λ is kept near μ·weight.
+            // Keeps s·λ near μ·weight.
             let center = mu * at.rows[k].weight / at.slacks[k];
             *l = l.clamp(1e-8 * center, 1e8 * center);
         }
@@ -191,7 +190,7 @@ pub(super) fn minimise(
 }
 
 impl Iterate {
-    /// With slacks that are still to be set.
+    /// The slacks are still to be set.
     fn new(programme: &impl Programme, x: Vec<f64>) -> Option<Self> {
         let [terms, rows] = programme.at(&x)?;
         Some(Self {
@@ -224,7 +223,7 @@ impl Iterate {
         each.map(|(row, s)| row.value + s).fold(0.0, f64::max)
     }
 
-    /// The two values that the filter compares: the sum of |c + s|, and the cost with the barrier.
+    /// The two values of the filter: the sum of |c + s|, and the cost with the barrier.
     fn merits(&self, mu: f64) -> [f64; 2] {
         let cost: f64 = self.terms.iter().map(|term| term.value).sum();
         let each = || self.rows.iter().zip(&self.slacks);
@@ -242,8 +241,8 @@ impl Iterate {
                 .sum::<f64>()
     }
 
-    /// The point after the largest share of a step that is better than all points of the filter; `as_it_is`: after the largest share that keeps slacks
-    /// and w positive. With it, whether anything was gained.
+    /// The point after the largest share of a step that is better than all points of the filter; `as_it_is`: after the largest share that keeps
+    /// slacks and w positive. Also returns whether anything was gained.
     fn after(
         &self,
         programme: &impl Programme,
@@ -259,8 +258,8 @@ impl Iterate {
         for halvings in 0..=HALVINGS {
             let moved = self.x.iter().zip(&steps.x).map(|(x, d)| x + share * d);
             if let Some(mut next) = Self::new(programme, moved.collect()) {
-                // A slack that differs from the distance to its limit counts as a violation. Without setting it to that distance, a limit that
-                // is far away, but at a bend of its torque, would stop every step.
+                // A slack that differs from the distance to its limit counts as a violation. Setting it to that distance prevents that a distant
+                // limit at a bend of its torque stops every step.
                 let slacks = self.slacks.iter().zip(&steps.slacks).zip(&next.rows);
                 next.slacks = slacks
                     .map(|((s, d), row)| {
@@ -270,7 +269,7 @@ impl Iterate {
                     })
                     .collect();
                 let then = next.merits(mu);
-                // Where the violation is small against what the step should save, the cost must fall.
+                // Where the violation is small against the expected saving, the cost must fall.
                 let is_of_cost = slope < 0.0 && share * slope.powi(2) > now[0];
                 let is_gain = if is_of_cost {
                     then[1] <= now[1] + 1e-4 * share * slope + 1e-13 * now[1].abs()
@@ -299,7 +298,7 @@ fn is_better(then: [f64; 2], now: [f64; 2]) -> bool {
     then[0] <= (1.0 - FILTER) * now[0] || then[1] <= now[1] - FILTER * now[0] + 1e-13 * now[1].abs()
 }
 
-/// |c + s|, or zero where that is only rounding.
+/// |c + s|, or zero if that is only rounding.
 fn misses(row: &Term, slack: f64) -> f64 {
     ((row.value + slack).abs() - FEASIBLE).max(0.0)
 }

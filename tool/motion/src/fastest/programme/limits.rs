@@ -1,11 +1,11 @@
-//! Time, heat and limits of a motion w(u), with first and second derivatives by the values of each piece.
+//! Time, heat and limits of a motion w(u), with first and second derivatives with respect to the values of each piece.
 //!
 //! ```text
 //! v = L·g′·√w/t,   a = L·(g″·w + ½·g′·w′)/t²,   da/dt = L·√w·(g‴·w + 3/2·g″·w′ + ½·g′·w″)/t³
 //! ```
 //!
-//! with t the unit of the time. Limits of the square of the speed and of the acceleration are linear in w and w′. So is the torque, but for viscous
-//! friction (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where what it limits is zero.
+//! with t the unit of time. Limits of the squared speed and of the acceleration are linear in w and w′. So is the torque, except for viscous friction
+//! (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where the limited quantity is zero.
 
 use super::effort::{Effort, State, mix};
 use super::interior::{Programme, Term};
@@ -17,32 +17,32 @@ use crate::fastest::field::{Binding, Field};
 /// Difference of speeds for the slope of a torque-speed curve, as a share of the mean speed.
 const NEAR: f64 = 1e-6;
 
-/// A step leaves at least this share of w.
+/// Least share of w that a step leaves.
 const LEAVES: f64 = 0.1;
 
-/// Margins by which limits are lowered, as shares, so that they hold between the stations as well.
+/// Margins by which limits are lowered, as shares, so that they are satisfied between the stations too.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Margins {
-    /// Of speed, acceleration and torques.
+    /// For speed, acceleration and torques.
     pub(super) state: f64,
-    /// Of the jerk.
+    /// For the jerk.
     pub(super) jerk: f64,
-    /// Of the rate of the torque.
+    /// For the torque rate.
     pub(super) rate: f64,
 }
 
-/// What is to be least: `time` times the duration (s) plus `heat` times ∫T² dt (N²·m²·s). `time` may be negative: where the motor holds a
-/// weight, a slower motion has less RMS torque as long as ∫T² grows less than in proportion to the time.
+/// The objective: `time` times the duration (s) plus `heat` times ∫T² dt (N²·m²·s). `time` may be negative: where the motor holds a weight, a slower
+/// motion has less RMS torque as long as ∫T² grows less than in proportion to the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Price {
-    /// Of a second.
+    /// Price of a second.
     pub time: f64,
-    /// Of the square of 1 N·m for a second (1/(N²·m²)).
+    /// Price of (1 N·m)² for a second (1/(N²·m²)).
     pub heat: f64,
 }
 
 impl Price {
-    /// The duration alone.
+    /// The duration only.
     pub const TIME: Self = Self {
         time: 1.0,
         heat: 0.0,
@@ -53,19 +53,19 @@ impl Price {
 pub(super) struct Problem<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) mesh: &'a Mesh,
-    /// Unit of the time (s).
+    /// Unit of time (s).
     pub(super) unit: f64,
     /// Mean speed (rad/s, or m/s) in that time.
     pub(super) pace: f64,
-    /// What is to be least.
+    /// The objective.
     pub(super) price: Price,
     /// Range of the load (N·m) over which bends of the torque are rounded.
     pub(super) range: f64,
-    /// Factor by which the limits of jerk and torque rate are eased; 1: not at all.
+    /// Factor by which the limits of jerk and torque rate are eased; 1: unchanged.
     pub(super) ease: f64,
-    /// The motor's torque limits as straight lines, braking and driving.
+    /// The motor's torque limits as straight lines: braking, driving.
     pub(super) lines: [Option<Vec<[f64; 2]>>; 2],
-    /// Of each piece.
+    /// Margins of each piece.
     pub(super) margins: &'a [Margins],
 }
 
@@ -87,7 +87,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Slope of the motor's torque by the speed: friction of the motor itself.
+    /// Slope of the motor's torque by the speed, from friction of the motor itself.
     fn friction(&self) -> f64 {
         let way = self.field.way;
         way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
@@ -107,8 +107,8 @@ impl Problem<'_> {
         })
     }
 
-    /// Limits of the braking and of the driving torque, which depend on the speed. Where the torque-speed curve is the lowest of several straight lines,
-    /// each line is a limit of its own, because the motion may stay at the speed at which two of them meet.
+    /// Limits of the braking and of the driving torque, which depend on the speed. Where the torque-speed curve is the lowest of several straight
+    /// lines, each line is a separate limit, because the motion may stay at the speed where two lines meet.
     fn torque_limits(
         &self,
         station: &Station,
@@ -127,7 +127,7 @@ impl Problem<'_> {
                 Binding::Driving
             };
             let size = sign / scale[k];
-            // A limit and its slope by the speed. The margin is a share of the torque at rest, as an excess is: the limit itself may be zero.
+            // A limit and its slope by the speed. The margin is a share of the torque at rest, as an excess is, because the limit itself may be zero.
             let mut row = |left: f64, slope: f64| {
                 let by_w = -slope * state.pace / (2.0 * state.w.sqrt());
                 let bend = 0.25 * slope * state.pace / (state.w * state.w.sqrt());
@@ -269,7 +269,7 @@ impl Problem<'_> {
         let Price { time, heat } = self.price;
         let whole = time + heat * t * t;
         let own = &station.basis[0];
-        // The second derivatives of T²/√w are the square of one linear form and a multiple of w's own.
+        // The second derivatives of T²/√w are the square of one linear form and a multiple of the square of w's own form.
         let lean = mix((1.0, &torque.gradient), (-0.5 * t / w, own));
         let bend = (0.75 * time + 0.25 * heat * t * t) / (w * w * root)
             + 2.0 * heat * t * torque.bend / root;
@@ -299,7 +299,7 @@ impl Problem<'_> {
         self.at(x).is_some_and(|[_, rows]| rows.iter().all(is_kept))
     }
 
-    /// The same with bends of the torque, if it has any, rounded over a share of the largest load of a motion.
+    /// The same with bends of the torque (if any) rounded over a share of the largest load of a motion.
     pub(super) fn ranged(self, x: &[f64], share: f64) -> Self {
         let load = |station: &Station| {
             let state = self.state(station, &self.mesh.values(x, station.element));
@@ -316,7 +316,7 @@ impl Problem<'_> {
         Self { range, ..self }
     }
 
-    /// What a motion costs.
+    /// Cost of a motion.
     pub(super) fn whole_cost(&self, x: &[f64]) -> f64 {
         let costs = self.at(x).map(|[costs, _]| costs);
         costs.map_or(f64::INFINITY, |costs| {

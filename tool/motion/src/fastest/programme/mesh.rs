@@ -1,8 +1,8 @@
-//! The square of the pace in pieces of fifth degree, and the stations at which limits must hold.
+//! The square of the pace in pieces of fifth degree, and the stations at which limits are imposed.
 //!
-//! Along the path s = L·g(u) of [`Shape`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is
-//! the acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows
-//! an arc of constant jerk or of constant torque with an error of order 4.
+//! Along the path s = L·g(u) of [`Shape`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is the
+//! acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows an arc of
+//! constant jerk or of constant torque with an error of order 4.
 
 use jred::Error;
 
@@ -19,10 +19,10 @@ pub(super) const VALUES: usize = 6;
 /// Coefficients of the values of one piece.
 pub(super) type Local = [f64; VALUES];
 
-/// Least distance of such a place from the end as a share of u: in a short piece, rounding of u must not carry it outside.
+/// Least distance of a corner from the end as a share of u: in a short piece, rounding of u must not move it outside.
 const NEAR: f64 = 1e-13;
 
-/// How the ends of the motion are, and what may jump on the way.
+/// Conditions at the ends of the motion, and jumps that are allowed inside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Form {
     /// Whether each end is at rest.
@@ -31,7 +31,7 @@ pub(super) struct Form {
     pub(super) pace: [f64; 2],
     /// Whether the acceleration is zero at the ends.
     pub(super) level: bool,
-    /// Whether it is continuous on the way.
+    /// Whether it is continuous inside.
     pub(super) smooth: bool,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Border {
     pub(super) is_corner: bool,
     /// Whether it must stay where it is: at a corner, or where two pieces of the path meet.
     pub(super) stays: bool,
-    /// Whether the piece that begins here is a cubic, because in it the active limit changes and a higher degree would oscillate.
+    /// Whether the piece that begins here is a cubic: the active limit changes in it, and a higher degree would oscillate.
     pub(super) is_plain: bool,
 }
 
@@ -54,20 +54,20 @@ pub(super) struct Element {
     pub(super) values: [Value; VALUES],
 }
 
-/// A place at which limits must hold, and a point of the quadrature.
+/// A place at which limits are imposed, and a point of the quadrature.
 #[derive(Clone, Debug)]
 pub(super) struct Station {
     pub(super) element: usize,
     pub(super) u: f64,
     pub(super) weight: f64,
     pub(super) place: Place,
-    /// The largest speed that the tool leaves the drive link (rad/s, or m/s).
+    /// The drive link's speed at the tool's speed limit (rad/s, or m/s).
     pub(super) tool: f64,
     /// L·g′, L·g″, L·g‴.
     pub(super) path: [f64; 3],
-    /// What the values of the piece give to w, w′, w″.
+    /// Coefficients of the piece's values in w, w′, w″.
     pub(super) basis: [Local; 3],
-    /// How the machine changes by u.
+    /// Slopes of the machine by u.
     pub(super) change: Change,
 }
 
@@ -76,12 +76,12 @@ pub(super) struct Station {
 pub(super) struct Change {
     pub(super) inertia: f64,
     pub(super) inertia_slope: f64,
-    /// Of the load with Coulomb friction.
+    /// Slope of the load with Coulomb friction.
     pub(super) load: f64,
     pub(super) viscous: f64,
 }
 
-/// Shares of a piece at which its stations lie, and their weights: Lobatto's seven points, which include both ends. Exact to degree 11.
+/// Stations of a piece as shares of it, and their weights: Lobatto's seven points, which include both ends. Exact to degree 11.
 pub(super) const SHARES: [[f64; 2]; 7] = [
     [0.0, 1.0 / 42.0],
     [0.084_888_051_860_716_54, 0.138_413_023_680_782_97],
@@ -92,12 +92,12 @@ pub(super) const SHARES: [[f64; 2]; 7] = [
     [1.0, 1.0 / 42.0],
 ];
 
-/// Slopes at the stations of a piece of length h: those of the polynomial through the values at all of them.
+/// Slopes at the stations of a piece of length h, from the polynomial through the values at all stations.
 fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
     let at = move |k: usize, value: fn(&Place) -> f64| {
         let each = (0..SHARES.len()).filter(|j| *j != k).map(|j| {
             let [zk, zj] = [SHARES[k][0], SHARES[j][0]];
-            // Lagrange's polynomial of the station j has this slope at k; all of them add up to none.
+            // Slope of Lagrange's polynomial of the station j at k; the slopes of all j add up to zero.
             let others = (0..SHARES.len()).filter(|i| *i != j && *i != k);
             let slope = others.fold(1.0 / (zj - zk), |slope, i| {
                 slope * (zk - SHARES[i][0]) / (zj - SHARES[i][0])
@@ -114,7 +114,7 @@ fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
     })
 }
 
-/// The pieces of a way.
+/// The pieces of a path.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     pub(super) elements: Vec<Element>,
@@ -122,7 +122,7 @@ pub(super) struct Mesh {
     pub(super) unknowns: usize,
 }
 
-/// What the six values give to w, w′ and w″ at the share z of a piece of length h.
+/// Coefficients of the six values in w, w′ and w″ at the share z of a piece of length h.
 pub(super) fn basis(z: f64, h: f64) -> [Local; 3] {
     let cubic = hermite(z, h);
     // 16·z²·(1 − z)² and the same times (2z − 1), with their derivatives.
@@ -145,7 +145,7 @@ pub(super) fn basis(z: f64, h: f64) -> [Local; 3] {
 }
 
 impl Mesh {
-    /// Pieces between borders, the first of which is 0 and the last 1; at corners the acceleration may jump if it need not be continuous.
+    /// Pieces between borders, from 0 to 1. At corners the acceleration may jump unless it must be continuous.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -207,7 +207,7 @@ impl Mesh {
         basis(z, to - from).map(|basis| dot(&basis, &values))
     }
 
-    /// The unknowns that make the motion of another mesh, as closely as these pieces can.
+    /// The unknowns that approximate the motion of another mesh as closely as these pieces can.
     pub(super) fn refined(&self, other: &Self, x: &[f64]) -> Vec<f64> {
         let mut fine = vec![0.0; self.unknowns];
         for element in &self.elements {
@@ -222,7 +222,7 @@ impl Mesh {
                 other.pace(x, at, (u - start) / (end - start))
             };
             let [[w0, s0, _], [w1, s1, _]] = [pace(from), pace(to)];
-            // What is left of the cubic at two places gives the other two values.
+            // The remainder from the cubic at two places gives the other two values.
             let left = |z: f64| {
                 let [b, ..] = basis(z, h);
                 pace(from + z * h)[0] - dot(&b, &[w0, s0, 0.0, 0.0, w1, s1])
@@ -239,7 +239,7 @@ impl Mesh {
         fine
     }
 
-    /// The same where the other motion's polynomials swing below zero: between its stations w is a straight line.
+    /// The same where the other motion's polynomials fall below zero: between its stations w is interpolated linearly.
     pub(super) fn levelled(&self, other: &Self, x: &[f64]) -> Vec<f64> {
         let stations = other.stations.iter();
         let at: Vec<[f64; 2]> = stations
@@ -262,7 +262,7 @@ impl Mesh {
         fine
     }
 
-    /// The unknowns of an even pace.
+    /// The unknowns of a constant pace.
     pub(super) fn even(&self, w: f64) -> Vec<f64> {
         let mut x = vec![0.0; self.unknowns];
         for element in &self.elements {
@@ -275,7 +275,7 @@ impl Mesh {
         x
     }
 
-    /// The matrix of the unknowns.
+    /// An empty matrix over the unknowns.
     pub(super) fn matrix(&self) -> Skyline {
         let elements = self.elements.iter();
         let first = first_columns(self.unknowns, elements.map(|element| &element.values[..]));

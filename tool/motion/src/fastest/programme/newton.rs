@@ -1,4 +1,4 @@
-//! Newton's step for the conditions of optimality (Karush, Kuhn and Tucker), with slacks and multipliers eliminated.
+//! Newton's step for the optimality conditions (Karush, Kuhn and Tucker), with slacks and multipliers eliminated.
 
 use super::interior::{Iterate, Term};
 use super::mesh::{Local, Mesh, VALUES};
@@ -22,7 +22,7 @@ pub(super) fn along(mesh: &Mesh, term: &Term, step: &[f64]) -> f64 {
     .sum()
 }
 
-/// The gradient of Lagrange's function, and for each unknown the sum of the sizes of its terms, by which its error is measured.
+/// The gradient of the Lagrangian, and for each unknown the sum of the magnitudes of its terms, the scale of its error.
 pub(super) struct Kkt {
     gradient: Vec<f64>,
     size: Vec<f64>,
@@ -47,7 +47,7 @@ impl Kkt {
         own
     }
 
-    /// Errors of the gradient and of the limits, and the ratio of the sum of s·λ to that of μ·weight.
+    /// Errors of the gradient and of the limits, and the sum of s·λ divided by the sum of μ·weight.
     pub(super) fn missed(&self, at: &Iterate, lambda: &[f64], mu: f64) -> [f64; 3] {
         let each = self.gradient.iter().zip(&self.size);
         let stationary = each.fold(0.0, |most: f64, (g, size)| most.max(g.abs() / size));
@@ -79,8 +79,7 @@ impl Kkt {
         })
     }
 
-    /// The step of the unknowns. If the matrix is not positive definite, negative second derivatives are left out, and then its diagonal is
-    /// enlarged.
+    /// The step of the unknowns. If the matrix is not positive definite, negative second derivatives are omitted, then its diagonal is enlarged.
     fn step(&self, mesh: &Mesh, at: &Iterate, lambda: &[f64], mu: f64) -> Option<Vec<f64>> {
         let (rows, s) = (&at.rows, &at.slacks);
         let mut right: Vec<f64> = self.gradient.iter().map(|g| -g).collect();

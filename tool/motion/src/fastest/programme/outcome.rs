@@ -1,4 +1,4 @@
-//! The motion over the time that belongs to w(u), and the check of its limits with the machine itself.
+//! The motion over time for w(u), and the check of its limits with the machine itself.
 
 use jred::Error;
 use jred_machine::number::quadrature::GAUSS_5;
@@ -15,19 +15,19 @@ use crate::fastest::{NoMotion, Phase};
 use crate::trace::{Node, Trace};
 use crate::way::Place;
 
-/// Roundings, in units of the last digit, that a speed or a torque may have; within a step they look like a jerk or a torque rate.
+/// Rounding errors of a speed or a torque, in units of the last digit; within a step they look like a jerk or a torque rate.
 const ROUNDINGS: f64 = 4.0;
 
-/// Share of a step over which the rate of the torque is taken.
+/// Share of a step over which the torque rate is computed.
 const NEAR: f64 = 0.02;
 
-/// Parts of a step into which it is divided to check the torque rate, where the torque bends in the step.
+/// Parts of a step for the check of the torque rate where the torque bends in it.
 const PARTS: u32 = 32;
 
-/// Two limits whose values differ by less than this share are met together.
+/// Two limits whose values differ by less than this share count as met together.
 const TIED: f64 = 1e-6;
 
-/// The limit that is exceeded most between the nodes, by which share of itself, and where.
+/// The most exceeded limit between the nodes, the share of the excess, and the position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Worst {
     pub(super) excess: f64,
@@ -36,7 +36,7 @@ pub(super) struct Worst {
 }
 
 impl Worst {
-    /// Nothing was checked.
+    /// Not checked.
     pub(super) const NONE: Self = Self {
         excess: f64::INFINITY,
         limit: None,
@@ -44,8 +44,8 @@ impl Worst {
     };
 }
 
-/// Widens the margins of pieces in which limits are exceeded, by the excess. In late rounds each margin is doubled as well: a bend between two
-/// stations may exceed a limit from which the motion is far at the stations, where a small margin has no effect.
+/// Widens the margins of pieces in which limits are exceeded, by the excess. In late rounds each margin is doubled too: a bend between two stations
+/// may exceed a limit that is far away at the stations, where a small margin has no effect.
 pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: bool) {
     for (margins, own) in margins.iter_mut().zip(exceeded) {
         let each = [&mut margins.state, &mut margins.jerk, &mut margins.rate];
@@ -58,7 +58,7 @@ pub(super) fn widen(margins: &mut [Margins], exceeded: &[[f64; 3]], is_late: boo
     }
 }
 
-/// The jerk in a step that may be rounding of the speeds.
+/// The jerk in a step that rounding of the speeds may cause.
 fn rounded_jerk([a, b]: [&Node; 2]) -> f64 {
     ROUNDINGS * f64::EPSILON * (a.omega.abs() + b.omega.abs()) / (b.step * b.step)
 }
@@ -80,7 +80,7 @@ fn greatest([first, middle, last]: [f64; 3]) -> f64 {
 }
 
 impl Asked<'_> {
-    /// The motion over the time.
+    /// The motion over time.
     pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
         let direction = self.field.way.direction;
         let problem = self.problem(&found.mesh, &[], found.range);
@@ -138,7 +138,7 @@ impl Asked<'_> {
         self.unit * (end - start) * (to - from) * each.sum::<f64>()
     }
 
-    /// The limit that is exceeded most, and by which shares limits of state, jerk and torque rate are exceeded in each piece.
+    /// The most exceeded limit, and for each piece the shares by which limits of state, jerk and torque rate are exceeded.
     pub(super) fn exceeded(
         &self,
         trace: &Trace,
@@ -174,7 +174,7 @@ impl Asked<'_> {
             let [first, last] = [a, b].map(|node| distance(node.phi));
             let middle = 0.5 * (first + last);
             let place = |phi: f64| {
-                // At a corner of the machine, the place is moved a little to its own side.
+                // At a corner of the machine, the place is moved slightly to its own side.
                 let x = distance(phi)
                     .max((first + near).min(middle))
                     .min((last - near).max(middle));
@@ -201,7 +201,7 @@ impl Asked<'_> {
         Ok((worst, own))
     }
 
-    /// The greatest torque rate (N·m/s) in a step, less what may be rounding.
+    /// The greatest torque rate (N·m/s) in a step, less possible rounding.
     fn torque_rate(
         &self,
         [a, b]: [&Node; 2],
@@ -241,7 +241,7 @@ impl Asked<'_> {
         Ok(most)
     }
 
-    /// Which limit is active, from where to where.
+    /// The active limit of each part of the motion.
     pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
         let met = self.all_met(found);
         let count = SHARES.len();
@@ -258,7 +258,7 @@ impl Asked<'_> {
             let first = piece * count + index % (count - 1);
             let mut at = [1, 0].into_iter().map(|k| &met[first + k]);
             let limit = at.find_map(|at| strongest(at).map(|own| (at, own)));
-            // Where two limits are met together, the one that was active before is named.
+            // Where two limits are met together, the one that was active before is kept.
             let limit = limit.map(|(at, own)| {
                 let before = phases.last().map(|phase| phase.limit);
                 let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;

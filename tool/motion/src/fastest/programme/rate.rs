@@ -1,11 +1,11 @@
-//! How fast acceleration and torque change along u at a station, with derivatives by the values of its piece.
+//! Rates of acceleration and torque along u at a station, with derivatives with respect to the values of its piece.
 //!
 //! ```text
 //! da/du = L·(g‴·w + 3/2·g″·w′ + ½·g′·w″)/t²
 //! dT/du = ∂T/∂R·(½·J″·v² + ½·J′·(v²)′ + F′ + b′·v + b·v′ + J′·a) + ∂T/∂a·a′ + c·v′
 //! ```
 //!
-//! with slopes by u. Times √w/t they are rates by the time: |da/du| ≤ t·j/√w.
+//! with slopes by u. Times √w/t they are rates by time: |da/du| ≤ t·j/√w.
 
 use super::effort::{State, mix};
 use super::mesh::{Local, Station, VALUES};
@@ -13,7 +13,7 @@ use crate::collocation::pieces::dot;
 use crate::collocation::torque::{STRAIGHT, Torque};
 use crate::way::{Demand, Place};
 
-/// The slopes of a torque averaged over loads ± `range` once more: Newton's method needs a gradient of them that does not jump.
+/// The slopes of a torque averaged over loads ± `range` a second time: Newton's method needs a continuous gradient.
 pub(super) fn smooth_slopes(
     place: &Place,
     acceleration: f64,
@@ -50,12 +50,12 @@ pub(super) struct Rate {
     pub(super) gradient: Local,
     /// Factor of the square of w's basis in the second derivatives.
     pub(super) bend: f64,
-    /// Where power changes its direction: factors, and the forms whose squares they belong to.
+    /// Where power changes direction: factors, and the linear forms whose squares they multiply.
     pub(super) turn: [(f64, Local); 2],
 }
 
 impl Rate {
-    /// Of the acceleration, t the unit of the time.
+    /// The rate of the acceleration, with t the unit of time.
     pub(super) fn of_acceleration(station: &Station, values: &Local, t: f64) -> Self {
         let [slope, bend, third] = station.path.map(|path| path / (t * t));
         let [own, change, curve] = &station.basis;
@@ -71,7 +71,7 @@ impl Rate {
         }
     }
 
-    /// Of a torque that rises by `friction` with the speed itself.
+    /// The rate of a torque that rises by `friction` with the speed itself.
     pub(super) fn of_torque(
         station: &Station,
         values: &Local,
@@ -98,7 +98,7 @@ impl Rate {
             (0.5 * pace / root, change),
         );
         let speed_bend = (0.375 * pace * w_by_u / w - 0.25 * pace_by_u) / (w * root);
-        // What the load changes by, without J·a′.
+        // Change of the load, without J·a′.
         let straight = mix(
             (
                 0.5 * by_u.inertia_slope * pace * pace + place.inertia_slope * pace * pace_by_u,
@@ -117,7 +117,7 @@ impl Rate {
             (1.0, &steady),
             (torque.by_acceleration, &acceleration.gradient),
         );
-        // Where the torque bends its slopes change with the load.
+        // Where the torque bends, its slopes change with the load.
         let load_by_w = 0.5 * place.inertia_slope * pace * pace + 0.5 * place.viscous * pace / root;
         let turn = &mix((load_by_w, own), (torque.lean, &state.by));
         let bend = torque.bend;

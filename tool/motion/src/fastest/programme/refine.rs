@@ -1,4 +1,4 @@
-//! Finer pieces, from a first mesh or from another motion, until the time does not change any more.
+//! Refines the pieces, from a first mesh or from another motion, until the time no longer changes.
 
 use super::borders::inner;
 use super::limits::Margins;
@@ -8,16 +8,16 @@ use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm};
 use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
 
-/// Rounds of finer pieces.
+/// Most rounds of refinement.
 const ROUNDS: u32 = 24;
 
-/// Share by which the time may still change with finer pieces when they are fine enough.
+/// Relative change of the time at which the pieces are fine enough.
 const SETTLED: f64 = 2e-9;
 
-/// Factor from one round to the next of the range over which bends of the torque are rounded.
+/// Factor from round to round of the range over which bends of the torque are rounded.
 const NARROWER: f64 = 0.5;
 
-/// How often the first pieces may be halved when no motion is found on them.
+/// How often the first pieces may be halved if no motion is found on them.
 const FINER_STARTS: u32 = 2;
 
 /// How often borders are moved to where the active limit changes.
@@ -27,7 +27,7 @@ const MOVES: u32 = 3;
 const HALVED: u32 = 3;
 const LONGEST: f64 = 0.006;
 
-/// The borders with more of them; `None`: there are no more.
+/// The borders with more of them; `None` if there are no more.
 fn with(borders: &[Border], more: Vec<Border>) -> Option<Vec<Border>> {
     if more.is_empty() {
         return None;
@@ -54,13 +54,13 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
 }
 
 impl Asked<'_> {
-    /// The range over which bends of the torque are rounded in a search from a motion, and its share of the largest load of that motion.
+    /// The range over which bends of the torque are rounded in a search from a motion, and its share of that motion's largest load.
     fn range(&self, found: &Found, share: f64) -> [f64; 2] {
         let problem = self.problem(&found.mesh, &[], found.range);
         [problem.ranged(&found.point.x, share).range, share]
     }
 
-    /// The motion on the pieces of another one; `None`: that is too different.
+    /// The motion on the pieces of another one; `None` if the motions differ too much.
     pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
         let Warm {
             borders,
@@ -76,7 +76,7 @@ impl Asked<'_> {
         }))
     }
 
-    /// The motion on other borders, with bends of the torque rounded over a share of the loads, or over more if no motion is found.
+    /// The motion on other borders, with bends of the torque rounded over a share of the loads, or over a larger share if no motion is found.
     fn narrowed(
         &self,
         shape: &Shape,
@@ -95,7 +95,7 @@ impl Asked<'_> {
         Ok(None)
     }
 
-    /// The first motion. Where none is found on coarse pieces, finer ones are tried.
+    /// The first motion. If coarse pieces give no motion, finer ones are tried.
     fn first_of_all(&self, shape: &Shape, eased: bool) -> Result<(Vec<Border>, Found), NoMotion> {
         let mut borders = self.first_borders(shape);
         let mut first = self.first(shape, borders.clone(), eased);
@@ -109,7 +109,7 @@ impl Asked<'_> {
         first
     }
 
-    /// The motion on pieces that are made finer until the time does not change any more.
+    /// The motion on pieces that are refined until the time no longer changes.
     pub(super) fn refined(
         &self,
         shape: &Shape,
@@ -152,7 +152,7 @@ impl Asked<'_> {
             let solved = match next {
                 Some(next) => match self.narrowed(shape, &next, &found, share)? {
                     Some(solved) => Some((next, solved)),
-                    // A motion on coarse pieces may break limits between the stations, so that finer pieces have none like it.
+                    // A motion on coarse pieces may violate limits between the stations, and finer pieces may then have no similar motion.
                     None if round == 0 => {
                         let first = self.first(shape, next, eased).ok();
                         first.filter(|(_, first)| first.time < SAME * found.time)

@@ -1,7 +1,7 @@
-//! Where the search starts: from even paces, and from motions under eased limits of rates.
+//! Starts of the search: constant paces, and motions under eased rate limits.
 //!
-//! There may be two families of motions. In a fast motion the inertia bears most of the load; in a slow one the torque follows it.
-//! A search finds the best motion of the family in which it starts.
+//! There may be two families of motions. In a fast motion the inertia bears most of the load; in a slow one the torque follows the load. A search
+//! finds the best motion of the family in which it starts.
 
 use super::interior::{Point, Stuck, minimise};
 use super::limits::{Margins, Problem};
@@ -11,8 +11,8 @@ use super::{Asked, FEASIBLE, Found, PIECES, RANGES, ROUGH, STARTS};
 use crate::collocation::shape::Shape;
 use crate::fastest::NoMotion;
 
-/// Largest factor by which the limits of rates are eased at the start; and what this factor is multiplied by from one search to the next: the first
-/// time, and when it is too close to 1 to go on.
+/// Largest factor by which the rate limits are eased at the start, and the multipliers from one search to the next: the first one, and the one too
+/// close to 1 to go on.
 const MOST_EASE: f64 = 1e4;
 const EASES: [f64; 2] = [0.1, 0.97];
 
@@ -20,21 +20,21 @@ const EASES: [f64; 2] = [0.1, 0.97];
 const LONGER: f64 = 1.2;
 const MOST_EASES: u32 = 40;
 
-/// A motion that takes no more than this times as long as the one before is of the same family; and the μ with which they are sought.
+/// Largest ratio of two successive times within one family, and the μ of these searches.
 pub(super) const SAME: f64 = 1.2;
 const EASED: [f64; 2] = [1e-2, 1e-5];
 
-/// With this many borders eased limits are not tried on finer pieces any more.
+/// Number of borders from which eased limits are no longer tried on finer pieces.
 const MOST_EASED: usize = 3 * PIECES[0];
 
 /// Share by which a motion from eased limits must be faster to be preferred.
 const CLEARLY: f64 = 1e-3;
 
-/// How often the search is repeated because the range suited loads more than twice those of the motion that was found.
+/// Most repetitions of the search because the range belonged to loads more than twice those of the motion found.
 const RANGED: u32 = 8;
 
 impl Asked<'_> {
-    /// Searches from a point, with bends rounded over a range that suits the loads of the motion that is found.
+    /// Searches from a point, with bends rounded over a range that suits the loads of the resulting motion.
     fn from(
         &self,
         mesh: &Mesh,
@@ -60,8 +60,8 @@ impl Asked<'_> {
         Ok((point, problem.range))
     }
 
-    /// Starts with limits of rates that are eased so far that they hardly bind, and goes back to the limits that are asked for, step by step. So it
-    /// stays in the family of fast motions, which slow starts may not find. `None`: the next motion was much slower, so the family has ended.
+    /// Starts with rate limits so eased that they hardly bind, then tightens them step by step to the given limits. So it stays in the family of fast
+    /// motions, which slow starts may not find. `None` if the next motion was much slower, so that the family has ended.
     fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
         let fast = self.unit / self.bound;
         let mut ease = fast.powi(3).min(MOST_EASE);
@@ -92,7 +92,7 @@ impl Asked<'_> {
         None
     }
 
-    /// The best of the motions to which several starts lead, with the borders of its pieces.
+    /// The best of the motions from several starts, with the borders of its pieces.
     pub(super) fn first(
         &self,
         shape: &Shape,
@@ -101,7 +101,7 @@ impl Asked<'_> {
     ) -> Result<(Vec<Border>, Found), NoMotion> {
         let mesh = self.mesh(shape, &borders)?;
         let mut stuck = None;
-        // Fast and slow even paces, for both families.
+        // Fast and slow constant paces, for both families.
         let fast = self.unit / self.bound;
         let paces = STARTS.into_iter().flat_map(|pace| [pace * fast, pace]);
         let even = paces.filter_map(|pace| {
@@ -114,7 +114,7 @@ impl Asked<'_> {
         };
         let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best, RANGES[0])));
-        // On coarse pieces the faster family may have no motion.
+        // On coarse pieces the faster family may not exist.
         let mut eased = None;
         let mut finer = borders;
         let rates = self.limits().has_rates();

@@ -1,4 +1,4 @@
-//! The torque over the acceleration, in straight pieces that meet where the power at a stage changes its direction.
+//! The torque over the acceleration, in straight pieces that meet where the power at a stage changes direction.
 
 use crate::gentlest::solve::Problem;
 use crate::way::Place;
@@ -6,7 +6,7 @@ use crate::way::Place;
 /// Most straight pieces of a torque.
 const PIECES: usize = 16;
 
-/// How often two lines are looked at in search of what lies between them.
+/// Most evaluations between two lines in search of further lines.
 const MOST_LOOKS: usize = 8 * PIECES;
 
 /// A straight piece of the torque over the acceleration, in units of the problem.
@@ -15,11 +15,11 @@ pub(super) struct Piece {
     pub(super) at: f64,
     pub(super) start: f64,
     pub(super) rise: f64,
-    /// From where to where it reaches.
+    /// Range of torques.
     pub(super) torques: [f64; 2],
 }
 
-/// A few pieces, without memory of their own.
+/// A few pieces, without heap memory.
 pub(super) struct Pieces {
     all: [Piece; PIECES],
     count: usize,
@@ -50,7 +50,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     if !problem.way.bends() {
         return pieces;
     }
-    // Far enough on both sides that nothing bends beyond.
+    // Far enough on both sides to be beyond every bend.
     let far = 1e6 * (1.0 + middle.start.abs() + (place.load / problem.unit).abs()) / middle.rise;
     let mut lines = Vec::with_capacity(PIECES);
     lines.extend([line(-far), line(far)]);
@@ -58,7 +58,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     while k + 1 < lines.len() && lines.len() < PIECES {
         looked += 1;
         if looked > MOST_LOOKS {
-            // Not convex, or bent within the roundings: what is no number is no bound.
+            // Not convex, or bent within rounding: NaN makes the bound invalid.
             pieces.all[0].rise = f64::NAN;
             return pieces;
         }

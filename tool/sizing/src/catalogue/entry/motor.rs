@@ -60,7 +60,7 @@ impl Efforts {
     }
 }
 
-/// A motor, and the key of the gearbox that it is built together with.
+/// A motor, and the key of the gearbox that it is built with.
 pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
     let kind = row.choice(
         Column::MotorKind,
@@ -131,7 +131,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
         from_maker: from_maker(row),
         source: row.text(Column::Source),
     };
-    // Values are compared with each other only if each of them can be read.
+    // Values are compared with each other only if all can be read.
     row.checked()?;
     torque_and_speed(row, &motor, &own);
     let built_in = row.words(Column::BuiltInGearbox).map(ToOwned::to_owned);

@@ -1,11 +1,11 @@
-//! The bound of a stretch: never below what a sample of it has, and reached where loads stray as far as they may.
+//! The bound of a stretch: never below the value of a sample, and reached where loads deviate as far as they may.
 
 use super::*;
 
 const C: Coefficients = Coefficients([0.7, 0.4, -0.9, 0.03, 1.1]);
 const RATIO: f64 = 2.0;
 
-/// Samples of acceleration, torque and speed, at even times.
+/// Samples of acceleration, torque and speed, at equal time steps.
 fn samples(states: &[[f64; 3]]) -> Vec<Sample> {
     let at = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| Sample {
         t: k as f64,
@@ -21,8 +21,7 @@ fn mirrored(states: &[[f64; 3]]) -> Vec<[f64; 3]> {
     states.iter().map(|state| state.map(|x| -x)).collect()
 }
 
-/// What a search with the best share `used` finds of these samples as one stretch: the bound, and the largest |T| − u·M of a
-/// sample by plain words.
+/// For these samples as one stretch and the best share `used`: the bound, and the largest |T| − u·M of a sample, computed directly.
 fn bound<F: Floor>(c: &Coefficients, states: &[[f64; 3]], floor: F, used: f64) -> [f64; 2] {
     let samples = samples(states);
     let largest = [1.0; LOADS];
@@ -64,8 +63,8 @@ fn straight() -> Straight {
     }
 }
 
-/// The sample in the middle strays in every load at once, each to where it adds to the torque: the bound is that sample. Both ends
-/// are the same, so that nothing else can add to it.
+/// The sample in the middle deviates in every load at once, always so that it adds to the torque: the bound is that sample. Both ends are equal, so
+/// nothing else can add to it.
 #[test]
 fn every_load_that_strays_counts() {
     // From driving at 5 rad/s to braking at −4: α, the driving and the braking torque, speed and its sign all change.
@@ -80,8 +79,8 @@ fn every_load_that_strays_counts() {
     }
 }
 
-/// Under a limit that falls with the speed, a speed that strays changes torque and limit: forwards and backwards, driving and
-/// braking, whichever of both changes more.
+/// Under a limit that falls with the speed, a deviating speed changes torque and limit: forwards and backwards, driving and braking, for either of
+/// the two changing more.
 #[test]
 fn a_speed_that_strays_moves_the_limit_too() {
     let most = 0.9;
@@ -105,12 +104,12 @@ fn a_speed_that_strays_moves_the_limit_too() {
             }
         }
     }
-    // Faster, the torque rises by 3 a rad/s and the limit falls by 0.1·2·0.9: the sample in the middle has both.
+    // Faster: the torque rises by 3 per rad/s and the limit falls by 0.1·2·0.9. The sample in the middle has both.
     let fast = [[1.0, 40.0, 20.0], [9.0, 40.0, 28.0], [1.0, 40.0, 20.0]];
     let c = Coefficients([0.7, 0.4, 0.9, 3.0, 1.1]);
     reached(bound(&c, &fast, straight(), 0.9));
     reached(bound(&c, &mirrored(&fast), straight(), 0.9));
-    // Braking: T is against the speed, and friction of the wrong sign adds to it as the speed grows.
+    // Braking: T opposes the speed, and friction of the wrong sign adds to it as the speed grows.
     let c = Coefficients([0.7, 0.4, 0.9, -3.0, -1.1]);
     let fast = [
         [-1.0, -40.0, 20.0],
@@ -119,13 +118,13 @@ fn a_speed_that_strays_moves_the_limit_too() {
     ];
     reached(bound(&c, &fast, straight(), 0.9));
     reached(bound(&c, &mirrored(&fast), straight(), 0.9));
-    // Slower, where the torque rises by 0.5 a rad/s and the limit by 0.1·2·0.9.
+    // Slower: the torque rises by 0.5 per rad/s and the limit by 0.1·2·0.9.
     let slow = [[1.0, 80.0, 20.0], [1.0, 80.0, 12.0], [1.0, 80.0, 20.0]];
     let c = Coefficients([0.7, 0.4, 0.9, -0.5, 1.1]);
     reached(bound(&c, &slow, straight(), 0.9));
 }
 
-/// Without straying loads the larger end is the bound: at the first and at the last, under a falling limit, in each quadrant.
+/// Without deviating loads the larger end is the bound: the first or the last, under a falling limit, in each quadrant.
 #[test]
 fn the_larger_end_is_the_bound() {
     let at = |torques: [f64; 2], speeds: [f64; 2]| {
@@ -141,7 +140,7 @@ fn the_larger_end_is_the_bound() {
     }
 }
 
-/// Where the speed reverses, or where braking begins at rest, the lowest of all limits counts: driving and braking, at both ends.
+/// Where the speed reverses, or where braking begins at rest, the lowest of all limits applies: driving and braking, at both ends.
 #[test]
 fn in_both_directions_the_lowest_limit_counts() {
     let c = Coefficients([0.0, 0.5, 0.5, 0.0, 0.0]);
@@ -154,14 +153,14 @@ fn in_both_directions_the_lowest_limit_counts() {
     ] {
         let states = [[0.0, torque, speeds[0]], [0.0, torque, speeds[1]]];
         let [found, _] = bound(&c, &states, straight(), used);
-        // The loads τ₊ and τ₋ go from one to nothing and from nothing to one: along the chord nothing strays.
+        // The loads τ₊ and τ₋ go from one to zero and from zero to one: nothing deviates from the chord.
         let expected = 30.0 - used * 12.0;
         assert!(
             (found - expected).abs() < 1e-12,
             "{found} instead of {expected}"
         );
     }
-    // A motor that brakes better than it drives: braking that begins at rest is bounded by what drives there, 10.
+    // A motor that brakes better than it drives: braking that begins at rest is bounded by the driving limit there, 10.
     let brakes_better = Straight {
         lines: [[10.0, 0.1], [15.0, -0.01]],
         line: [10.0, 0.0],
@@ -176,7 +175,7 @@ fn in_both_directions_the_lowest_limit_counts() {
     assert!((found - (30.0 - used * 14.0)).abs() < 1e-12, "{found}");
 }
 
-/// A limit that is not known anywhere; its line says nothing.
+/// A limit without data anywhere; its line carries no information.
 #[derive(Clone, Copy)]
 struct Unknown;
 impl Floor for Unknown {
@@ -194,8 +193,7 @@ impl Floor for Unknown {
     }
 }
 
-/// Before anything is weighed every stretch is looked into; where nothing has a torque the bound is not above zero. A limit that is
-/// not known excludes a stretch.
+/// Before any sample is weighed, every stretch is examined. Without any torque the bound is not above zero. An unknown limit excludes a stretch.
 #[test]
 fn the_ends_of_the_range_of_bounds() {
     let states = [[1.0, 8.0, 5.0], [2.0, 8.0, 6.0]];
@@ -211,7 +209,7 @@ fn the_ends_of_the_range_of_bounds() {
     assert!(unknown <= 0.0, "{unknown}");
 }
 
-/// A stretch that even the lowest limit excludes is not looked at closely: its bound is that by the lowest limit.
+/// A stretch that even the lowest limit excludes is not examined further: its bound is the one by the lowest limit.
 #[test]
 fn the_lowest_limit_excludes_first() {
     let states = [[0.0, 4.0, 10.0], [0.0, 4.0, 30.0]];
@@ -219,7 +217,7 @@ fn the_lowest_limit_excludes_first() {
     // The lower line: 15 − 0.15·30 = 10.5 at the faster end.
     let [found, _] = bound(&c, &states, straight(), 0.8);
     assert!((found - (4.0 - 0.8 * 10.5)).abs() < 1e-12, "{found}");
-    // One that rises has its least at the slower end.
+    // A rising line is smallest at the slower end.
     let rising = Straight {
         lines: [[20.0, 0.1], [15.0, 0.05]],
         line: [15.0, 0.05],

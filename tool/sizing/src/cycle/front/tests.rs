@@ -1,4 +1,4 @@
-//! Whether a torque is against the speed, by the ends of stretches and by bounds between them.
+//! Whether a torque opposes the speed, by the ends of stretches and by bounds between them.
 
 use pulp::NullaryFnOnce as _;
 
@@ -7,7 +7,7 @@ use crate::cycle::form::Coefficients;
 
 const C: [f64; LOADS] = [0.5, 0.25, 0.4, 0.02, 1.5];
 
-/// The front of stretches of three states each, acceleration, torque and speed.
+/// The front of stretches of three states each: acceleration, torque and speed.
 fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<Sample>) {
     let states = stretches.iter().flatten().enumerate();
     let sample = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| Sample {
@@ -18,7 +18,7 @@ fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<Sample>) {
         speed: *speed,
     };
     let samples: Vec<Sample> = states.map(sample).collect();
-    // One after the other, each joined to all before it.
+    // Nodes in sequence, each joined to all before it.
     let mut tree = Tree { nodes: Vec::new() };
     let count = stretches.len();
     let mut nodes = (0..count).map(|k| Node::leaf(&samples, 3 * k, 3 * k + 2));
@@ -36,7 +36,7 @@ fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<Sample>) {
     (front, samples)
 }
 
-/// T·sgn n, not above zero at rest.
+/// T·sgn n; not positive at rest.
 fn along(sample: &Sample) -> f64 {
     let speed = sample.speed();
     let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
@@ -45,14 +45,14 @@ fn along(sample: &Sample) -> f64 {
 
 /// Forwards and driven throughout.
 const DRIVEN: [[f64; 3]; 3] = [[1.0, 20.0, 10.0], [2.0, 25.0, 12.0], [3.0, 30.0, 14.0]];
-/// The same in its ends; between them it brakes.
+/// The same at its ends; between them it brakes.
 const BRAKES_BETWEEN: [[f64; 3]; 3] = [[1.0, 20.0, 10.0], [-60.0, 20.0, 12.0], [1.0, 20.0, 14.0]];
-/// The torque is against the speed at its first sample, or at its last.
+/// The torque opposes the speed at its first sample, or at its last.
 const BRAKES_FIRST: [[f64; 3]; 3] = [[-60.0, 20.0, 10.0], [0.0, 20.0, 12.0], [60.0, 20.0, 14.0]];
 const BRAKES_LAST: [[f64; 3]; 3] = [[60.0, 20.0, 10.0], [0.0, 20.0, 12.0], [-60.0, 20.0, 14.0]];
 /// At rest under a torque.
 const RESTS: [[f64; 3]; 3] = [[0.0, -20.0, 0.0]; 3];
-/// Driven there and back.
+/// Driven forwards and back.
 const TURNS: [[f64; 3]; 3] = [[9.0, 20.0, 10.0], [0.0, 0.0, 0.0], [-9.0, -20.0, -10.0]];
 
 fn mirrored(stretch: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
@@ -83,20 +83,20 @@ fn what_drives_and_what_rests_is_known() {
             Ok(false)
         );
     }
-    // Without any torque nothing is against the speed, and there is no rounding either.
+    // Without any torque nothing opposes the speed, and there is no rounding either.
     for still in [DRIVEN, RESTS] {
         assert_eq!(
             front(&[still]).0.against_speed(&[0.0; LOADS], 0.0),
             Ok(false)
         );
     }
-    // A torque against the speed by less than what counts as rounding is none: here −8.3 N·m.
+    // A torque against the speed by less than the rounding allowance, here −8.3 N·m, does not count.
     let (front, _) = front(&[[[-30.0, 20.0, 10.0]; 3]]);
     let found = [7.0, 9.0].map(|slack| front.against_speed(&C, slack));
     assert_eq!(found, [Ok(true), Ok(false)]);
 }
 
-/// What neither an end nor a bound settles is named by its bit, and nothing else is.
+/// A stretch that neither its ends nor its bound decide is marked by its bit, and no other stretch is.
 #[test]
 fn what_is_open_is_named() {
     for open in [BRAKES_BETWEEN, mirrored(BRAKES_BETWEEN), TURNS] {
@@ -105,13 +105,13 @@ fn what_is_open_is_named() {
         assert_eq!(places(&[DRIVEN, open]), Err(0b10));
         assert_eq!(places(&[open, RESTS, DRIVEN, open]), Err(0b1001));
     }
-    // Backwards for a moment, under a torque that stays the same: the ends are driven, and nothing strays.
+    // Backwards for a moment, under a constant torque: the ends are driven, and nothing deviates.
     let moment = [[20.0, 0.0, 10.0], [20.0, 0.0, -10.0], [20.0, 0.0, 10.0]];
     let c = [0.5, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(front(&[moment]).0.against_speed(&c, 1e-9), Err(0b1));
 }
 
-/// Least T·sgn n at an end, and what it does not fall below between: the sample that strays by as much as the bound allows.
+/// Least T·sgn n at an end, and its lower bound between the ends: the sample that deviates by as much as the bound allows.
 #[test]
 fn the_signs_are_those_of_the_samples() {
     let cases = [DRIVEN, BRAKES_BETWEEN, BRAKES_FIRST, BRAKES_LAST];
@@ -135,7 +135,7 @@ fn the_signs_are_those_of_the_samples() {
         let brute = samples.iter().map(along).fold(f64::INFINITY, f64::min);
         assert!(least[0] <= brute + 1e-12, "{} above {brute}", least[0]);
     }
-    // Both ends the same, and α alone strays, to where it brakes: the bound is reached.
+    // Equal ends, and only α deviates, to where it brakes: the bound is reached.
     let (front, samples) = front(&[[[1.0, 20.0, 10.0], [-60.0, 20.0, 10.0], [1.0, 20.0, 10.0]]]);
     let mut least = [0.0; WIDTH];
     let front = &front;
@@ -150,7 +150,7 @@ fn the_signs_are_those_of_the_samples() {
         "{}",
         least[0]
     );
-    // Nothing strays, and the ends differ: the bound is the lower one.
+    // Nothing deviates, and the ends differ: the bound is the lower one.
     let (front, samples) =
         self::front(&[[[1.0, 20.0, 10.0], [3.0, 25.0, 11.0], [5.0, 30.0, 12.0]]]);
     let mut least = [0.0; WIDTH];

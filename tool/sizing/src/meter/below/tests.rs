@@ -1,8 +1,8 @@
-//! Which lines of a curve keep within the bounds on their way.
+//! Lines of a curve keep within the bounds.
 
 use super::*;
 
-/// A tunnel between a limit that falls, is level and falls again, and so much below it.
+/// A tunnel between a limit that falls, is level and falls again, and a bound by a shortfall below it.
 fn tunnel() -> Tunnel {
     let at = |speed: f64| (10.0 - speed).max(6.0).min(14.0 - speed);
     let speeds: Vec<f32> = (0..13_u8).map(f32::from).collect();
@@ -17,8 +17,8 @@ fn tunnel() -> Tunnel {
     }
 }
 
-/// Every line from a place, by every slope: those that `reach` gives for a place are those that lie below the limit up to there and
-/// no further below it than allowed before.
+/// Every line from a place, by every slope: `reach` gives exactly the places at which the line lies below the limit so far, and no further below it
+/// than allowed before.
 #[test]
 fn a_line_that_is_taken_keeps_within_the_bounds() {
     let (tunnel, shortfall) = (tunnel(), 0.2);
@@ -38,7 +38,7 @@ fn a_line_that_is_taken_keeps_within_the_bounds() {
             });
             for (to, taken) in taken.iter().enumerate().skip(from + 1) {
                 for step in -300..=100 {
-                    // No line ends on a bound exactly: the two sides may round differently.
+                    // No line ends exactly on a bound, because the two sides may round differently.
                     let slope = 0.01 * f64::from(step) + 1.7e-4;
                     let line = |place: usize| start + slope * (speed(place) - speed(from));
                     let below = (from + 1..=to).all(|place| line(place) <= tunnel.most[place]);
@@ -52,7 +52,7 @@ fn a_line_that_is_taken_keeps_within_the_bounds() {
     }
 }
 
-/// A line on a level limit is taken, though both round: from speed 4 to 8 the limit is 6.
+/// A line on a level limit is accepted although both round: from speed 4 to 8 the limit is 6.
 #[test]
 fn a_line_on_the_limit_is_taken() {
     for limit in [6.0, 0.1, 1e5 / 3.0] {
@@ -67,7 +67,7 @@ fn a_line_on_the_limit_is_taken() {
             }
         });
         assert!(taken.starts_with(&[5]), "{taken:?}");
-        // By a unit of the last place above it as well.
+        // The same by one unit of the last place above it.
         let mut above = Vec::new();
         tunnel.reach(4, limit.next_up(), 1.0, |place, slopes, _| {
             if slopes[0] <= 0.0 && 0.0 <= slopes[1] {
@@ -78,11 +78,11 @@ fn a_line_on_the_limit_is_taken() {
     }
 }
 
-/// Where the limit jumps between two intervals the lower side counts at both: a line may pass neither.
+/// Where the limit jumps between two intervals the lower side counts on both: a line may pass neither.
 #[test]
 fn both_sides_of_a_jump_bound_a_line() {
     let mut tunnel = tunnel();
-    // From place 3 on the interval begins lower than the one before ends.
+    // From place 3 on the interval begins lower than the previous one ends.
     tunnel.between[3].ends[0] = 5.0;
     let mut most = Vec::new();
     tunnel.reach(0, 10.0, 1.0, |place, slopes, _| {
@@ -93,7 +93,7 @@ fn both_sides_of_a_jump_bound_a_line() {
     assert!((at(4) + 5.0 / 3.0).abs() < 1e-6, "{most:?}");
 }
 
-/// Points may lie at 32 equal steps from rest, at the end, and on both sides of each corner between, in order and each once.
+/// Points may lie at 32 equal steps from rest, at the end, and on both sides of each corner between them, in order and without duplicates.
 #[test]
 fn speeds_are_even_with_both_sides_of_each_corner() {
     let end = 321.7;
@@ -107,11 +107,11 @@ fn speeds_are_even_with_both_sides_of_each_corner() {
     expected.sort_by(f32::total_cmp);
     assert_eq!(found, expected);
     assert!(f64::from(below) <= 100.3 && f64::from(below.next_up()) > 100.3);
-    // A motor that does not turn has one.
+    // A motor that does not turn has one speed.
     assert_eq!(speeds(0.0, &corners), [0.0]);
 }
 
-/// A limit of nothing is met by nothing, and falls short by nothing.
+/// A limit of zero gives a curve of zero, without shortfall.
 #[test]
 fn a_limit_of_zero_is_a_level_curve() {
     let found = below(300.0, &[100.0], |_| [0.0; 2]).unwrap();
@@ -120,7 +120,7 @@ fn a_limit_of_zero_is_a_level_curve() {
     assert_eq!(below(300.0, &[], |_| [f64::INFINITY; 2]), None);
 }
 
-/// A motor of a thousand times the torque has the same curve, a thousand times as high: with a power of two to the last bit.
+/// For a limit a thousand times as high the curve is a thousand times as high; for a power of two, to the last bit.
 #[test]
 fn curves_are_to_scale() {
     let of = |scale: f64| {

@@ -3,13 +3,13 @@
 use super::{Curve, Envelope, Limit, Piece, Shape};
 
 impl Envelope {
-    /// A chord that the limit of the short-time torque does not fall below between two speeds (rad/s, not negative, rising):
-    /// its torques at both (N·m). Exact where the limit is straight or bends downwards; elsewhere its least value between them.
+    /// A chord that is not above the short-time torque limit between two speeds (rad/s, not negative, rising): its torques at both (N·m). It is exact
+    /// where the limit is straight or concave; elsewhere it is the limit's least value between them.
     pub(crate) fn floor(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2] {
         self.limit(!driving).floor(speeds)
     }
 
-    /// A speed (rad/s) below which there is some torque in all four quadrants.
+    /// A speed (rad/s) below which torque is available in all four quadrants.
     pub(crate) fn positive_below(&self) -> f64 {
         self.limit(false)
             .positive_below()
@@ -26,8 +26,8 @@ impl Envelope {
 }
 
 impl Envelope {
-    /// Torque at rest (N·m) and slope (N·m·s/rad) of the limits where the motor drives and where it brakes, if both are
-    /// straight up to this speed (rad/s).
+    /// Torque at rest (N·m) and slope (N·m·s/rad) of the limits while the motor drives and while it brakes, if both are straight up to this speed
+    /// (rad/s).
     pub(crate) fn straight_up_to(&self, speed: f64) -> Option<[[f64; 2]; 2]> {
         let line = |limit: &Limit| match limit.pieces().first()? {
             Piece {
@@ -50,7 +50,7 @@ impl Piece {
         }
     }
 
-    /// The least torque between two speeds of the piece: no shape has it inside.
+    /// The least torque between two speeds of the piece: in every shape it is at an end.
     fn least(&self, from: f64, to: f64) -> f64 {
         self.torque(from).min(self.torque(to))
     }
@@ -58,7 +58,7 @@ impl Piece {
 
 impl Limit {
     fn positive_below(&self) -> f64 {
-        // Just below the end, where rounding may have the last torques be zero already.
+        // Just below the end, where the last torques may already round to zero.
         const BELOW: f64 = 1.0 - 1e-9;
         for piece in self.pieces() {
             let [from, to] = [piece.torque(piece.from), piece.torque(piece.to)];
@@ -94,7 +94,7 @@ impl Limit {
         if to > self.end() {
             return [0.0; 2];
         }
-        // Over several pieces the chord is valid if no corner lies below it.
+        // Over several pieces the chord is valid if it is above no corner.
         let covered = &pieces[place..];
         let mut least = f64::INFINITY;
         let mut bends_down = true;

@@ -1,4 +1,4 @@
-//! Data that an envelope is built from, and assumptions for those that are missing.
+//! Data from which an envelope is built, and assumptions for missing data.
 
 use super::circuit::Circuit;
 use super::continuous::Continuous;
@@ -15,11 +15,11 @@ pub(super) struct Builder<'a> {
     motor: &'a Motor,
     /// Actual bus voltage over that of the data sheet.
     share: f64,
-    /// Factor on the S1 torque at the site.
+    /// Factor of the S1 torque at the site.
     factor: f64,
     /// Current of a torque.
     pub(super) torques: Option<CurrentCurve>,
-    /// The winding at the actual voltage; reactance left out where it is not stated.
+    /// The winding at the actual voltage, without reactance if that is not given.
     line: Option<Circuit>,
     /// Peak torque (N·m).
     peak: f64,
@@ -36,7 +36,7 @@ fn finite(figure: Option<f64>) -> Option<f64> {
 /// Far beyond any motor, in SI units.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
 
-/// A value; infinite if there is no usable one.
+/// A value; infinite if it is not usable.
 fn known(figure: Option<f64>) -> f64 {
     finite(figure).unwrap_or(f64::INFINITY)
 }
@@ -137,7 +137,7 @@ impl<'a> Builder<'a> {
         let stated = known(motor.max_speed);
         let beyond = stated.is_finite() && stated > circuit.no_load_speed() / self.share;
         circuit.weakens = beyond && circuit.reactance > 0.0 && circuit.current.is_finite();
-        // If the data sheet exceeds what the winding explains, the data sheet is used.
+        // If the data sheet exceeds what the winding allows, the data sheet is used.
         let explained = circuit.weakens || !beyond || motor.corner_speed.is_none();
         let plausible = circuit.voltage.is_finite() && circuit.no_load_speed() > 0.0;
         (explained && plausible).then_some(circuit)
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
                 .assumptions
                 .push(|_| "no field weakening assumed".to_owned()),
         }
-        // The circuit's largest current is that of the peak torque, the amplifier's included.
+        // The circuit's largest current belongs to the peak torque, including the amplifier's limit.
         let end = circuit.largest_speed(known(motor.max_speed));
         [false, true].map(|braking| voltage::limit(circuit, torques, braking, end))
     }
@@ -287,7 +287,7 @@ impl<'a> Builder<'a> {
         self.share
     }
 
-    /// Vertices at another voltage, and the point without torque that the largest speed leads to.
+    /// Vertices at another voltage, and the zero-torque point at the largest speed.
     fn moved(&self, vertices: &[[f64; 2]], share: f64, top: f64) -> Vec<[f64; 2]> {
         let ratio = |torque: f64| match (&self.line, &self.torques) {
             (Some(line), Some(torques)) if torque.is_finite() => {
@@ -312,14 +312,14 @@ impl<'a> Builder<'a> {
         moved
     }
 
-    /// The torque that a lower voltage leaves at standstill (N·m).
+    /// The torque at standstill that a lower voltage allows (N·m).
     fn at_standstill(&self, share: f64) -> Option<f64> {
         let (line, torques) = (self.line.filter(|_| share < 1.0)?, self.torques?);
         Some(torques.torque(line.voltage / line.drop))
     }
 }
 
-/// Whether the voltage is that of the data sheet, but for rounding.
+/// Whether the voltage is that of the data sheet, except for rounding.
 fn is_one(share: f64) -> bool {
     (share - 1.0).abs() <= f64::EPSILON
 }

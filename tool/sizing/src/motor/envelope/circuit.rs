@@ -1,8 +1,8 @@
 //! The voltage limit of a winding, in closed form: see [`winding`](crate::motor::winding) for the equations.
 //!
-//! With Z² = r² + x², |v| ≤ V is a disc in the plane of (i_d, i_q) about c = −(x, r)·k_e·n/Z² with radius V/Z, and |i| ≤ I a
-//! disc about zero. Without field weakening i_d = 0. With it the largest i_q is the top of one disc if it lies in the other
-//! (the current limit; maximum torque per volt), and else the upper point where the circles meet.
+//! With Z² = r² + x², |v| ≤ V is a disc in the plane of (i_d, i_q) about c = −(x, r)·k_e·n/Z² with radius V/Z, and |i| ≤ I a disc about zero. Without
+//! field weakening i_d = 0. With field weakening the largest i_q is the top of one disc if it lies in the other (the current limit; maximum torque
+//! per volt), otherwise the upper intersection of the circles.
 
 /// The circuit of a motor with its limits of voltage and current, steady state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,14 +15,14 @@ pub struct Circuit {
     pub drop: f64,
     /// Reactance per speed x/n (V·s/(A·rad)); zero for direct current.
     pub reactance: f64,
-    /// Largest current I (A); infinite: not known.
+    /// Largest current I (A); infinite: no data.
     pub current: f64,
     /// Whether the amplifier weakens the field, i_d < 0.
     pub weakens: bool,
 }
 
 impl Circuit {
-    /// Speed (rad/s) at which the magnets alone take the whole voltage.
+    /// Speed (rad/s) at which the induced voltage alone equals the largest voltage.
     pub fn no_load_speed(&self) -> f64 {
         self.voltage / self.flux
     }
@@ -87,7 +87,7 @@ impl Circuit {
         ((x * half.sqrt() - sign * r * along) / impedance).clamp(0.0, limit)
     }
 
-    /// i_q (A) at maximum torque per volt, the top of the voltage's disc, if the current limit allows it.
+    /// i_q (A) at maximum torque per volt, the top of the voltage disc, if the current limit allows it.
     pub(super) fn torque_per_volt(&self, speed: f64, braking: bool) -> Option<f64> {
         let sign = if braking { -1.0 } else { 1.0 };
         let back = self.flux * speed;
@@ -98,8 +98,7 @@ impl Circuit {
         (top >= 0.0 && across.hypot(top) <= self.current).then_some(top)
     }
 
-    /// Speed (rad/s) up to which a current i_q (A, driving) is possible at i_d = 0; zero where the voltage does not even reach
-    /// at standstill.
+    /// Speed (rad/s) up to which a current i_q (A, driving) is possible at i_d = 0; zero if the voltage is too low even at standstill.
     pub fn speed_of(&self, current: f64) -> f64 {
         let Self {
             voltage: v,
@@ -119,8 +118,8 @@ impl Circuit {
         left / (resistive * e + root)
     }
 
-    /// Magnitude of the current (A) that makes `along` (A, positive where it drives) at n ≥ 0 (rad/s): what weakens the field
-    /// comes on top. Beyond the voltage limit, the current at which the voltage is least.
+    /// Magnitude of the current (A) for `along` (A, positive where it drives) at n ≥ 0 (rad/s), including the field-weakening current. Beyond the
+    /// voltage limit, the current at which the voltage is least.
     pub fn total_current(&self, along: f64, speed: f64) -> f64 {
         let back = self.flux * speed;
         let x = self.reactance * speed;
@@ -141,8 +140,7 @@ impl Circuit {
         along.hypot(across)
     }
 
-    /// The largest speed (rad/s), up to `stated`, at which any current at all is possible: no torque, but controlled by the
-    /// amplifier.
+    /// The largest speed (rad/s), up to `stated`, at which any current is possible: the amplifier still controls the motor, without torque.
     pub fn largest_speed(&self, stated: f64) -> f64 {
         if !self.weakens {
             return self.no_load_speed().min(stated);

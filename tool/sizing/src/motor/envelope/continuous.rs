@@ -13,7 +13,7 @@ pub(super) struct Continuous {
 }
 
 impl Continuous {
-    /// Infinite values mean that no limit is known.
+    /// Infinite values mean that there are no data.
     pub(super) fn of(
         motor: &Motor,
         known: impl Fn(Option<f64>) -> f64,
@@ -35,9 +35,9 @@ impl Continuous {
         }
     }
 
-    /// The same torques at every speed, each times a factor.
+    /// The torques at all speeds, times a factor.
     pub(super) fn times(mut self, factor: f64) -> Self {
-        // Of an unknown torque nothing is left but that it is unknown.
+        // An unknown torque stays unknown.
         let scaled = |x: f64| if x.is_finite() { factor * x } else { x };
         self.standstill = scaled(self.standstill);
         self.rated_torque = scaled(self.rated_torque);
@@ -81,7 +81,7 @@ impl Continuous {
     }
 }
 
-/// On the straight lines between points; level before the first, with constant power beyond the last.
+/// Linear between points; constant before the first, with constant power beyond the last.
 pub(super) fn between(points: &[[f64; 2]], speed: f64) -> f64 {
     let after = points.partition_point(|p| p[0] < speed);
     match (after.checked_sub(1).map(|k| points[k]), points.get(after)) {

@@ -1,17 +1,17 @@
-//! Lower bounds of all limits between two speeds, for callers that must never exceed what the motor delivers.
+//! Lower bounds of all limits between two speeds, for callers that must never exceed the motor's capability.
 
 use super::continuous::Continuous;
 use super::{Envelope, Limit, Segment};
 
 impl Envelope {
-    /// A chord that the short-time torque falls below in no quadrant between two speeds (rad/s, not negative, rising): its
-    /// torques at both (N·m). Infinite where no limit is known.
+    /// A chord that is not above the short-time torque in any quadrant between two speeds (rad/s, not negative, rising): its torques at both (N·m);
+    /// infinite without data.
     pub(crate) fn peak_floor(&self, speeds: [f64; 2]) -> [f64; 2] {
         let [driving, braking] = [true, false].map(|driving| self.floor(driving, speeds));
         [driving[0].min(braking[0]), driving[1].min(braking[1])]
     }
 
-    /// The same of the S1 torque.
+    /// The same for the S1 torque.
     pub(crate) fn continuous_floor(&self, speeds: [f64; 2]) -> [f64; 2] {
         let [from, to] = speeds;
         match self.continuous_segment(speeds) {
@@ -39,7 +39,7 @@ impl Envelope {
 }
 
 impl Continuous {
-    /// The least S1 torque between two speeds: at one of them, or where one piece meets the next.
+    /// The least S1 torque between two speeds: at one of them, or at a border of pieces.
     fn least(&self, [from, to]: [f64; 2]) -> f64 {
         let inside = self.corners().filter(|corner| (from..=to).contains(corner));
         let speeds = inside.chain([from, to]);
@@ -48,7 +48,7 @@ impl Continuous {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Speeds at which one piece meets the next (rad/s).
+    /// Speeds at borders of pieces (rad/s).
     fn corners(&self) -> impl Iterator<Item = f64> {
         let points = self.points.iter().map(|p| p[0]);
         points.chain([self.rated_speed])
@@ -56,7 +56,7 @@ impl Continuous {
 }
 
 impl Envelope {
-    /// Speeds at which any limit bends or jumps (rad/s), in no order.
+    /// Speeds at which any limit bends or jumps (rad/s), unordered.
     pub(crate) fn corners(&self) -> Vec<f64> {
         let limits = [&self.driving, &self.braking];
         let pieces = limits.into_iter().flat_map(Limit::pieces);

@@ -3,11 +3,10 @@
 use super::circuit::Circuit;
 use crate::motor::winding::CurrentCurve;
 
-/// A torque limit over the magnitude of the speed, from zero up to the largest speed; beyond that it is zero.
+/// A torque limit over the magnitude of the speed, from zero up to the largest speed; zero beyond.
 ///
-/// A short row of [`Piece`]s without gaps, in rising order. Where the motor drives the limit never rises with speed; where
-/// it brakes it may, since the voltage drop of the current then helps. It may jump down from one piece to the next. An
-/// infinite value means that no limit is known.
+/// A short list of [`Piece`]s without gaps, in rising order. While the motor drives, the limit never rises with speed; while it brakes it may,
+/// because the voltage drop of the current then helps. It may jump down from one piece to the next. An infinite value means that there are no data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     pieces: Box<[Piece]>,
@@ -16,7 +15,7 @@ pub struct Limit {
 /// One piece of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Speed at which it begins (rad/s), finite.
+    /// Start of the piece (rad/s), finite.
     pub from: f64,
     /// End of the piece, included (rad/s); may be infinite in the last piece if it is constant.
     pub to: f64,
@@ -29,9 +28,9 @@ pub struct Piece {
 /// Torque over speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Curve {
-    /// A straight line: torque at the piece's beginning (N·m, may be infinite if the slope is zero) and slope (N·m·s/rad).
+    /// A straight line: torque at the start of the piece (N·m, may be infinite if the slope is zero) and slope (N·m·s/rad).
     Line {
-        /// Torque where the piece begins (N·m).
+        /// Torque at the start of the piece (N·m).
         start: f64,
         /// Slope (N·m·s/rad).
         slope: f64,
@@ -52,7 +51,7 @@ pub enum Curve {
 pub enum Shape {
     /// Straight: the chord is the curve.
     Straight,
-    /// Concave: no point lies below the chord.
+    /// Concave: no point is below the chord.
     Concave,
     /// Monotonic, convex or unknown: no point is below the lower end.
     Monotone,
@@ -73,7 +72,7 @@ impl Piece {
         }
     }
 
-    /// A level piece.
+    /// A constant piece.
     pub const fn level(from: f64, to: f64, torque: f64) -> Self {
         Self {
             from,
@@ -90,9 +89,9 @@ impl Piece {
     #[inline]
     pub fn torque(&self, speed: f64) -> f64 {
         match &self.curve {
-            // Level: an infinite piece stays free of 0·∞.
+            // Constant: avoids 0·∞ in an infinite piece.
             Curve::Line { start, slope } if *slope == 0.0 => *start,
-            // A line that ends at zero may round below it.
+            // A line that ends at zero may become negative by rounding.
             Curve::Line { start, slope } => (start + slope * (speed - self.from)).max(0.0),
             Curve::Winding {
                 circuit,
@@ -109,7 +108,7 @@ impl Piece {
                 start,
                 slope: slope / by,
             },
-            // A winding of which each speed takes less voltage.
+            // A winding that needs less voltage at each speed.
             Curve::Winding {
                 circuit,
                 torques,
@@ -152,7 +151,7 @@ impl Piece {
 }
 
 impl Limit {
-    /// From pieces in rising order without gaps; pieces without length are left out. An empty row allows no torque at all.
+    /// From pieces in rising order without gaps; pieces without length are dropped. An empty list allows no torque.
     pub fn new(pieces: impl IntoIterator<Item = Piece>) -> Self {
         let pieces = pieces.into_iter().filter(|piece| piece.to > piece.from);
         Self {
@@ -160,7 +159,7 @@ impl Limit {
         }
     }
 
-    /// The same torque up to a speed.
+    /// A constant torque up to a speed.
     pub fn level(torque: f64, to: f64) -> Self {
         Self::new([Piece::level(0.0, to, torque)])
     }
@@ -184,7 +183,7 @@ impl Limit {
     /// Torque (N·m) at a speed's magnitude (rad/s); zero beyond the end.
     #[inline]
     pub fn torque(&self, speed: f64) -> f64 {
-        // Two or three pieces: no search is faster than this.
+        // For two or three pieces a linear search is fastest.
         for piece in &self.pieces {
             if speed <= piece.to {
                 return piece.torque(speed);
@@ -245,7 +244,7 @@ const fn is_bent(piece: &Piece) -> bool {
 
 /// Bisection for a change of sign.
 fn crossings(difference: &impl Fn(f64) -> f64, from: f64, to: f64, bent: bool) -> Vec<f64> {
-    // Straight lines cross once; of curves, two crossings closer than this are not told apart.
+    // Straight lines cross once; of curves, two crossings closer than this are not distinguished.
     let parts = if bent { 32 } else { 1 };
     let place = |k: u32| from + (to - from) * (f64::from(k) / f64::from(parts));
     let mut found = Vec::new();

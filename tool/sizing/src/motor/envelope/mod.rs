@@ -1,13 +1,13 @@
 //! Torque-speed limits of a motor on a given supply and amplifier, in four quadrants.
 //!
-//! In order of preference the limit of the short-time torque comes from points (`peak_curve`), from the data sheet's corner
-//! speed and torque at the largest speed, or from the winding ([`Circuit`]). Where a figure is missing, a stated assumption
-//! stands in ([`Envelope::assumptions`]):
+//! In order of preference the limit of the short-time torque comes from points (`peak_curve`), from the data sheet's corner speed and torque at the
+//! largest speed, or from the winding ([`Circuit`]). Missing data are replaced by stated assumptions ([`Envelope::assumptions`]):
 //! - no maximum speed: the winding's no-load speed, else the rated speed;
 //! - no corner speed: the winding's voltage line, else the peak torque is available up to the rated speed;
 //! - no peak torque at maximum speed: the voltage line through the corner, else a straight line to the rated torque there;
 //! - no standstill torque: the rated torque;
-//! - the S1 torque, reduced for the site ([`Motor::derated`]), falls in a straight line from standstill to rated speed, and above that with constant power.
+//! - the S1 torque, reduced for the site ([`Motor::derated`]), falls in a straight line from standstill to rated speed, and above that with constant
+//!   power.
 //!
 //! Equations, units and sources: `docs/motor-limits.md`.
 
@@ -37,7 +37,7 @@ pub(crate) use segment::Segment;
 use build::Builder;
 use continuous::Continuous;
 
-/// Peak and continuous torque over speed. An infinite torque means that no limit is known.
+/// Peak and continuous torque over speed. An infinite torque means that there are no data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
     driving: Limit,
@@ -54,8 +54,8 @@ impl Envelope {
         Self::at(motor, None, &Site::default())
     }
 
-    /// The envelope of a motor on an amplifier at a supply. The bus voltage is the site's, else the amplifier's, else that
-    /// of the motor's data sheet.
+    /// The envelope of a motor on an amplifier at a supply. The bus voltage comes from the site, else from the amplifier, else from the motor's data
+    /// sheet.
     pub fn at(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         Builder::new(motor, amplifier, site).build()
     }
@@ -70,12 +70,12 @@ impl Envelope {
         self.capped(self.continuous.standstill, 0.0)
     }
 
-    /// The same in the surroundings of the data sheet, of which a share `factor` is left at the site.
+    /// The same in the surroundings of the data sheet; `factor` is the share left at the site.
     pub fn standstill_in_sheet(&self, factor: f64) -> f64 {
         self.capped(self.continuous.standstill / factor, 0.0)
     }
 
-    /// Assumptions for data that are not given.
+    /// Assumptions for missing data.
     pub fn assumptions(&self) -> Vec<String> {
         let sentences = self.assumptions.iter();
         sentences.map(|sentence| sentence(self.words)).collect()
@@ -97,7 +97,7 @@ impl Envelope {
         self.limit(torque * speed < 0.0).torque(speed.abs())
     }
 
-    /// |`torque`| as a share of the peak torque at `speed`; infinite where there is none.
+    /// |`torque`| as a share of the peak torque at `speed`; infinite if that is zero.
     #[inline]
     pub fn peak_used(&self, torque: f64, speed: f64) -> f64 {
         let limit = self.peak_torque(torque, speed);
@@ -130,7 +130,7 @@ impl Envelope {
         }
     }
 
-    /// A torque limited by the peak torque; one that is not known stays so.
+    /// A torque limited by the peak torque; an unknown one stays unknown.
     fn capped(&self, torque: f64, speed: f64) -> f64 {
         if torque.is_finite() {
             torque.min(self.driving.torque(speed))
@@ -145,20 +145,20 @@ impl Envelope {
 pub struct Prepared {
     /// Peak and continuous torque over speed.
     pub envelope: Envelope,
-    /// Torque with which the motor brakes in an emergency stop (N·m): an amplifier gives its peak current, however hot it is.
+    /// Torque with which the motor brakes in an emergency stop (N·m): an amplifier delivers its peak current at any temperature.
     pub stop: f64,
-    /// Current of a torque; `None`: no torque constant stated.
+    /// Current of a torque; `None` if no torque constant is given.
     pub torques: Option<CurrentCurve>,
-    /// The circuit that the envelope is made of; `None`: it comes from the data sheet's speeds and torques.
+    /// The circuit from which the envelope is computed; `None` if it comes from the data sheet's speeds and torques.
     pub circuit: Option<Circuit>,
-    /// The voltage of the supply against what motor and amplifier are made for.
+    /// The voltage of the supply against the voltages that motor and amplifier are made for.
     pub(crate) voltages: Voltages,
     /// Limits of the motor on each of its amplifiers, by key.
     amplified: Box<[(String, Self)]>,
 }
 
 impl Prepared {
-    /// The limits of a motor, with the amplifier that feeds it where one is chosen.
+    /// The limits of a motor, with its amplifier if one is chosen.
     pub fn new(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let builder = Builder::new(motor, amplifier, site);
         let (torques, circuit) = (builder.torques, builder.circuit());
@@ -183,7 +183,7 @@ impl Prepared {
         }
     }
 
-    /// That motor or amplifier is not made for the voltage of the supply, if that is known.
+    /// A message if motor or amplifier is known not to be made for the voltage of the supply.
     pub fn unfit(&self, rules: &RuleSet) -> Option<String> {
         let motor = ("motor", Rule::MotorVoltage, Some(self.voltages.motor));
         let amplifier = ("amplifier", Rule::AmplifierVoltage, self.voltages.amplifier);
@@ -199,7 +199,7 @@ impl Prepared {
         })
     }
 
-    /// With the same motor's limits on each of these amplifiers.
+    /// Adds the motor's limits on each of these amplifiers.
     #[must_use]
     pub fn with<'a>(
         mut self,
@@ -212,14 +212,14 @@ impl Prepared {
         self
     }
 
-    /// The limits on one of the amplifiers that were named, else those of the motor alone.
+    /// The limits on this amplifier if it was added, else on the motor alone.
     pub fn on(&self, amplifier: Option<&Amplifier>) -> &Self {
         let named = |a: &Amplifier| self.amplified.iter().find(|(key, _)| *key == a.key);
         amplifier.and_then(named).map_or(self, |(_, on)| on)
     }
 
-    /// Current (A, RMS of a three-phase motor) of a torque (N·m) at a speed (rad/s), with what weakens the field where the
-    /// envelope reckons with that. `None`: no torque constant stated.
+    /// Current (A, RMS of a three-phase motor) of a torque (N·m) at a speed (rad/s), including field weakening where the envelope uses it; `None` if
+    /// no torque constant is given.
     pub fn current(&self, torque: f64, speed: f64) -> Option<f64> {
         let along = self.torques?.current(torque);
         Some(match &self.circuit {
@@ -233,7 +233,7 @@ impl Prepared {
 }
 
 impl Catalogue {
-    /// Every motor's limits at the supply of the site, with each amplifier that it goes with, in the order of the motors.
+    /// Every motor's limits at the supply of the site, with each of its amplifiers, in the order of the motors.
     pub fn prepare(&self, site: &Site) -> Vec<Prepared> {
         let prepare = |(index, motor)| {
             let amplifiers = self.amplifiers_of(index).into_iter();

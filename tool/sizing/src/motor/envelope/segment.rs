@@ -1,4 +1,4 @@
-//! The S1 torque between two speeds, where it is one line or one hyperbola all along.
+//! The S1 torque between two speeds, where it is a single line or hyperbola.
 
 use super::continuous::Continuous;
 use super::{Envelope, Limit, Shape};
@@ -6,7 +6,7 @@ use super::{Envelope, Limit, Shape};
 /// A torque over speed between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Segment {
-    /// No limit is known.
+    /// No data.
     Unknown,
     /// A straight line with these torques at both ends (N·m).
     Line([f64; 2]),
@@ -15,8 +15,8 @@ pub(crate) enum Segment {
 }
 
 impl Envelope {
-    /// The S1 torque between two speeds (rad/s, not negative, not falling). `None`: more than one line or hyperbola, or the
-    /// voltage line of a winding, or not to be said without looking closer.
+    /// The S1 torque between two speeds (rad/s, not negative, not falling). `None` if it is more than one line or hyperbola, or the voltage line of a
+    /// winding, or if a simple test does not decide.
     pub(crate) fn continuous_segment(&self, speeds: [f64; 2]) -> Option<Segment> {
         let [from, to] = speeds;
         if from > self.max_speed {
@@ -26,7 +26,7 @@ impl Envelope {
             return None;
         }
         match self.continuous.segment(speeds)? {
-            // What is not known is not capped: see `Envelope::continuous_torque`.
+            // An unknown torque is not capped: see `Envelope::continuous_torque`.
             Segment::Unknown => Some(Segment::Unknown),
             heat => self.driving.caps(heat, speeds),
         }
@@ -59,7 +59,7 @@ impl Continuous {
     }
 }
 
-/// Between points, level before the first, with constant power beyond the last.
+/// Between points, constant before the first, with constant power beyond the last.
 fn points_segment(points: &[[f64; 2]], speeds: [f64; 2]) -> Option<Segment> {
     let [after, same] = speeds.map(|speed| points.partition_point(|p| p[0] < speed));
     if after != same {
@@ -83,7 +83,7 @@ fn level_or_line(torques: [f64; 2]) -> Segment {
     }
 }
 
-/// The lower of two, if it is the same one all along.
+/// The lower of two, if one is the lower everywhere.
 fn lower(one: Segment, other: Segment, speeds: [f64; 2]) -> Option<Segment> {
     match (one, other) {
         (Segment::Unknown, known) | (known, Segment::Unknown) => Some(known),
@@ -96,7 +96,7 @@ fn lower(one: Segment, other: Segment, speeds: [f64; 2]) -> Option<Segment> {
     }
 }
 
-/// Whether a line lies nowhere above another.
+/// Whether a line is nowhere above another.
 fn below(line: [f64; 2], other: [f64; 2]) -> bool {
     line[0] <= other[0] && line[1] <= other[1]
 }
@@ -115,7 +115,7 @@ fn lower_of_both(line: [f64; 2], power: f64, speeds: [f64; 2]) -> Option<Segment
 }
 
 impl Limit {
-    /// The lower of this limit and of a torque, if it is the same line or hyperbola between two speeds that the limit reaches.
+    /// The lower of this limit and a torque, if it is the same line or hyperbola between two speeds in the range of the limit.
     fn caps(&self, torque: Segment, speeds: [f64; 2]) -> Option<Segment> {
         let reached = self.pieces().iter().find(|piece| speeds[0] <= piece.to);
         let Some(piece) = reached else {
@@ -133,7 +133,7 @@ impl Limit {
     }
 }
 
-/// A torque that lies nowhere above a chord below the limit; where it may, the limit itself is no line.
+/// A torque that is nowhere above a chord below the limit; `None` otherwise, because the limit itself is not a line.
 fn under(torque: Segment, chord: [f64; 2], speeds: [f64; 2]) -> Option<Segment> {
     lower(torque, Segment::Line(chord), speeds).filter(|lower| *lower == torque)
 }

@@ -1,10 +1,10 @@
-//! The voltage limit as pieces: where it leaves the current limit, where it is straight, where it is concave.
+//! The voltage limit as pieces: cut where it leaves the current limit, where it is straight, where it is concave.
 
 use super::circuit::Circuit;
 use super::limit::{Curve, Limit, Piece, Shape};
 use crate::motor::winding::CurrentCurve;
 
-/// Steps in which a smooth stretch is looked at.
+/// Steps in which a smooth stretch is evaluated.
 const STEPS: u32 = 128;
 
 /// Limit by the circuit up to the speed `end` (rad/s), in or against the direction of speed.
@@ -19,7 +19,7 @@ pub(super) fn limit(circuit: &Circuit, torques: &CurrentCurve, braking: bool, en
     }
 }
 
-/// Without reactance current and speed are tied by a straight line: i = (V ∓ k_e·n)/r.
+/// Without reactance the relation of current and speed is linear: i = (V ∓ k_e·n)/r.
 fn straight(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> Limit {
     let Circuit {
         voltage,
@@ -57,7 +57,7 @@ fn straight(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) 
 fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> Limit {
     let current = |speed: f64| circuit.largest_current(speed, braking);
     let torque = |speed: f64| torques.torque(current(speed));
-    // Kinks: where the current limit is left or met, where saturation begins, where torque per volt is at its most.
+    // Kinks: where the current limit is left or met, where saturation begins, at maximum torque per volt.
     let limited = |speed: f64| current(speed) >= circuit.current;
     let saturated = |speed: f64| current(speed) > torques.knee_current();
     let mut cuts = changes(&limited, 0.0, end);
@@ -66,7 +66,7 @@ fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> L
         let at_top = |speed: f64| circuit.torque_per_volt(speed, braking).is_some();
         cuts.extend(changes(&at_top, 0.0, end));
     }
-    // The resistance matters up to here, which may be a small part of the whole.
+    // The resistance matters up to this speed, which may be a small part of the range.
     let resistive = 2.0 * circuit.drop / circuit.reactance;
     cuts.extend([resistive].into_iter().filter(|n| *n < end));
     cuts.extend([0.0, end]);
@@ -79,7 +79,7 @@ fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> L
             pieces.push(Piece::level(from, to, torques.torque(circuit.current)));
             continue;
         }
-        // Up to its top the limit of braking rises: cut there, so that no piece turns.
+        // The braking limit rises up to its maximum: cut there, so that every piece is monotonic.
         let step = (to - from) / f64::from(STEPS);
         let rises = |speed: f64| torque((speed + step).min(to)) > torque(speed);
         let mut tops = changes(&rises, from, to);
@@ -104,7 +104,7 @@ fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> L
     Limit::new(pieces)
 }
 
-/// The speed `k` steps from the beginning; the last is the end to the last digit.
+/// The speed at step `k`; the last step is exactly the end.
 fn place(from: f64, to: f64, k: u32) -> f64 {
     match k {
         STEPS => to,
@@ -136,8 +136,8 @@ fn changes(yes: &impl Fn(f64) -> bool, from: f64, to: f64) -> Vec<f64> {
     found
 }
 
-/// A smooth stretch, cut into runs that are concave all along and runs that are not. A run is called concave only where every
-/// second difference, half a step beyond its ends included, is clearly below zero.
+/// A smooth stretch, cut into runs that are concave throughout and runs that are not. A run counts as concave only if every second difference, also
+/// half a step beyond its ends, is clearly below zero.
 fn shapes(torque: &impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<(f64, f64, Shape)> {
     const CLEARLY: f64 = 1e-9;
     let place = |k: u32| place(from, to, k);

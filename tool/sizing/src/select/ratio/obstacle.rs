@@ -10,7 +10,7 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::number::numerics::edge;
 use jred_machine::number::rounding::significant;
 
-/// Parts into which a step of the tried ratios is cut where a use of a limit is least.
+/// Parts into which a step of the grid of ratios is cut where the use of a limit is least.
 const FINER: u32 = 200;
 
 /// The obstacle at every ratio.
@@ -18,18 +18,18 @@ const FINER: u32 = 200;
 pub enum Obstacle {
     /// A rule violated at every ratio: the least share of its limit, and the ratio there.
     Always {
-        /// The rule; of several that which is missed by most.
+        /// The rule; of several, the most violated one.
         rule: Rule,
         /// The share.
         used: f64,
         /// The ratio.
         ratio: f64,
     },
-    /// Two rules that are satisfied at different ratios only.
+    /// Two rules that are satisfied only at different ratios.
     Apart {
-        /// The rule that needs a large ratio, and the least that will do.
+        /// The rule that needs a large ratio, and its least ratio.
         least: (Rule, f64),
-        /// The rule that needs a small one, and the largest that will do.
+        /// The rule that needs a small ratio, and its largest ratio.
         most: (Rule, f64),
     },
     /// No ratio satisfies all rules together, although each is satisfied at some ratio; the closest ratio.
@@ -44,7 +44,7 @@ pub enum Obstacle {
 }
 
 impl Obstacle {
-    /// In words.
+    /// The message.
     pub fn words(&self) -> String {
         let shown = |x: f64| significant(x, 3);
         match *self {
@@ -156,7 +156,7 @@ impl Trial<'_> {
         })
     }
 
-    /// The same with a ratio.
+    /// The same for a ratio.
     fn one(&self, rule: Rule, ratio: f64) -> (bool, f64) {
         self.point(rule, &self.findings(ratio))
     }
@@ -176,7 +176,7 @@ impl Trial<'_> {
     }
 }
 
-/// The ratio with the least value of a function, and that value: the best of those tried, closed in.
+/// The ratio with the least value of a function, and that value: the best of the grid, refined.
 fn minimum(ratios: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
     let of = |ratio: f64| (ratio, value(ratio));
     let smaller = |a: (f64, f64), b: (f64, f64)| if b.1 < a.1 { b } else { a };

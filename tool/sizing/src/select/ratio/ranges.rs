@@ -1,5 +1,5 @@
-//! Ranges of ratios in which a motor satisfies its rules: a gearbox of any ratio is combined with the motor, and bisection
-//! finds the ratios at which a rule changes its verdict.
+//! Ranges of ratios in which a motor satisfies its rules. A gearbox of any ratio is combined with the motor, and bisection finds the ratios at which
+//! a rule changes its verdict.
 
 use super::{Gear, Range};
 use crate::catalogue::Drive;
@@ -13,14 +13,13 @@ use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
 use jred_machine::number::numerics::edge;
 
-/// The ratios that are looked at.
+/// Range of ratios that is searched.
 const LOOKED_AT: Range = [0.01, 10_000.0];
 
-/// Ratios that are tried from one end to the other, in equal ratios: neighbours differ by 2.3 %. A narrower suitable range
-/// is found only if it contains i*.
+/// Number of steps over that range, in equal ratios: neighbours differ by 2.3 %. A narrower suitable range is found only if it contains i*.
 const TRIED: u32 = 600;
 
-/// The ratios that are tried, rising; `best` among them.
+/// The tried ratios, rising, including `best`.
 pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
     let [from, to] = LOOKED_AT;
     let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
@@ -41,7 +40,7 @@ pub struct Found {
     pub above: Option<Rule>,
 }
 
-/// A motor, to be tried with any ratio.
+/// A motor to be combined with any ratio.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<'a> {
     /// The duty.
@@ -120,7 +119,7 @@ impl Trial<'_> {
 }
 
 impl Gear {
-    /// A gearbox of this kind that limits nothing.
+    /// A gearbox with these data and no limits.
     fn with_ratio(self, ratio: f64) -> Gearbox {
         Gearbox {
             ratio,

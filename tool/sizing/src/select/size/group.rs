@@ -21,11 +21,11 @@ pub struct Group<'c> {
     /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
     limit: Option<Order<'c>>,
     pub(super) rest: Vec<Placed<'c>>,
-    /// Of all drives; of refused ones nothing is counted.
+    /// Counts over all suitable drives; for refused ones nothing is counted.
     survey: Survey<'c>,
 }
 
-/// A drive and its id: small, for of a large catalogue nearly all are no more than this.
+/// A drive and its id; small, because this is all that is stored for most drives of a large catalogue.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed<'c> {
     pub(super) drive: Drive<'c>,
@@ -56,7 +56,7 @@ impl<'c> Unranked<'c> {
 }
 
 impl<'c> Group<'c> {
-    /// All of a kind, in order.
+    /// All drives of one kind, in order.
     pub(crate) fn of(all: Vec<Candidate<'c>>) -> Self {
         let mut group = Self::none();
         for candidate in &all {
@@ -77,7 +77,7 @@ impl<'c> Group<'c> {
         }
     }
 
-    /// Adds a drive that is not fully evaluated, and its outcome as far as it is known.
+    /// Adds a drive that is not fully evaluated, and its outcome as far as known.
     pub(super) fn add(&mut self, drive: Unranked<'c>, outcome: &Outcome) {
         self.count(&drive, outcome);
         self.put(drive);
@@ -97,7 +97,7 @@ impl<'c> Group<'c> {
         self.near.push(drive);
         if self.near.len() == 4 * NEAR {
             let (_, next, _) = self.near.select_nth_unstable_by_key(NEAR, |d| d.bound);
-            // No higher than before: all that is near lies below the former limit.
+            // No higher than before: all drives in `near` lie below the former limit.
             self.limit = Some(next.bound);
             self.rest
                 .extend(self.near.drain(NEAR..).map(|d| d.placed()));
@@ -114,8 +114,8 @@ impl<'c> Group<'c> {
         self.rest.extend(other.rest);
     }
 
-    /// Sorts the first drives, evaluating fully only those whose bounds allow them to be among the first. Bounds of the
-    /// rest are worked out once more if need be.
+    /// Sorts the first drives, evaluating fully only those whose bounds allow them to be among the first. The bounds of the rest are recomputed if
+    /// necessary.
     pub(super) fn rank(
         &mut self,
         judge: impl Fn(&Placed<'c>) -> Candidate<'c>,
@@ -129,7 +129,7 @@ impl<'c> Group<'c> {
             if (self.limit).is_none_or(|limit| last.is_some_and(|last| last <= limit)) {
                 break;
             }
-            // The bounds were not near enough: on to many more.
+            // The bounds were not close enough: continue with many more drives.
             self.near = self.rest.drain(..).map(|drive| bound(&drive)).collect();
             let more = 4 * self.first.len();
             self.limit = None;
@@ -155,28 +155,28 @@ impl<'c> Group<'c> {
         self.first.len() + self.rest.len()
     }
 
-    /// Whether there is none.
+    /// Whether it is empty.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The very first.
+    /// The best drive.
     pub fn first(&self) -> Option<&Candidate<'c>> {
         self.first.first()
     }
 
-    /// The first of them in order, at least [`FIRST`] or all; after [`Selection::complete`](super::Selection::complete) all.
+    /// The first drives in order, at least [`FIRST`] or all; after [`Selection::complete`](super::Selection::complete) all.
     pub fn known(&self) -> &[Candidate<'c>] {
         &self.first
     }
 
-    /// All drives, those beyond [`Group::known`] in no order.
+    /// All drives; those beyond [`Group::known`] are unordered.
     pub fn drives(&self) -> impl Iterator<Item = Drive<'c>> {
         let first = self.first.iter().map(|c| c.drive);
         first.chain(self.rest.iter().map(|u| u.drive))
     }
 
-    /// What the suitable drives have in common.
+    /// Counts over the suitable drives.
     pub(super) const fn survey(&self) -> &Survey<'c> {
         &self.survey
     }

@@ -7,8 +7,7 @@ use crate::catalogue::{Drive, DriveId};
 use crate::judge::Outcome;
 
 jred_machine::words! {
-    /// How certain it is that a drive that violates no rule can be bought as it is. The more certain come first, whatever else
-    /// drives are ranked by.
+    /// How certain it is that a drive that violates no rule can be bought as it is. The more certain drives come first in any ranking.
     #[derive(PartialOrd, Ord, Hash)]
     pub enum Certainty {
         /// The voltage is stated, and all figures are the makers' own.
@@ -26,7 +25,7 @@ impl Certainty {
     /// All, the most certain first.
     pub const ALL: [Self; 4] = [Self::Makers, Self::Others, Self::Pairing, Self::Voltage];
 
-    /// That of a drive with this outcome.
+    /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
         if outcome.voltage_unknown {
             Self::Voltage
@@ -40,25 +39,27 @@ impl Certainty {
     }
 }
 
-/// Sort key of drives: suitable ones by certainty, then by size: the smaller motor, for the same motor without warnings first, then
-/// the smaller amplifier and the smaller gearbox, then mass and price where they are known. Refused ones by the number of limits that
-/// no share can be given of, by the largest use of a limit, then by size. Ties are broken by the keys, so that the order depends
-/// neither on the last digits of a figure nor on the division of the work.
+/// Sort key of drives.
+///
+/// Suitable drives are sorted by certainty, then by size: the smaller motor, for the same motor without warnings first, then the smaller amplifier
+/// and the smaller gearbox, then mass and price where known. Refused drives are sorted by the number of violated limits without a share, by the
+/// largest use of a limit, then by size. Ties are broken by the keys, so that the order depends neither on the last digits of a figure nor on the
+/// division of the work.
 #[derive(Clone, Copy, Debug)]
 pub struct Order<'c> {
-    /// Of those refused none.
+    /// `None` for refused drives.
     certainty: Option<Certainty>,
-    /// Of those refused.
+    /// For refused drives.
     beyond: u8,
     share: Figure,
-    /// Of those that fit.
+    /// For suitable drives.
     warns: bool,
     power: Figure,
     drive: Drive<'c>,
     pub(super) id: DriveId,
 }
 
-/// A figure that is not negative with the digits that a data sheet has: the bits are in the order of the figures.
+/// A non-negative figure with the precision of a data sheet; its bits have the order of the figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Figure(u32);
 
@@ -69,7 +70,7 @@ impl Figure {
         Self((value as f32).to_bits())
     }
 
-    /// Last where there is none.
+    /// Last without a value.
     const fn known(value: Option<f64>) -> Self {
         match value {
             Some(value) => Self::of(value),
@@ -79,12 +80,12 @@ impl Figure {
 }
 
 impl<'c> Order<'c> {
-    /// That of a candidate.
+    /// The key of a candidate.
     pub fn of(candidate: &Candidate<'c>) -> Self {
         Self::from(candidate.drive, &candidate.outcome, candidate.id)
     }
 
-    /// The same of another catalogue's or a longer-lived copy of the drive.
+    /// The same key for another catalogue's or a longer-lived copy of the drive.
     pub fn on<'d>(&self, drive: Drive<'d>) -> Order<'d> {
         Order {
             drive,
@@ -97,20 +98,19 @@ impl<'c> Order<'c> {
         }
     }
 
-    /// Whether a drive that fits is as certain as another one that does, its motor no larger and without more warnings, whatever else
-    /// it consists of.
+    /// Whether a suitable drive is as certain as another one, with a motor no larger and no more warnings, whatever its other parts.
     pub fn is_as_good_as(&self, other: &Order) -> bool {
         let of = |order: &Order| (order.certainty, order.power, order.warns);
         of(self) <= of(other)
     }
 
-    /// Which drive.
+    /// The drive's id.
     pub(super) const fn id(&self) -> DriveId {
         self.id
     }
 
-    /// The order of a drive with this outcome. It does not fall when shares of limits or their number grow: what is known of an
-    /// outcome so far bounds it from below. Of a drive that fits it needs no share at all.
+    /// The key of a drive with this outcome. It does not fall when shares of limits or their number grow, so a partial outcome gives a lower bound. A
+    /// suitable drive needs no share.
     pub(super) fn from(drive: Drive<'c>, outcome: &Outcome, id: DriveId) -> Self {
         let fails = outcome.fails();
         Self {
@@ -128,7 +128,7 @@ impl<'c> Order<'c> {
         }
     }
 
-    /// Everything behind the power of the motor; rarely needed, and so not kept.
+    /// All criteria after the power of the motor; rarely needed, so not stored.
     fn rest(&self) -> (Figure, bool, [Figure; 4]) {
         let Drive {
             motor,

@@ -1,11 +1,11 @@
-//! What the suitable drives have in common, all of them: how many are how certain, and which rules are not checked for how many.
+//! Counts over all suitable drives: by certainty, and by rules that are not checked.
 
 use super::group::Unranked;
 use super::order::Certainty;
 use crate::judge::Outcome;
 use jred_machine::model::rule::Rule;
 
-/// Counts of drives that fit, kept while drives are checked.
+/// Counts of suitable drives, updated while drives are checked.
 #[derive(Clone, Debug)]
 pub(super) struct Survey<'c> {
     classes: [Class<'c>; Certainty::ALL.len()],
@@ -17,7 +17,7 @@ pub(super) struct Survey<'c> {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Class<'c> {
     pub(super) count: usize,
-    /// The first in order: of a drive that fits its place is known without the shares of its limits.
+    /// The first in order: the rank of a suitable drive does not depend on the shares of its limits.
     pub(super) first: Option<Unranked<'c>>,
 }
 
@@ -25,12 +25,12 @@ pub(super) struct Class<'c> {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gap<'c> {
     pub(super) count: usize,
-    /// One of them, always the same.
+    /// One of them, independent of the division of the work.
     pub(super) example: Option<Unranked<'c>>,
 }
 
 impl<'c> Survey<'c> {
-    /// Of no drive, without allocation.
+    /// Counts of no drive, without allocation.
     pub(super) const EMPTY: Self = Self {
         classes: [const {
             Class {
@@ -45,7 +45,7 @@ impl<'c> Survey<'c> {
         partly_checked: 0,
     };
 
-    /// Adds a drive that fits.
+    /// Adds a suitable drive.
     pub(super) fn add(&mut self, drive: &Unranked<'c>, outcome: &Outcome) {
         let class = &mut self.classes[Certainty::of(&drive.drive, outcome) as usize];
         class.count += 1;
@@ -95,7 +95,7 @@ impl<'c> Class<'c> {
 }
 
 impl<'c> Gap<'c> {
-    /// The example is the first in the catalogue, however the work is divided.
+    /// The example is the first in the catalogue, regardless of how the work is divided.
     fn add(&mut self, drive: &Unranked<'c>) {
         self.count += 1;
         if self

@@ -33,14 +33,14 @@ impl Probability {
     }
 }
 
-/// A quantile of values in rising order, by straight lines between them (type 7 of Hyndman and Fan); `None` of none.
+/// A quantile of values in rising order, interpolated linearly (type 7 of Hyndman and Fan); `None` without values.
 pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     let place = part * sorted.len().checked_sub(1)? as f64;
     let below = place.floor() as usize;
     let low = *sorted.get(below)?;
     let high = sorted.get(below + 1).copied().unwrap_or(low);
     let rest = place - place.floor();
-    // Two infinite shares have no difference.
+    // Two equal infinite shares have no difference.
     Some(if rest == 0.0 || low.total_cmp(&high).is_eq() {
         low
     } else {
@@ -51,7 +51,7 @@ pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
 /// Counts and values, gathered row by row.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Column of the verdict; those of the rules begin two behind.
+    /// Column of the verdict; the rules begin two columns after it.
     verdict: usize,
     /// Machines.
     pub machines: u64,
@@ -66,7 +66,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// For rows with the verdict in this column, followed by this number of rules.
+    /// For rows with the verdict in this column, and this number of rules.
     pub fn new(verdict: usize, rules: usize) -> Self {
         Self {
             verdict,

@@ -1,4 +1,4 @@
-//! Where within a panel the power through a stage with losses, or at the input, changes its sign.
+//! Times within a panel at which the power through a stage with losses, or at the input, changes sign.
 
 use super::stretch::Stretch;
 use super::{End, Panels};
@@ -8,15 +8,15 @@ use crate::analysis::duty::moving::{Evaluated, Moving};
 use crate::number::numerics;
 use crate::number::parabola::Parabola;
 
-/// A torque that is a smaller share of the largest is no torque whose sign counts: rounding.
+/// Share of the largest torque below which the sign of a torque is rounding.
 pub(super) const UNSIGNED: f64 = 1e-11;
 
-/// Panels are cut where a torque that does not change its sign may do so between the instants: where the parabola through three of them comes
-/// nearer to zero than this share of the middle one.
+/// Share of the middle value: where the parabola through three instants comes closer to zero than this, the torque may change sign between them, and
+/// the panel is cut there.
 const NEAR_ZERO: f64 = 0.1;
 
 impl Panels<'_, '_> {
-    /// The torques whose signs decide on the sides of losses: those of the stages with losses, and that at the input.
+    /// The torques whose signs determine losses: of the stages with losses, and at the input.
     pub(super) fn flows_of(&self, instant: &Instant) -> Vec<f64> {
         let mut flows = vec![instant.input_torque];
         let train = &self.moving.file.drive_train;
@@ -26,7 +26,7 @@ impl Panels<'_, '_> {
         flows
     }
 
-    /// A flow at a time.
+    /// A power flow at a time.
     fn flow(&mut self, t: f64, which: usize) -> Result<f64, Fault> {
         let now = self.moving.at(t)?;
         Ok(self
@@ -36,7 +36,7 @@ impl Panels<'_, '_> {
             .unwrap_or(0.0))
     }
 
-    /// The times within the panel at which the power through a stage with losses, or at the input, changes its sign.
+    /// The times within the panel at which the power through a stage with losses, or at the input, changes sign.
     pub(super) fn changes(
         &mut self,
         stretch: &Stretch,
@@ -100,7 +100,7 @@ impl Panels<'_, '_> {
             }
         }
         cuts.sort_by(f64::total_cmp);
-        // Those that two stages share are one.
+        // Changes common to two stages count once.
         let near = 1e-9 * (last.t - first.t);
         cuts.dedup_by(|next, before| *next - *before <= near.max(4.0 * f64::EPSILON * next.abs()));
         cuts.retain(|t| *t - first.t > near && last.t - *t > near);

@@ -1,19 +1,19 @@
-//! A smooth stretch of the motion, and where its panels begin and end at first.
+//! A smooth stretch of the motion, and the initial borders of its panels.
 
 use crate::analysis::duty::stretches::hair;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 
-/// Rounding of a number of panels, as a share of it.
+/// Relative rounding of a number of panels.
 const WHOLE: f64 = 1e-12;
 
 /// A smooth stretch of the motion.
 pub(super) struct Stretch {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// Its times are taken from inside.
+    /// Times that are moved inside.
     pub(super) inside: [f64; 2],
-    /// Whether torques have a sign that counts.
+    /// Whether the signs of torques matter.
     pub(super) moves: bool,
     pub(super) rows: Vec<f64>,
 }
@@ -47,7 +47,7 @@ impl Stretch {
         self.rows.get(first..end).unwrap_or_default()
     }
 
-    /// Where panels begin and end at first: about so many.
+    /// Initial borders of about `count` panels.
     pub(super) fn borders(&self, count: f64) -> Vec<f64> {
         let mut borders = vec![self.from];
         let mut k = 1.0;
@@ -60,7 +60,7 @@ impl Stretch {
             } else {
                 row
             };
-            // Between two rows they are even.
+            // Between two rows the panels are equal.
             let last = borders[borders.len() - 1];
             let border = border.filter(|t| *t > last && *t < self.to);
             let even = (even > last && even < self.to).then_some(even);
@@ -73,7 +73,7 @@ impl Stretch {
     }
 }
 
-/// A number, whole where it is but for roundings.
+/// Rounds a number that is whole except for rounding.
 pub(super) fn near_whole(count: f64) -> f64 {
     if (count - count.round()).abs() < WHOLE * count {
         count.round()

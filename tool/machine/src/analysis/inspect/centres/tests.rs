@@ -3,7 +3,7 @@
 use super::*;
 use std::f64::consts::TAU;
 
-/// ψ = φ + 1.5·sin φ turns on and goes back where cos φ < −2/3.
+/// ψ = φ + 1.5·sin φ turns without end and moves back where cos φ < −2/3.
 #[test]
 fn a_link_that_turns_on_and_goes_back() {
     let angle = |phi: f64| {
@@ -43,7 +43,7 @@ fn a_slide_that_advances_the_other_way() {
     assert!((found.back - back).abs() < 1e-15, "{found:?}");
 }
 
-/// Rests whose ends start with a jump, a slope, or softly have the edges that they were given.
+/// Rests that end with a jump, a slope or softly have the given edges.
 #[test]
 fn edges_of_a_rest() {
     for power in 1..5 {
@@ -64,7 +64,7 @@ fn edges_of_a_rest() {
     assert!((found - 0.3).abs() < 1e-12, "{found}");
 }
 
-/// A rest that is not quite still, by its roundings, has its edges where it leaves them.
+/// A rest that is still except for rounding ends where its speed exceeds the rounding.
 #[test]
 fn edges_of_a_rest_with_noise() {
     let speed = |phi: f64| {

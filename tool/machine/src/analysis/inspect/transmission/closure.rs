@@ -5,18 +5,17 @@ use jred::machine::{Joint, Marker, Wrench};
 use super::Block;
 use super::twists::{Twists, direction, pivot};
 
-/// How fast each variable opens the joints that are left.
+/// Rates at which each variable opens the remaining joints.
 pub(super) struct System {
     pub(super) variables: usize,
     pub(super) closures: Vec<Closure>,
 }
 
-/// One joint that is left.
+/// One remaining joint.
 pub(super) struct Closure {
-    /// For each of its constraints how fast each variable opens it.
+    /// For each of its constraints, the rate at which each variable opens it.
     pub(super) rows: Vec<Vec<f64>>,
-    /// Squares of the speeds with which each variable moves its bodies against each other, before what the joint lets pass is
-    /// taken away.
+    /// Squared relative speeds of its bodies for each variable, including motion that the joint allows.
     pub(super) full: Vec<f64>,
     /// Whether it is a contact or a mesh.
     pub(super) contact: bool,
@@ -60,7 +59,7 @@ impl Closure {
         }
     }
 
-    /// The power of one unit of the transmission's effort.
+    /// Power of one unit of the transmission's effort.
     fn transmission(wrenches: &[Wrench; 2], motion: &Twists) -> Self {
         let (mut row, mut full) = (Vec::new(), Vec::new());
         for k in 0..motion.variables {

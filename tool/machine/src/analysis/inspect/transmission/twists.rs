@@ -1,14 +1,14 @@
-//! How the links of a group move with each velocity that it is free to have.
+//! Motion of a group's links for each of its free velocities.
 
 use jred::machine::{Body, Frames, Joint, Marker};
 
 /// Velocity [v_x, v_y] of the body's point at the global origin, and angular velocity.
 type Twist = [f64; 3];
 
-/// How the links of a group move with each of its variables.
+/// Motion of a group's links for each of its variables.
 pub(super) struct Twists<'a> {
     pub(super) frames: &'a Frames,
-    /// For links of the group: their twist for each variable, once they are attached.
+    /// Twists of the group's links for each variable, once they are attached.
     of: Vec<Option<Vec<Twist>>>,
     members: &'a [usize],
     pub(super) variables: usize,
@@ -29,8 +29,8 @@ impl<'a> Twists<'a> {
             .is_none_or(|k| !self.members.contains(&k) || self.of[k].is_some())
     }
 
-    /// The joint to attach the next link by: one whose first or second body is placed, guides before pins, so that every
-    /// variable is an angle of a link or a way along a guide.
+    /// The joint that attaches the next link: one whose first or second body is placed, guides before pins, so that every variable is an angle of a
+    /// link or a travel along a guide.
     pub(super) fn next_joint(
         &mut self,
         joints: &[Joint],
@@ -56,7 +56,7 @@ impl<'a> Twists<'a> {
         if let Some((_, place)) = best {
             return Some(place);
         }
-        // A link that only contacts hold moves freely: along x, along y, and about its origin.
+        // A link with contacts only moves freely: along x, along y, and about its origin.
         let loose = self.members.iter().find(|&&k| self.of[k].is_none());
         if let Some(&link) = loose {
             let frame = &self.frames[link];
@@ -70,7 +70,7 @@ impl<'a> Twists<'a> {
         None
     }
 
-    /// The body's twist for one variable; placed bodies stand still.
+    /// The body's twist for one variable; placed bodies are at rest.
     pub(super) fn twist(&self, body: Body, variable: usize) -> Twist {
         let moving = body.link().and_then(|k| self.of[k].as_ref());
         moving
@@ -84,7 +84,7 @@ impl<'a> Twists<'a> {
         [x - turn * at[1], y + turn * at[0]]
     }
 
-    /// Attaches the body of the joint that is not placed yet.
+    /// Attaches the joint's body that is not placed yet.
     pub(super) fn attach(&mut self, joint: &Joint, held: bool) {
         let bodies = joint.bodies();
         let (parent, child) = if self.is_placed(bodies[0]) {
@@ -143,7 +143,7 @@ pub(super) fn direction(marker: &Marker, frames: &Frames) -> [f64; 2] {
     marker.axis(frames).map(|c| c.value)
 }
 
-/// The point about which the joint lets its bodies turn.
+/// The point about which the bodies of the joint may turn.
 pub(super) fn pivot(joint: &Joint, frames: &Frames) -> [f64; 2] {
     match joint {
         Joint::Revolute([a, _]) | Joint::PinInSlot([a, _]) => position(a, frames),

@@ -1,5 +1,5 @@
-//! Where the equations of motion bend: where the power through a stage with losses or through the motor's gearbox turns, where the motor's
-//! torque over its speed has a corner, and where a point that friction acts on turns back.
+//! Bends of the equations of motion: where the power through a stage with losses or through the motor's gearbox reverses, where the motor's
+//! torque-speed curve has a corner, and where a point under friction turns back.
 
 use jred::Error;
 use jred::machine::{Action, Mechanism as _};
@@ -11,10 +11,10 @@ use crate::analysis::simulate::geared::Together;
 use crate::analysis::simulate::point::Points;
 use crate::model::motor::Motor;
 
-/// The direction along which the velocity of a point is taken, as a unit vector: none that a guide has.
+/// The direction of the evaluated velocity component, as a unit vector that no guide has.
 const ALONG: [f64; 2] = [0.540_302_305_868_139_8, 0.841_470_984_807_896_5];
 
-/// What of machines and their motor bends.
+/// The parts of machines and their motor that have bends.
 pub(super) struct Bends {
     /// Speeds of the motor.
     speeds: Vec<f64>,
@@ -44,7 +44,7 @@ impl Bends {
 }
 
 impl<'a, M: Motor> Plant<'a, M> {
-    /// What passes zero where the equations of motion bend, each as a share of what it is made of; the same list at every state.
+    /// Values that pass zero where the equations of motion bend, each relative to its terms; the same list at every state.
     pub(in crate::analysis) fn bends_under(
         &self,
         moment: &Moment,
@@ -67,7 +67,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         Ok(values)
     }
 
-    /// The same of the torque that a motion asks for.
+    /// The same for the torque required by a motion.
     pub(in crate::analysis::simulate) fn bends_required(
         &self,
         moment: &Moment,
@@ -89,7 +89,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         Ok(values)
     }
 
-    /// What each stage with losses, and the motor's gearbox, delivers.
+    /// Output of each stage with losses, and of the motor's gearbox.
     fn flows(
         &self,
         points: &Points<'a>,
@@ -127,7 +127,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         flows
     }
 
-    /// The velocities, by that of the drive link, of the points and links on which loads act against the motion.
+    /// The velocities, divided by the drive link's, of the points and links under motion-opposing loads.
     fn turning_back(
         &self,
         moment: &Moment,

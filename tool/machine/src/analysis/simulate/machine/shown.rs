@@ -1,4 +1,4 @@
-//! What is shown of a machine under its motor: the columns of a row, and the motor at work.
+//! Output of a machine under its motor: the columns of a row, and the state of the motor.
 
 use jred::Error;
 use jred::machine::motion::State as Moving;
@@ -12,7 +12,7 @@ use crate::model::motor::Motor;
 use crate::number::columns::{Column, Quantity};
 
 impl<M: Motor> Plant<'_, M> {
-    /// What the motor does at a state under a torque at its shaft; `asked` is what a controller asks for.
+    /// The motor at a state, with a torque at its shaft; `asked` is the controller's request.
     fn working(
         &self,
         moment: &Moment,
@@ -30,13 +30,13 @@ impl<M: Motor> Plant<'_, M> {
             speed: omega * self.ratio(),
             torque,
             asked,
-            // Held at rest, friction takes any share of it.
+            // If friction holds the machine at rest, it may take any share.
             input_torque: now.map_or(torque * self.motor.ratio(), |now| now.input_torque),
             error: None,
         })
     }
 
-    /// The same at a time: behind the switching off the torque is the brake's, and the motor has none.
+    /// The same at a time: after the motor is switched off the torque is the brake's, and the motor has none.
     pub(in crate::analysis::simulate) fn working_at(
         &self,
         moment: &Moment,
@@ -77,7 +77,7 @@ impl<M: Motor> Plant<'_, M> {
         own.into_iter().chain(positions).collect()
     }
 
-    /// That of the drive link.
+    /// Coordinate of the drive link.
     fn coordinate(&self) -> Coordinate {
         self.machines.first.machine.mechanism().coordinate()
     }

@@ -1,4 +1,4 @@
-//! Positions at which a force or the mechanism is not smooth: no step of the integrator passes over one.
+//! Positions at which a force or the mechanism is not smooth: no step of the integrator crosses one.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::analysis::simulate::geared::{Geared, Together};
 use crate::number::numerics;
 use crate::number::numerics::dormand_prince::Point;
 
-/// Share of a position by which an edge must be ahead, or is behind after it was passed: some roundings.
+/// Relative distance at which an edge is still ahead, or behind after it was passed: some rounding errors.
 const HAIR: f64 = 4e-15;
 
 /// The edges of each machine.
@@ -18,7 +18,7 @@ pub(super) struct Edges<'a>(Vec<Machine<'a>>);
 
 struct Machine<'a> {
     geared: Geared<'a>,
-    /// Positions of its own drive link, in order; of one that turns within a turn.
+    /// Positions of its own drive link, sorted; for a turning one within a turn.
     places: Vec<f64>,
     turns: bool,
 }
@@ -28,7 +28,7 @@ impl<'a> Edges<'a> {
         let all = machines.all().map(|geared| {
             let file = geared.file;
             let turns = file.machine.domain() == Domain::Turn;
-            // The machines of the schedule have other loads, and so other edges.
+            // The scheduled machines have other loads, and so other edges.
             let machines = std::iter::once(&file.machine).chain(file.schedule.machines());
             let edges = machines.flat_map(|machine| (0..).map_while(|k| machine.edge(k)));
             let edges = edges.map(|edge| if turns { edge.rem_euclid(TAU) } else { edge });
@@ -44,7 +44,7 @@ impl<'a> Edges<'a> {
         Self(all.filter(|machine| !machine.places.is_empty()).collect())
     }
 
-    /// The first edge ahead of a position of the first drive link in a direction; infinitely far if there is none.
+    /// The first edge ahead of a position of the first drive link in a direction; infinite if no edge is ahead.
     pub(super) fn ahead(&self, phi: f64, direction: f64) -> f64 {
         let nearest = self.0.iter().map(|machine| {
             let [own, ..] = machine.geared.state([phi, 0.0, 0.0]);
@@ -86,7 +86,7 @@ impl<P> Run<'_, P> {
         (phi - self.edge) * self.direction >= 0.0
     }
 
-    /// The state on the edge, a hair behind it, which lies in the integrator's step between these two.
+    /// The state just behind the edge, which lies in the integrator's step between these two.
     pub(super) fn on_edge<const N: usize>(
         &self,
         start: Point<N>,
@@ -102,7 +102,7 @@ impl<P> Run<'_, P> {
         Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
     }
 
-    /// The state at a position that the drive link reaches in the integrator's step between these two.
+    /// The state at a position within the integrator's step between these two.
     pub(super) fn on_place<const N: usize>(
         &self,
         place: f64,

@@ -7,7 +7,7 @@ use crate::analysis::simulate::SimulationError;
 use crate::analysis::simulate::error::stopped;
 use crate::number::numerics::dormand_prince::Point;
 
-/// The most steps in all, beside some for each row: some ten seconds.
+/// Most steps in total, besides some for each row: some ten seconds.
 const MOST_IN_ALL: u64 = 1_000_000;
 
 impl<P> Run<'_, P> {

@@ -1,4 +1,4 @@
-//! Shows the motor to those who look at it.
+//! Passes the motor's state to the observers.
 
 use super::{Plant, Run};
 use crate::analysis::simulate::SimulationError;
@@ -9,7 +9,7 @@ use crate::number::numerics;
 use crate::number::numerics::dormand_prince::Point;
 
 impl<P> Run<'_, P> {
-    /// Shows the motor to those who look at it, from one step to the next.
+    /// Passes the motor's state to the observers, from one step to the next.
     pub(super) fn observe<const N: usize>(
         &mut self,
         from: &Point<N>,
@@ -67,7 +67,7 @@ impl<P> Run<'_, P> {
         Ok(())
     }
 
-    /// The speed of which it is to be said when it is reached, as long as it is not.
+    /// The speed to report when it is reached, until then.
     fn speed_to_reach(&self) -> Option<f64> {
         self.to_speed.filter(|_| self.reached.is_none())
     }

@@ -1,4 +1,4 @@
-//! What a simulation needs to know of a machine under its motor.
+//! Interface of a machine under its motor for a simulation.
 
 use jred::Error;
 
@@ -10,10 +10,10 @@ use crate::analysis::simulate::observe::Working;
 use crate::analysis::simulate::simulated::Missing;
 use crate::number::columns::Column;
 
-/// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work
-/// of the motor, and of the brake after it, the work of the process loads, and the losses (J).
+/// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work of the motor (and then of
+/// the brake), the work of the process loads, and the losses (J).
 ///
-/// The direction of a [`Moment`] is the one of the drive link, which friction opposes.
+/// The direction of a [`Moment`] is that of the drive link, which friction opposes.
 pub(in crate::analysis) trait Plant<const N: usize> {
     /// The state at the start.
     fn start(&self) -> Result<[f64; N], Error>;
@@ -27,7 +27,7 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// The state with another φ and ω of the drive link.
     fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error>;
 
-    /// Where in y two values are those of guests: the energy that payloads have brought, and the work of the axes that move carriages (J).
+    /// Index in y of two values for payloads and carriages: the energy that payloads have brought, and the work of the axes that move carriages (J).
     fn guests(&self) -> Option<usize> {
         None
     }
@@ -35,30 +35,30 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// α of the drive link in motion.
     fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error>;
 
-    /// Whether the drive link, at rest but for a hair of speed in this direction, starts to move that way.
+    /// Whether the drive link starts in this direction from rest, evaluated at the smallest speed that way.
     fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
         Ok(self.alpha(moment, y)? * moment.direction > 0.0)
     }
 
-    /// Refuses a state that the equations do not describe.
+    /// Refuses a state for which the equations are not valid.
     fn check(&self, moment: &Moment, y: &[f64; N]) -> Result<(), SimulationError>;
 
-    /// Times at which y′ has a corner or a jump (s): no step passes over one.
+    /// Times at which y′ has a corner or a jump (s): no step crosses one.
     fn corners(&self) -> Corners;
 
-    /// What passes zero where y′ bends: no step passes over such a place. As many values at every state of one direction, each as a share of what
-    /// it is made of.
+    /// Values that pass zero where y′ bends: no step crosses such a place. The number of values is the same at every state of one direction, and each
+    /// is relative to its terms.
     fn bends(&self, moment: &Moment, y: &[f64; N]) -> Result<Vec<f64>, Error>;
 
-    /// The machines that move.
+    /// The simulated machines.
     fn machines(&self) -> Together<'_>;
 
-    /// What the motor does, if there is one to look at.
+    /// The state of the motor, if there is one to observe.
     fn working(&self, _moment: &Moment, _y: &[f64; N]) -> Result<Option<Working>, Error> {
         Ok(None)
     }
 
-    /// What is missing for the motor to drive the machine on from rest at a time, where it has no controller.
+    /// The torque missing for the motor to drive the machine from rest at a time, if it has no controller.
     fn missing(&self, _t: f64, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
         Ok(None)
     }
@@ -66,6 +66,6 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// The columns of the figures of a [`Row`].
     fn heads(&self) -> Vec<Column>;
 
-    /// What is written about a state.
+    /// The output for a state.
     fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error>;
 }

@@ -2,32 +2,32 @@
 
 use crate::number::columns::{Column, Quantity};
 
-/// What is written about a state, without the time and the columns of energies.
+/// The output for a state, without time and energy columns.
 pub(in crate::analysis) struct Row {
     pub(in crate::analysis) figures: Vec<f64>,
     /// ½·J·ω² (J).
     pub(in crate::analysis) kinetic: f64,
-    /// Kinetic energy beyond that: of carriages along their guides (J).
+    /// Kinetic energy of carriages along their guides, not in `kinetic` (J).
     pub(in crate::analysis) beyond: f64,
-    /// (J)
+    /// Potential energy (J).
     pub(in crate::analysis) potential: f64,
 }
 
-/// What has been done since the start (J).
+/// Works since the start (J).
 #[derive(Clone, Copy)]
 pub(in crate::analysis) struct Works {
     pub(in crate::analysis) motor: f64,
-    /// Of the brake at the motor's shaft, negative; `None`: there is none.
+    /// Work of the brake at the motor's shaft, negative; `None` without a brake.
     pub(in crate::analysis) brake: Option<f64>,
-    /// Kinetic and potential energy that payloads have brought, less what they have taken away; `None`: there are none.
+    /// Kinetic and potential energy brought by payloads, less the energy that they have taken away; `None` without payloads.
     pub(in crate::analysis) payloads: Option<f64>,
-    /// Of the axes that move carriages along their guides.
+    /// Work of the axes that move carriages along their guides.
     pub(in crate::analysis) carriages: Option<f64>,
     pub(in crate::analysis) process: f64,
     pub(in crate::analysis) losses: f64,
 }
 
-/// Which of the terms of the balance there are that not every machine has.
+/// Optional terms of the balance.
 #[derive(Clone, Copy, Default)]
 pub(in crate::analysis) struct Terms {
     pub(in crate::analysis) brake: bool,
@@ -57,7 +57,7 @@ pub(in crate::analysis) fn heads(
     time.chain(figures).chain(energies).chain([balance])
 }
 
-/// A row of these columns at the time `t`, with what has been done since a start with the energy `start`; and the balance.
+/// A row of these columns at the time `t`, with the works since a start with the energy `start`; and the balance.
 pub(in crate::analysis) fn cells(
     t: f64,
     row: Row,

@@ -1,4 +1,4 @@
-//! A run before its beginning.
+//! Setup of a run.
 
 use std::cell::Cell;
 
@@ -11,7 +11,7 @@ use crate::model::simulation::Simulation;
 use crate::number::numerics::dormand_prince::Accuracy;
 
 impl<'a, P> Run<'a, P> {
-    /// Nothing has happened yet.
+    /// The initial state of a run.
     pub(super) fn new(
         plant: &'a P,
         machines: &Together<'a>,
@@ -30,7 +30,7 @@ impl<'a, P> Run<'a, P> {
             watch: Watch::new(machines),
             stops: simulation.end_stops,
             ends: simulation.ends(file).map(|[from, to]| {
-                // The end of a stroke may be passed by a rounding.
+                // The end of a stroke may be exceeded by rounding.
                 let slack = if simulation.end_stops.is_some() {
                     0.0
                 } else {

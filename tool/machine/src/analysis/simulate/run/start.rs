@@ -1,4 +1,4 @@
-//! From rest: the way the drive link starts, and what is missing where it does not.
+//! Start from rest: the direction of the drive link, and the missing torque if it does not start.
 
 use jred::Error;
 
@@ -7,7 +7,7 @@ use crate::analysis::simulate::clock::Moment;
 use crate::analysis::simulate::simulated::Stuck;
 
 impl<P> Run<'_, P> {
-    /// The direction of motion at the start; at rest, the way it will start.
+    /// The direction of motion at the start; at rest, the direction in which it will start.
     pub(super) fn heading<const N: usize>(&self, y: &[f64; N]) -> Result<f64, Error>
     where
         P: Plant<N>,
@@ -20,7 +20,7 @@ impl<P> Run<'_, P> {
         }
     }
 
-    /// The way the drive link starts to move from rest: +1, −1, or 0 if friction holds it.
+    /// The direction in which the drive link starts from rest: +1, −1, or 0 if friction holds it.
     pub(super) fn start_direction<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<f64, Error>
     where
         P: Plant<N>,
@@ -39,7 +39,7 @@ impl<P> Run<'_, P> {
         Ok(0.0)
     }
 
-    /// From rest the drive link goes the way it will start; if it starts, nothing has held it to the end.
+    /// Sets the direction in which the drive link will start from rest; a link that starts is not held to the end.
     pub(super) fn leave_rest<const N: usize>(&mut self, t: f64, y: &[f64; N]) -> Result<(), Error>
     where
         P: Plant<N>,
@@ -52,7 +52,7 @@ impl<P> Run<'_, P> {
         Ok(())
     }
 
-    /// The drive link is at rest: whether the motor drives it on.
+    /// The drive link is at rest: checks whether the motor drives it on.
     pub(super) fn misses<const N: usize>(&mut self, time: f64, y: &[f64; N]) -> Result<(), Error>
     where
         P: Plant<N>,

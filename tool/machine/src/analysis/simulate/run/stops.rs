@@ -1,4 +1,4 @@
-//! The ends of the drive link's way: stops that it bounces from or rests at, and the end of a stroke without any.
+//! The ends of the drive link's travel: end stops from which it rebounds or at which it rests, and the end of a stroke without a stop.
 
 use super::{Plant, Run};
 use crate::analysis::simulate::clock::Moment;
@@ -6,7 +6,7 @@ use crate::analysis::simulate::{BRIEFEST_FLIGHT, Impacts, SimulationError};
 use crate::number::rounding::short;
 
 impl<P> Run<'_, P> {
-    /// The end of its way that a drive link in motion has passed: an end stop, or the end of the stroke.
+    /// The end of travel that a moving drive link has passed: an end stop, or the end of the stroke.
     pub(super) fn stop_behind(&self, [phi, omega]: [f64; 2]) -> Option<f64> {
         let [from, to] = self.ends?;
         if phi > to && omega > 0.0 {
@@ -18,7 +18,7 @@ impl<P> Run<'_, P> {
         }
     }
 
-    /// Whether an end stop bars the way in a direction.
+    /// Whether an end stop blocks a direction.
     pub(super) fn is_at_stop(&self, phi: f64, direction: f64) -> bool {
         self.stops.is_some_and(|stops| {
             if direction > 0.0 {
@@ -29,8 +29,8 @@ impl<P> Run<'_, P> {
         })
     }
 
-    /// The state after the drive link has hit an end stop at a position with a speed; the energy of the impact is lost. A rebound that
-    /// would be back at once rests. At the end of a stroke without a stop nothing says what happens: an error.
+    /// The state after the drive link has hit an end stop at a position with a speed; the energy of the impact is lost. A rebound that would return
+    /// immediately ends at rest. At the end of a stroke without a stop the behaviour is undefined: an error.
     pub(super) fn impact<const N: usize>(
         &mut self,
         t: f64,
@@ -76,7 +76,7 @@ impl<P> Run<'_, P> {
         ];
         after[N - 1] += hit.kinetic - left.kinetic;
         if let Some(at) = self.plant.guests() {
-            // The impulse with which its axis keeps the speed of a carriage along its guide.
+            // The impulse with which its axis keeps the carriage's speed along its guide.
             after[at + 1] += left.beyond - hit.beyond;
         }
         if rests {

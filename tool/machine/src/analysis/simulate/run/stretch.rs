@@ -1,4 +1,4 @@
-//! The smooth stretch of time in which the machine is: what jumps at its ends is taken from inside.
+//! The current smooth stretch of time: times at its ends, where quantities jump, are moved inside.
 
 use jred::Error;
 
@@ -6,7 +6,7 @@ use super::{Plant, Run};
 use crate::analysis::simulate::clock::Moment;
 
 impl<P> Run<'_, P> {
-    /// Goes on in another smooth stretch, between these times. What payloads bring where one comes, and take away, is theirs.
+    /// Continues in another smooth stretch, between these times, and books the energy of payloads that come or go.
     pub(super) fn enter<const N: usize>(
         &mut self,
         inside: [f64; 2],
@@ -31,12 +31,12 @@ impl<P> Run<'_, P> {
         Ok(y)
     }
 
-    /// The instant of a time inside the smooth stretch around.
+    /// The instant of a time, moved inside the current smooth stretch.
     pub(super) fn moment(&self, t: f64) -> Moment {
         Moment::new(self.within(t), self.direction)
     }
 
-    /// A time inside the smooth stretch around.
+    /// A time, moved inside the current smooth stretch.
     pub(super) fn within(&self, t: f64) -> f64 {
         let [from, to] = self.inside;
         t.max(from).min(to)

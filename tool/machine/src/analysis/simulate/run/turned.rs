@@ -1,4 +1,4 @@
-//! What has been done when the drive link has made whole turns: then a machine that turns is where it was, and works can be compared.
+//! Works in whole turns of the drive link: a turning machine is then in the same position, so the works can be compared.
 
 use std::f64::consts::TAU;
 

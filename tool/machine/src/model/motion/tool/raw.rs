@@ -1,4 +1,4 @@
-//! The coordinate as the mechanism gives it, and the branch on which it goes one way.
+//! The coordinate computed from the mechanism, and the branch on which it is monotonic.
 
 use std::f64::consts::TAU;
 
@@ -19,21 +19,21 @@ pub(super) struct Knot {
     pub(super) slope: f64,
 }
 
-/// The coordinate as the mechanism gives it.
+/// The coordinate computed from the mechanism.
 pub(super) struct Raw<'a> {
     pub(super) mechanism: &'a AnyMechanism,
     pub(super) measure: Measure,
 }
 
-/// A way from the start of a branch to its end.
+/// Places from the start of a branch to its end.
 pub(super) struct Reach {
     pub(super) places: Vec<f64>,
-    /// It went all the way.
+    /// Whether it covers the whole range.
     pub(super) closed: bool,
 }
 
 impl Raw<'_> {
-    /// The coordinate at φ: an angle with whole turns open, a distance along the path without its value.
+    /// The coordinate at φ: an angle up to whole turns, a distance along the path without its value.
     fn transfer(&self, phi: f64) -> Result<Transfer, PoseError> {
         let frames = self.mechanism.frames(phi)?;
         let frame = |link: usize| frames.get(link).copied();
@@ -66,7 +66,7 @@ impl Raw<'_> {
         Ok(self.transfer(phi).map_err(Standstill::Unplaced)?.d1)
     }
 
-    /// The same with its value carried on from a knot near it: whole turns, or the way along the path.
+    /// The same with its value continued from a nearby knot: whole turns, or the distance along the path.
     pub(super) fn from(&self, knot: Option<&Knot>, phi: f64) -> Result<Transfer, PoseError> {
         let mut found = self.transfer(phi)?;
         let Some(knot) = knot else {
@@ -86,7 +86,7 @@ impl Raw<'_> {
         Ok(found)
     }
 
-    /// Places from `near` on in steps until the tool stands or the end is reached.
+    /// Places from `near` in steps until the tool is at rest or the end is reached.
     pub(super) fn reach(
         &self,
         near: f64,
@@ -111,8 +111,8 @@ impl Raw<'_> {
                 break;
             }
             speeds.push(speed(place(k))?);
-            // Between places it may stand where its speed is least, unless that hardly changes: a curve that touches zero there rises
-            // at least four times as far as it is high, to one of its neighbours.
+            // Between places it may be at rest where its speed is least, unless the speed hardly changes: a curve that touches zero there rises to at
+            // least four times its value at one of its neighbours.
             if let [.., a, b, c] = speeds[..]
                 && b <= a
                 && b <= c
@@ -158,7 +158,7 @@ impl Raw<'_> {
         })
     }
 
-    /// The coordinate at places in the order of φ; along the path it is zero at `near`.
+    /// The coordinate at places in order of φ; along the path it is zero at `near`.
     pub(super) fn knots(&self, places: &[f64], near: f64) -> Result<Vec<Knot>, Standstill> {
         let mut knots: Vec<Knot> = Vec::with_capacity(places.len());
         for &phi in places {
@@ -169,7 +169,7 @@ impl Raw<'_> {
                 slope: found.d1,
             });
         }
-        // Whole turns, and the zero of the path, are those at `near`.
+        // Whole turns, and the zero of the path, are defined at `near`.
         let here = knots.iter().find(|knot| knot.phi >= near);
         let shift = match (self.measure, here) {
             (Measure::Path { .. }, Some(here)) => -here.value,

@@ -1,4 +1,4 @@
-//! Places at which f bends: where a value passes zero. A step ends there, so that its error is that of a smooth f.
+//! Positions at which f bends, where a value passes zero. A step ends there, so that its error is that of a smooth f.
 
 use super::{Point, Step};
 use crate::number::numerics;
@@ -6,36 +6,36 @@ use crate::number::numerics;
 /// Share of a value that is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Share of a step to which the place of a bend is found: what lies between is of second order.
+/// Accuracy of a bend's position as a share of a step: the remaining effect is of second order.
 const PLACE: f64 = 1e-11;
 
-/// A bend this near to an end of a step, as a share of it, is on it.
+/// Distance from an end of a step, as a share of it, within which a bend lies on the end.
 const ON_END: f64 = 1e-9;
 
-/// Parts of a step at whose ends the values are looked at.
+/// Parts of a step at whose ends the values are evaluated.
 const PARTS: usize = 4;
 
-/// Halvings of a step in search of a value that is beyond zero at its beginning only.
+/// Halvings of a step in search of a value that is beyond zero only at its start.
 const HALVINGS: u32 = 16;
 
-/// On which side of zero each value is.
+/// The side of zero of each value.
 pub(super) struct Sides {
-    /// 0 of one that has been nothing but rounding.
+    /// 0 for a value that has only been rounding so far.
     sides: Vec<f64>,
-    /// The values at the beginning of the next step.
+    /// The values at the start of the next step.
     values: Vec<f64>,
 }
 
-/// Where a value passes zero, after the beginning of a step.
+/// Position of a zero of a value after the start of a step.
 enum Place {
-    /// Nowhere, by steps of these lengths.
+    /// None, for steps of these lengths.
     Nowhere,
-    /// It is there already.
+    /// At the start.
     Here,
     After(f64),
 }
 
-/// What a step passes.
+/// Result of a step.
 pub(super) enum Found<const N: usize> {
     /// No bend.
     Nothing,
@@ -43,7 +43,7 @@ pub(super) enum Found<const N: usize> {
     Bend { step: Step<N>, which: usize },
 }
 
-/// Where a step begins.
+/// Start of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Begin<'a, const N: usize> {
     pub(super) x: f64,
@@ -63,7 +63,7 @@ impl Sides {
         self.sides.is_empty()
     }
 
-    /// A value passes zero where the next step begins; all values there.
+    /// Records that a value passes zero at the start of the next step, with all values there.
     pub(super) fn turn(&mut self, which: usize, values: Vec<f64>) {
         if let Some(side) = self.sides.get_mut(which) {
             *side = -*side;
@@ -71,7 +71,7 @@ impl Sides {
         self.values = values;
     }
 
-    /// The first bend within a step, at whose end f is `to`. Without one the sides are those at its end.
+    /// The first bend within a step, at whose end f is `to`. Without a bend, the sides are updated to its end.
     pub(super) fn pass<const N: usize, E>(
         &mut self,
         f: &impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
@@ -136,7 +136,7 @@ impl Sides {
         Ok(Found::Nothing)
     }
 
-    /// Places between those seen at which a value that comes near zero and goes away again is beyond it.
+    /// Positions between the evaluated ones at which a value that approaches zero and moves away again is beyond it.
     fn excursions<E>(
         &self,
         seen: &[(f64, Vec<f64>)],
@@ -169,7 +169,8 @@ fn side(value: f64) -> f64 {
     }
 }
 
-/// Where a step passes the zero of a value, which is on the side `before` at the first of two lengths and on the other at the second.
+/// The length of a step that ends at the zero of a value, which is on the side `before` at the first of two lengths and on the other side at the
+/// second.
 fn place<const N: usize, E>(
     f: &impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
     bends: &impl Fn(f64, &[f64; N]) -> Result<Vec<f64>, E>,

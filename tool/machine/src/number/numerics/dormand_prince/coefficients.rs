@@ -2,7 +2,7 @@
 
 use super::STAGES;
 
-/// Where the stages lie within a step.
+/// Positions of the stages within a step.
 pub(super) const C: [f64; STAGES] = [
     0.0,
     0.052_600_151_958_767_73,

@@ -19,7 +19,7 @@ const POLYNOMIAL: &str = "polynomial-5";
 enum Written<'a> {
     /// A complete segment.
     Known(Segment),
-    /// A polynomial with [s′, s″] at its start and end, as far as given.
+    /// A polynomial with [s′, s″] at its start and end, as far as the file gives them.
     Polynomial {
         angle: f64,
         rise: f64,
@@ -28,7 +28,7 @@ enum Written<'a> {
     },
 }
 
-/// The program; `header`: of its segments in messages; `oscillating`: rises are angles.
+/// The cam program. `header`: title of its segments in messages; `oscillating`: rises are angles.
 pub(in crate::read::mechanism) fn read(
     section: &Section,
     header: &str,
@@ -135,12 +135,12 @@ fn segment<'a>(
     Ok(read)
 }
 
-/// Checks that a rise or a return has a size.
+/// Checks that a rise or a return is greater than zero.
 fn positive(size: Value) -> Result<()> {
     size.positive().map(|_| ())
 }
 
-/// [s′, s″] at both ends of a polynomial, as far as given.
+/// [s′, s″] at both ends of a polynomial, as far as the file gives them.
 fn ends(section: &Section, oscillating: bool) -> Result<[[Option<f64>; 2]; 2]> {
     let (velocity, acceleration) = if oscillating {
         (&SHARE, &CAM_TURNING)
@@ -160,7 +160,7 @@ fn ends(section: &Section, oscillating: bool) -> Result<[[Option<f64>; 2]; 2]> {
     ])
 }
 
-/// The segments with the ends of polynomials that are not written taken from their neighbours.
+/// The segments; a polynomial takes ends that are not given from its neighbours.
 fn resolved(parts: &[Section], written: &[Written]) -> Result<Vec<Segment>> {
     let count = written.len();
     let resolve = |(index, one): (usize, &Written)| {
@@ -179,7 +179,7 @@ fn resolved(parts: &[Section], written: &[Written]) -> Result<Vec<Segment>> {
             let near = end_of(&written[neighbour], 1 - side);
             for order in 0..2 {
                 let value = ends[side][order].or(near[order]);
-                // An acceleration that nobody gives is none.
+                // An acceleration that neither gives is zero.
                 found[side][order] = match value {
                     Some(value) => value,
                     None if order == 1 => 0.0,
@@ -224,7 +224,7 @@ fn problem(
     error: &CamError,
 ) -> Problem {
     let degrees = |phi: f64| format!("{} deg", figure(phi.to_degrees()));
-    // Rises in the unit that the key suggests.
+    // Rises in the unit of the key.
     let shown = |rise: f64| {
         if way.unit == ANGLE.unit {
             degrees(rise)

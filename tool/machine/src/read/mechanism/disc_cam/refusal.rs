@@ -7,7 +7,7 @@ use crate::text::item::Value;
 use crate::text::problem::Problem;
 use crate::text::section::Section;
 
-/// The fault of the cam, shown at the key that cures it.
+/// The error of the core, shown at the key to change.
 pub(in crate::read::mechanism) fn problem(
     section: &Section,
     follower: &Section,

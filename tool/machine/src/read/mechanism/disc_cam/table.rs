@@ -1,8 +1,8 @@
-//! `lift = "lift.csv"`: a cam program from the lift over the angle of the cam, perhaps with its two derivatives.
+//! `lift = "lift.csv"`: a cam program from the lift over the cam angle, optionally with its two derivatives.
 //!
-//! A periodic cubic spline goes through the rows, twice continuously differentiable, unless they have their derivatives. A program is of
-//! polynomials of fifth degree from row to row, each with the lift and both derivatives of its ends: of all with as few segments as a program
-//! may have, the one that misses rows and their middles least, found by bisection of that error.
+//! Rows without derivatives are interpolated by a periodic cubic spline (twice continuously differentiable). The program consists of polynomials of
+//! fifth degree between rows, with the lift and both derivatives at their ends. Of all programs with at most `MAX_SEGMENTS` segments, bisection of
+//! the error finds the one that misses the rows, and the middles between them, least.
 
 use std::f64::consts::TAU;
 
@@ -27,7 +27,7 @@ const LIFT: usize = 1;
 const SLOPE: usize = 2;
 const BEND: usize = 3;
 
-/// The columns of a follower that slides, and of one that swings.
+/// The columns of a translating follower, and of an oscillating one.
 const SLIDES: [Known; 4] = [
     known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
     known(&["s", "rise", "lift"], &LENGTH),
@@ -41,19 +41,19 @@ const SWINGS: [Known; 4] = [
     known(&["psi''", "bend"], &CAM_TURNING),
 ];
 
-/// Share of the stroke by which the program may miss the rows, unless the file says how much.
+/// Share of the stroke by which the program may miss the rows, unless the file gives the tolerance.
 const MISSES: f64 = 1e-3;
 
-/// Share of the stroke that is rounding.
+/// Share of the stroke, or angle (rad), that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Halvings of the error of the program.
+/// Bisections of the program's error.
 const HALVINGS: u32 = 48;
 
-/// Lift with both derivatives by the cam's angle.
+/// Cam angle and lift with both derivatives.
 type Point = (f64, [f64; 3]);
 
-/// The program of the file that `item` names, and a line about it.
+/// The program of the file that `item` names, and a line about it for the report.
 pub(super) fn read(
     section: &Section,
     item: &Item,
@@ -98,10 +98,10 @@ pub(super) fn read(
     Ok((program, about))
 }
 
-/// The rows of a table, from 0 to a turn, both included, and what lies between them.
+/// The rows of a table from 0 to a full turn, both included, and the values between them.
 struct Lift {
     rows: Vec<Point>,
-    /// The lift in the middle between a row and the next, where a curve goes through the rows.
+    /// The lift midway between each row and the next, if a spline goes through the rows.
     middles: Option<Vec<f64>>,
     stroke: f64,
 }
@@ -166,7 +166,7 @@ impl Lift {
                     .map(|values: &Vec<f64>| values.get(k).copied().unwrap_or_default()),
             };
             let turned = x.rem_euclid(TAU);
-            // A rounding below a turn is its start.
+            // An angle just below a full turn is the start of the turn.
             let turned = if TAU - turned < ROUNDING { 0.0 } else { turned };
             (turned, [*s, derivatives[0], derivatives[1]])
         };
@@ -193,7 +193,7 @@ impl Lift {
         })
     }
 
-    /// The first row is at the beginning of the turn, on the base circle.
+    /// Checks that the first row is at the start of the turn, on the base circle.
     fn check_start(rows: &[Point], stroke: f64, columns: &Columns) -> Result<(), Fault> {
         let Some((start, [lift, ..])) = rows.first() else {
             return Ok(());
@@ -219,7 +219,7 @@ impl Lift {
         Ok(())
     }
 
-    /// The polynomial from one row to another, over the angle since the first.
+    /// The polynomial from one row to another, over the angle from the first of them.
     fn polynomial(&self, [from, to]: [usize; 2]) -> Polynomial {
         let [(x, a), (end, b)] = [self.rows[from], self.rows[to]];
         Polynomial::between(
@@ -230,7 +230,7 @@ impl Lift {
         )
     }
 
-    /// By how much it misses the rows between, and the middles; no further than `most` is looked.
+    /// Largest deviation of a polynomial from the rows and middles between its ends; the search stops above `most`.
     fn missed(&self, ends: [usize; 2], most: f64) -> f64 {
         let (course, [from, to]) = (self.polynomial(ends), ends);
         let (start, [base, ..]) = self.rows[from];
@@ -250,7 +250,7 @@ impl Lift {
         missed
     }
 
-    /// The rows at which segments meet that miss nothing by more than `most`, each as long as it can be; `None`: more than a program has.
+    /// The end rows of segments that deviate by at most `most`, each as long as possible; `None` if they are more than a program can have.
     fn within(&self, most: f64) -> Option<Vec<usize>> {
         let last = self.rows.len() - 1;
         let fits = |ends: [usize; 2]| self.missed(ends, most) <= most;
@@ -260,7 +260,7 @@ impl Lift {
             if knots.len() > MAX_SEGMENTS {
                 return None;
             }
-            // Twice as far, as long as it fits; then by halves between what fits and what does not.
+            // The step doubles while it fits; bisection finds the end.
             let mut step = 1;
             while from + 2 * step <= last && fits([from, from + 2 * step]) {
                 step *= 2;
@@ -280,13 +280,13 @@ impl Lift {
         Some(knots)
     }
 
-    /// The rows at which the segments of the best program meet, and by how much it misses.
+    /// The end rows of the best program's segments, and its largest deviation.
     fn fit(&self) -> (Vec<usize>, f64) {
         let floor = ROUNDING * ROUNDING.sqrt() * self.stroke;
         let (mut low, mut high) = (floor, self.stroke.max(floor));
         let mut best = self.within(low);
         if best.is_none() {
-            // In ratios: the error is a small share of the stroke.
+            // Geometric bisection: the error is a small share of the stroke.
             for _ in 0..HALVINGS {
                 let middle = (low * high).sqrt();
                 match self.within(middle) {

@@ -39,13 +39,13 @@ pub(super) struct Point {
     pub(super) at: [f64; 2],
 }
 
-/// The ground's points and all bodies.
+/// The points of the ground, and all moving bodies.
 pub(super) struct Bodies {
     pub(super) ground: Vec<Point>,
     pub(super) moving: Vec<Drawn>,
 }
 
-/// A point of a body, found by its name.
+/// A point of a body, referenced by name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) body: Body,

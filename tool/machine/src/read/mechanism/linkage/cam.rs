@@ -1,4 +1,4 @@
-//! `type = "cam"`: a disc cam that moves a follower, as a joint of a linkage.
+//! `type = "cam"`: a disc cam and its follower as a joint of a linkage.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -22,26 +22,26 @@ use super::joints::Held;
 /// The most cams of a linkage.
 pub(super) const MOST: usize = 8;
 
-/// The bearings may miss the place that the joint gives them by this share of the base radius: a rounding in the file.
+/// Share of the base radius by which the bearings may miss the positions that the joint requires: rounding in the file.
 const ROUNDING: f64 = 1e-4;
 
-/// Largest angular velocity against the drive's that counts as standing still.
+/// Largest angular velocity, relative to the drive's, that counts as standstill.
 const STILL: f64 = 1e-6;
 
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
 
-/// Data of a cam in the file, in addition to its pair.
+/// Data of a cam in addition to its pair.
 pub(super) struct Cam {
     pub(super) placed: PlacedCam,
-    /// A groove or a second cam guides the follower on both sides.
+    /// A groove or a second cam constrains the follower on both sides.
     by_form: bool,
-    /// Places of the axis and the follower in the file.
+    /// Places in the file of the axis and the follower.
     axis: Range<usize>,
     follower: Range<usize>,
 }
 
-/// The pair, number `place` of the linkage's cams, and the cam.
+/// The pair, with index `place` among the linkage's cams, and the cam.
 pub(super) fn read(
     section: &Section,
     bodies: &Bodies,
@@ -108,7 +108,7 @@ pub(super) fn read(
     Ok((pair, cam))
 }
 
-/// The roller, of which the radius is all that a linkage needs.
+/// The roller; a linkage needs its radius only.
 fn roller(section: &Section) -> Result<Roller> {
     let section = section
         .require("roller", "roller = { radius = \"13 mm\" }")?
@@ -131,7 +131,7 @@ fn roller(section: &Section) -> Result<Roller> {
     .map_err(|error| core(&section, error))
 }
 
-/// Checks all over the drive's range that the bearings are where the joints have them.
+/// Checks over the drive's range that the bearings are where the joints require them.
 pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]) -> Result<()> {
     const PLACES: usize = 12;
     let domain = mechanism.domain();
@@ -153,7 +153,7 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Fra
     let [on_cam, on_follower] = joint.pair.markers();
     let [x, y] = base.position(frames).map(|c| c.value);
     let [cos, sin] = base.axis(frames).map(|c| c.value);
-    // Seen from the base.
+    // In the frame of the base.
     let seen = |marker: &jred::machine::Marker| {
         let [to_x, to_y] = marker.position(frames).map(|c| c.value);
         let (to_x, to_y) = (to_x - x, to_y - y);
@@ -221,9 +221,9 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Fra
     Ok(())
 }
 
-/// With the profiles as outlines of their bodies, and the contacts that must not open.
+/// Adds the profiles as outlines of their bodies, and the contacts that must not open.
 pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMechanism {
-    // Where a curve is not smooth within a piece, the limit is as near as its samples, some tenths of a degree.
+    // Within a piece, a curve that is not smooth has its limit at one of the samples, which are some tenths of a degree apart.
     const PIECES: u32 = 12;
     let domain = mechanism.domain();
     let share = |k: u32| domain.position(f64::from(k) / f64::from(PIECES));
@@ -258,14 +258,14 @@ pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMech
     mechanism
 }
 
-/// The joints that are cams.
+/// The joints of type "cam".
 fn cams(joints: &[Held]) -> impl Iterator<Item = (&Held, &Cam)> {
     joints
         .iter()
         .filter_map(|joint| joint.cam.as_ref().map(|cam| (joint, cam)))
 }
 
-/// The cams in the order of their numbers.
+/// The cams in the order of their indices.
 pub(super) fn placed(joints: &[Held]) -> Vec<PlacedCam> {
     cams(joints).map(|(_, cam)| cam.placed.clone()).collect()
 }

@@ -1,7 +1,7 @@
-//! The approximate drawing: where each body is, as far as the file says, and from the joints where it does not.
+//! The approximate drawing: the pose of each body from the file, and from the joints where the file does not give it.
 //!
-//! Angles that are not given follow through guides and rigid connections, positions from pin to pin, starting at the
-//! ground. What is left open at the last pin of a loop, Newton's method closes.
+//! Angles that are not given follow from guides and rigid connections. Positions follow from pin to pin, starting at the ground. Newton's method
+//! closes the gap at the last pin of each loop.
 
 use jred::machine::{Body, Joint, Marker};
 use jred::mechanism::linkage::{Pair, Pose};
@@ -18,7 +18,7 @@ struct Known {
     origin: Option<[f64; 2]>,
 }
 
-/// One pose for each body. `drawn_at` is the drive's coordinate, if the file gives it.
+/// One pose for each body. `drawn_at`: the drive's coordinate, if the file gives it.
 pub(super) fn poses(
     bodies: &Bodies,
     joints: &[Held],
@@ -83,7 +83,7 @@ impl Drawing {
         self.known.get_mut(body.link()?)
     }
 
-    /// The angles that guides, rigid connections and the drive give.
+    /// Finds the angles that follow from guides, rigid connections and the drive.
     fn angles(&mut self, joints: &[Held], drive: usize) {
         for _ in 0..self.known.len() {
             for (k, joint) in joints.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Drawing {
         }
     }
 
-    /// The origins, from the ground outwards: over pins first, over guides where there is no other way.
+    /// Finds the origins, from the ground outwards: over pins first, over guides only where there is no other connection.
     fn origins(&mut self, joints: &[Held], drive: usize) {
         while self.step(joints, drive, false) || self.step(joints, drive, true) {}
     }
@@ -147,7 +147,7 @@ impl Drawing {
         false
     }
 
-    /// A marker's point from the origin of its body, in global components.
+    /// The vector from the origin of a marker's body to the marker, in global components.
     fn turned(&self, marker: Marker) -> [f64; 2] {
         let (sin, cos) = self.of(marker.body).angle.unwrap_or(0.0).sin_cos();
         let [u, v] = marker.at;

@@ -17,7 +17,7 @@ use super::cam::{self, Cam};
 /// The most joints of a linkage.
 pub(super) const MOST: usize = 32;
 
-/// The types of joint, as machine files write them.
+/// The types of joint in machine files.
 const TYPES: [&str; 8] = [
     "revolute",
     "prismatic",
@@ -35,13 +35,13 @@ pub(super) struct Held {
     pub(super) kind: &'static str,
     pub(super) pair: Pair,
     pub(super) place: Range<usize>,
-    /// Place of the radii of a rolling joint.
+    /// Place in the file of the radii of a rolling joint.
     pub(super) radii: Option<Range<usize>>,
     pub(super) cam: Option<Cam>,
 }
 
 impl Held {
-    /// With its teeth in mesh as the bodies are drawn; a rack lies on the side of its pinion on which it is drawn.
+    /// The joint with its teeth in mesh in the drawn position; a rack lies on the side of its pinion where it is drawn.
     pub(super) fn meshing_at(&mut self, frames: &[Frame]) {
         if let Pair::Rack {
             pinion,
@@ -87,7 +87,7 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
     Ok(joints)
 }
 
-/// A joint; `cams` of those before it are cams.
+/// Reads a joint. `cams`: number of cams among the joints before it.
 fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
     section.expects(&["name", "type", "between"]);
     let kind = match section.get("type") {
@@ -149,7 +149,7 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
     })
 }
 
-/// The pair, and the place of its radii.
+/// The pair, and the place of its radii in the file.
 fn pair(
     kind: &str,
     section: &Section,
@@ -232,7 +232,7 @@ fn pair(
     }
 }
 
-/// The body in which both gears turn.
+/// The body that carries both gears.
 fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
     let Some(item) = section.get("carrier") else {
         if ends.iter().any(|end| end.body == Body::Ground) {
@@ -258,7 +258,7 @@ fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
     Ok(carrier)
 }
 
-/// The radii with the sign that the core gives a ring gear.
+/// The radii with the core's sign for a ring gear.
 fn meshing(section: &Section, item: &Item, radii: [f64; 2]) -> Result<[f64; 2]> {
     let internal = match section.get("mesh") {
         Some(mesh) => mesh.choice(&["external", "internal"])? == 1,

@@ -17,7 +17,7 @@ use super::bodies::{self, Bodies};
 use super::cam;
 use super::joints::{self, Held};
 
-/// An error so close to the drawn position (rad, or m) is one of the drawing.
+/// An error nearer than this to the drawn position (rad or m) is an error of the drawing.
 const HAIR: f64 = 1e-6;
 
 /// Data for messages.
@@ -29,14 +29,14 @@ pub(super) struct Context<'a> {
     pub(super) coordinate: Coordinate,
     pub(super) poses: &'a [Pose],
     pub(super) frames: &'a [Frame],
-    /// φ of the drawing (rad, or m).
+    /// φ of the drawing (rad or m).
     pub(super) drawn_at: f64,
 }
 
 /// Refuses bodies without a joint, bodies not connected to the ground, and linkages with other than one degree of freedom.
 pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]) -> Result<()> {
     let count = bodies.moving.len();
-    // Connected with the ground, found by going round as often as there are bodies.
+    // One pass for each body finds all bodies connected to the ground.
     let mut held = vec![false; count];
     let mut used = vec![false; count];
     for _ in 0..=count {
@@ -95,7 +95,8 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
 }
 
 impl Context<'_> {
-    /// An error of the core, of a linkage that is `kept` on its branch or not; `flat` asks for the change points if it were.
+    /// An error of the core in terms of the file. `kept`: the linkage was kept on its branch. If it was not, `flat` finds the change points that it
+    /// would pass if it were.
     pub(super) fn problem(
         &self,
         error: LinkageError,
@@ -146,7 +147,7 @@ impl Context<'_> {
         }
     }
 
-    /// Branches that cross, and nothing says which way the linkage goes.
+    /// Branches cross, and the file does not say which one the linkage follows.
     fn crossing(&self, joint: usize, flat: &[ChangePoint]) -> Problem {
         let places: Vec<String> = flat.iter().map(|point| self.place(point.at)).collect();
         self.at_joint(
@@ -163,7 +164,7 @@ impl Context<'_> {
         )
     }
 
-    /// A drawing in a dead point or a change point shows no branch.
+    /// A drawing at a dead point or a change point does not define a branch.
     fn drawn_flat(&self, phi: f64, joint: usize) -> Problem {
         self.at_joint(
             joint,
@@ -178,7 +179,7 @@ impl Context<'_> {
         )
     }
 
-    /// To be kept on its branch, though no other branch crosses it.
+    /// `keep_branch` without a change point in the drive's range.
     pub(super) fn never_flat(&self, keep: &Item) -> Problem {
         Problem::new(format!(
             "{}: there is no change point to pass: no two branches of the linkage cross in the drive's range",
@@ -200,7 +201,7 @@ impl Context<'_> {
         }
     }
 
-    /// A joint that cannot be closed.
+    /// A joint that cannot close.
     fn open(&self, phi: f64, joint: usize, gap: f64) -> Problem {
         let Some(held) = self.joints.get(joint) else {
             return core(self.section, PoseError::CannotAssemble { phi, joint, gap });
@@ -249,7 +250,7 @@ impl Context<'_> {
         }
     }
 
-    /// As many equations as coordinates, but some constraints are redundant.
+    /// The number of equations is right, but some constraints are redundant.
     fn held_twice(&self, joint: usize, free: usize) -> Problem {
         let free = self.bodies.name(Body::Link(free));
         let what = if joint == self.drive {
@@ -267,7 +268,7 @@ impl Context<'_> {
         ))
     }
 
-    /// The end of the drive's range.
+    /// A dead point that limits the drive's range.
     fn dead(&self, phi: f64, joint: usize) -> Problem {
         let drive = self.joints.get(self.drive).map_or("", |j| j.name.as_str());
         let problem = self.at_joint(
@@ -296,7 +297,7 @@ impl Context<'_> {
         ))
     }
 
-    /// The drawing is far from the stroke: outside its range widened by its length at both ends, which is what the core says.
+    /// The drawing is outside the drive's range extended by its length at both ends; the core reports that extended range.
     fn far_from_stroke(&self, drawn: f64, [min, max]: [f64; 2]) -> Problem {
         let length = (max - min) / 3.0;
         let unit = self.coordinate.unit();
@@ -325,7 +326,7 @@ impl Context<'_> {
             let far = drawn + way * self.search();
             let domain = Domain::stroke(drawn.min(far), drawn.max(far)).ok()?;
             let linkage = self.linkage().ok()?;
-            // Followed from the drawing to the far end: the error names where it stops.
+            // Followed from the drawing to the far end; the error gives the position where it stops.
             *end = match linkage.assemble::<2>(domain, drawn, self.poses) {
                 Ok(_) => far,
                 Err(LinkageError::Pose(
@@ -338,7 +339,7 @@ impl Context<'_> {
         (to - from > 1e-6 * self.search()).then_some(ends)
     }
 
-    /// How far to look for the end: a turn, or many times the size of a linkage.
+    /// Distance over which to search for the end: a turn, or several times the size of the linkage.
     fn search(&self) -> f64 {
         match self.coordinate {
             Coordinate::Angle => std::f64::consts::TAU,
@@ -352,7 +353,7 @@ impl Context<'_> {
         }
     }
 
-    /// The linkage, its topology checked.
+    /// The linkage with its topology checked.
     pub(super) fn linkage(&self) -> std::result::Result<Whole, LinkageError> {
         let links: Vec<_> = self.bodies.moving.iter().map(|body| body.link).collect();
         let pairs: Vec<_> = self.joints.iter().map(|joint| joint.pair).collect();

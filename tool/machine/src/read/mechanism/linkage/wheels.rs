@@ -10,20 +10,20 @@ use crate::text::problem::{Problem, Result};
 use super::bodies::Bodies;
 use super::joints::Held;
 
-/// Radii may miss the distance of the centres by this share: a rounding in the file.
+/// Share by which radii may miss the centre distance: rounding in the file.
 const ROUNDING: f64 = 1e-4;
 
-/// Largest relative speed that counts as standing still.
+/// Largest relative speed that counts as standstill.
 const STILL: f64 = 1e-6;
 
-/// How far a pinion's centre lies to the left of a rack's pitch line (m).
+/// Distance of a pinion's centre to the left of a rack's pitch line (m).
 pub(super) fn offset(pinion: &Marker, rack: &Marker, frames: &[Frame]) -> f64 {
     let [cos, sin] = rack.axis(frames).map(|c| c.value);
     let (c, r) = (pinion.position(frames), rack.position(frames));
     cos * (c[1].value - r[1].value) - sin * (c[0].value - r[0].value)
 }
 
-/// Checks every rolling joint at places all over the drive's range.
+/// Checks every rolling joint at positions over the drive's range.
 pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]) -> Result<()> {
     const PLACES: usize = 12;
     let domain = mechanism.domain();

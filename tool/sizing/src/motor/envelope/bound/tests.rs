@@ -31,7 +31,7 @@ fn limits() -> Vec<Limit> {
     ]
 }
 
-/// The chord lies nowhere above the limit, and meets it at both ends where the limit does not bend up.
+/// The chord is nowhere above the limit, and meets it at both ends where the limit does not bend up.
 #[test]
 fn no_torque_is_below_the_floor() {
     let mut exact = 0;
@@ -45,7 +45,7 @@ fn no_torque_is_below_the_floor() {
                 assert!(limit.torque(speed) >= chord - 1e-12, "{from} {to}: {speed}");
             }
             let ends = [limit.torque(from), limit.torque(to)];
-            // Straight between: no corner inside.
+            // Straight between them: no corner inside.
             let inside = limit.pieces().iter().all(|p| p.to <= from || p.to >= to);
             if inside && to <= limit.end() && from < to {
                 let near = [start - ends[0], end - ends[1]]
@@ -71,7 +71,7 @@ fn near(found: [f64; 2], expected: [f64; 2]) {
     );
 }
 
-/// Over a corner that bends down the chord from end to end is the floor; over one that bends up the least torque is.
+/// Over a concave corner the chord from end to end is the floor, over a convex one the least torque.
 #[test]
 fn chords_over_corners() {
     let limit = &limits()[2];
@@ -81,7 +81,7 @@ fn chords_over_corners() {
     near(limit.floor([20.0, 61.0]), [0.0; 2]);
 }
 
-/// Below that speed there is torque; at it, or just beyond, there is none.
+/// Below that speed torque is available; at it, or just beyond, it is zero.
 #[test]
 fn torque_up_to_its_end() {
     for (limit, end) in limits()
@@ -97,7 +97,7 @@ fn torque_up_to_its_end() {
     }
 }
 
-/// Only a limit without a slope from rest on, up to that speed, is level; and it is that torque.
+/// Only a limit without slope from rest up to that speed is level, at that torque.
 #[test]
 fn levels() {
     let of = |driving: &Limit, braking: &Limit| Envelope {

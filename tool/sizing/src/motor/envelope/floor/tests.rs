@@ -1,4 +1,4 @@
-//! The chord below the S1 torque where that has constant power.
+//! The chord below the S1 torque in the range of constant power.
 
 use super::*;
 use crate::catalogue::Motor;
@@ -15,8 +15,8 @@ fn weakened() -> Envelope {
     })
 }
 
-/// Below the hyperbola everywhere. Over a short way it is the tangent in the middle, P/m·(2 − n/m): it touches there, and at the ends it lies
-/// P/n·(n/m − 1)² below; over a long way, where a tangent would fall to nothing, it is level at the torque of the largest speed.
+/// Below the hyperbola everywhere. Over a short range it is the tangent in the middle, P/m·(2 − n/m): it touches there, and at the ends it lies
+/// P/n·(n/m − 1)² below. Over a long range, where a tangent would fall to zero, it is level at the torque of the largest speed.
 #[test]
 fn constant_power_has_its_tangent_or_its_end() {
     let envelope = weakened();
