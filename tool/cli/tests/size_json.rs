@@ -8,13 +8,6 @@ use crate::support::{
 };
 use serde_json::{Value, json};
 
-fn docs(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../docs")
-        .join(name);
-    std::fs::read_to_string(path).unwrap()
-}
-
 fn check(answer: &Value) {
     let faults = faults(answer);
     assert!(faults.is_empty(), "{}", faults.join("\n"));
