@@ -195,7 +195,12 @@ const TOOL: [(&str, &[&str]); 6] = [
             "plan",
         ],
     ),
-    ("report", &["table", "list", "plot", "drawing", "page"]),
+    (
+        "report",
+        &[
+            "table", "answer", "list", "schemas", "plot", "drawing", "page",
+        ],
+    ),
     ("cli", &["busy", "output", "options", "rows", "commands"]),
 ];
 

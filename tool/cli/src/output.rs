@@ -18,7 +18,7 @@ use std::time::Duration;
 use crate::busy;
 use jred_machine::plain;
 use jred_machine::text::disk;
-use jred_report::answer::screen::Screen;
+use jred_report::table::screen::Screen;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
     miette,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::schema::{VALIDATORS, faults};
 use crate::support::{Run, jred_with, press_file};
-use jred_report::answer::schema;
+use jred_report::schemas;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/schemas")
@@ -22,7 +22,7 @@ fn file_of(form: &str) -> PathBuf {
 #[test]
 fn the_schemas_are_those_of_the_types() {
     let mut known = BTreeSet::new();
-    for (form, schema) in schema::all() {
+    for (form, schema) in schemas::all() {
         let text = format!("{:#}\n", schema.as_value());
         let path = file_of(form);
         if std::env::var_os("JRED_BLESS").is_some() {

@@ -4,7 +4,7 @@
 //! blocks are what a person reads: facts, tables, warnings. The terminal and the pages render the same blocks.
 
 pub mod schema;
-pub mod screen;
+pub mod sheet;
 mod text;
 
 use std::borrow::Cow;
@@ -12,10 +12,10 @@ use std::borrow::Cow;
 use serde_json::{Map, Value};
 
 use crate::table::output::{self, Format};
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
+use crate::table::screen::Screen;
 use jred_machine::number::columns::Columns;
 use schema::Data;
-use screen::Screen;
 
 /// A part of an answer for reading.
 #[derive(Clone, Debug)]

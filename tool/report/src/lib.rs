@@ -13,4 +13,5 @@ pub mod drawing;
 pub mod list;
 pub mod page;
 pub mod plot;
+pub mod schemas;
 pub mod table;

@@ -10,8 +10,8 @@ use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::{MachineFile, OverRange};
 use jred_machine::model::mechanism::AnyMechanism;
-use jred_report::answer::screen::Screen;
 use jred_report::table::output::Format;
+use jred_report::table::screen::Screen;
 use serde_json::Value;
 
 /// A block on a guide along x, driven along it, with a pin that swings a slotted lever about (0, −h).

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// The form of each command, and its validator.
 pub(crate) static VALIDATORS: LazyLock<Vec<(&str, Validator)>> = LazyLock::new(|| {
-    let all = jred_report::answer::schema::all().into_iter();
+    let all = jred_report::schemas::all().into_iter();
     all.map(|(form, schema)| {
         (
             form,

@@ -4,10 +4,6 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::list;
-use jred_machine::analysis::steady::Steady;
-use jred_machine::export::data::ExportData;
-
 /// The data of a command.
 pub(crate) trait Data: Serialize + JsonSchema {
     /// Name and version of its form, such as `jred-steady/1`.
@@ -38,7 +34,7 @@ struct SheetData {
 }
 
 /// The schema of a sheet with these columns, and further ones.
-fn of_sheet(form: &'static str, columns: &[&str]) -> (&'static str, Schema) {
+pub(crate) fn of_sheet(form: &'static str, columns: &[&str]) -> (&'static str, Schema) {
     let mut schema = root::<SheetData>(form, false);
     let cell = json!({ "type": ["number", "string", "null"] });
     let all: Map<String, Value> = columns
@@ -54,8 +50,8 @@ fn of_sheet(form: &'static str, columns: &[&str]) -> (&'static str, Schema) {
 }
 
 /// The schema of a command's JSON.
-fn of<D: Data>() -> Schema {
-    root::<D>(D::FORM, D::HAS_COURSE)
+pub(crate) fn of<D: Data>() -> (&'static str, Schema) {
+    (D::FORM, root::<D>(D::FORM, D::HAS_COURSE))
 }
 
 fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
@@ -98,30 +94,4 @@ fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
     schema.insert("required".into(), all.into());
     schema.insert("unevaluatedProperties".into(), false.into());
     schema
-}
-
-/// The schemas of all commands, each under the name of its form.
-pub fn all() -> Vec<(&'static str, Schema)> {
-    fn one<D: Data>() -> (&'static str, Schema) {
-        (D::FORM, of::<D>())
-    }
-    vec![
-        one::<list::balance::Form>(),
-        one::<list::bus::Form>(),
-        one::<ExportData>(),
-        one::<list::fastest::Form>(),
-        one::<list::inspection::Form>(),
-        one::<list::front::Form>(),
-        of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
-        one::<list::reduction::Form>(),
-        one::<list::retime::Form>(),
-        of_sheet(list::sensitivity::FORM, &list::sensitivity::COLUMNS),
-        one::<list::rule_list::Set>(),
-        one::<list::rule_list::Sets>(),
-        one::<list::simulation::Form>(),
-        one::<list::split::SplitData>(),
-        one::<Steady>(),
-        one::<list::listing::Form>(),
-        of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
-    ]
 }

@@ -1,7 +1,7 @@
 //! An answer for reading on a terminal or in a file.
 
-use super::screen::Screen;
 use super::{Answer, Block};
+use crate::table::screen::Screen;
 
 /// Names up to this width are a column of their own.
 const WIDEST: usize = 20;

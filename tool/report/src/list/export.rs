@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::export::data::{ExportData, FORM};
 use jred_machine::export::{Answer as Found, Export};
 use jred_machine::number::rounding::short;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::marks;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::number::rounding::rounded;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::pareto::{Front, Point};

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::output::Format as Full;
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::analysis::inspect::{
     Agreement, Findings, Inertia, JointFinding, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED,
     Transmission, Travel,

@@ -1,6 +1,7 @@
 //! Gear ratios for every motor as a sheet.
 
-use crate::table::sheet::{Reading, Sheet};
+use crate::answer::sheet::Sheet;
+use crate::table::reading::Reading;
 use jred_machine::model::rule::Rule;
 use jred_machine::number::rounding::{short, significant};
 use jred_sizing::select::ratio::obstacle::Obstacle;

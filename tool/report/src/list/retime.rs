@@ -9,7 +9,7 @@ use super::contact::of_retime;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::list::kept::{self, KeptPart};
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::Verdict;

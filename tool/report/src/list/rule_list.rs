@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Choices, Moves, RuleSet, shown};
 use jred_machine::number::csv;

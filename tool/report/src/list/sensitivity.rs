@@ -1,6 +1,7 @@
 //! Sensitivities of a drive's rules as a sheet.
 
-use crate::table::sheet::{Reading, Sheet};
+use crate::answer::sheet::Sheet;
+use crate::table::reading::Reading;
 use jred_machine::number::rounding::{short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;

@@ -13,7 +13,7 @@ use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 
 use crate::list::kept::{self, KeptPart};
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 
 /// Which motion the list below is made with, and what the best drive was before.
 pub fn words(file: &MachineFile, suited: &Suited) -> String {

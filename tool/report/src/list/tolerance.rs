@@ -1,6 +1,7 @@
 //! A Monte Carlo study of a drive as a sheet.
 
-use crate::table::sheet::{Reading, Sheet};
+use crate::answer::sheet::Sheet;
+use crate::table::reading::Reading;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::rounding::short;
 use jred_machine::number::words::counted;

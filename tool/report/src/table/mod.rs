@@ -2,5 +2,6 @@
 
 pub(crate) mod json;
 pub mod output;
+pub mod reading;
 pub mod rows;
-pub mod sheet;
+pub mod screen;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::table::sheet::Reading;
+use crate::table::reading::Reading;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{percent, short, shown, told_apart};
 use jred_motion::fastest::cycle::{Cost, MORE, Made};

@@ -6,9 +6,9 @@ use comfy_table::{CellAlignment, ContentArrangement};
 
 use super::List;
 use super::text::{doubt, kilowatts};
-use crate::answer::screen::Screen;
 use crate::list::marks;
 use crate::table::output::text_table;
+use crate::table::screen::Screen;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;

@@ -2,7 +2,7 @@
 
 use miette::{Result, miette};
 
-use crate::answer::screen::Screen;
+use crate::table::screen::Screen;
 use jred_machine::units::closest;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};

@@ -1,11 +1,9 @@
-//! A result of mixed cells, numbers and words.
+//! A table of mixed cells, numbers and words, for reading.
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
-use serde_json::{Map, Value, json};
 
 use super::rows::csv_line;
-use crate::answer::Answer;
-use crate::answer::screen::Screen;
+use super::screen::Screen;
 use crate::table::output::text_table;
 use jred_machine::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
@@ -13,24 +11,8 @@ use jred_sizing::study::cell::Cell;
 /// Largest width of a table: wider cells are broken into lines.
 pub const WIDEST: u16 = 120;
 
-/// Named columns of cells under a title.
-#[derive(Clone, Debug, Default)]
-pub struct Sheet {
-    /// Name and version of its form in JSON.
-    pub schema: &'static str,
-    /// Title, for tables and JSON.
-    pub title: String,
-    /// Names of the columns, with their units.
-    pub columns: Vec<String>,
-    /// The rows.
-    pub rows: Vec<Vec<Cell>>,
-    /// Columns and rows of a table for reading; `None`: the same ones.
-    pub reading: Option<Reading>,
-    /// Notes and warnings: below a table, and in JSON.
-    pub notes: Vec<String>,
-    /// The number of notes, from the first one, that are above the table.
-    pub lead: usize,
-}
+/// Digits of a number in a table.
+const DIGITS: i32 = 3;
 
 /// A table for reading.
 #[derive(Clone, Debug, Default)]
@@ -42,9 +24,6 @@ pub struct Reading {
     /// How many of the first columns are not broken into lines.
     pub whole: usize,
 }
-
-/// Digits of a number in a table.
-const DIGITS: i32 = 3;
 
 impl Reading {
     /// As a table no wider than [`WIDEST`].
@@ -111,37 +90,5 @@ impl Reading {
             .map(|line| line.trim_end().to_owned() + "\n")
             .collect();
         lines.concat()
-    }
-}
-
-impl Sheet {
-    /// As an answer: the table for reading with the notes, all columns as CSV and JSON.
-    pub fn answer(self) -> Answer<'static> {
-        let rows: Vec<Value> = self.rows.iter().map(|row| self.object(row)).collect();
-        let data = json!({ "notes": self.notes, "rows": rows });
-        let all = Reading {
-            columns: self.columns,
-            rows: self.rows,
-            whole: 1,
-        };
-        let mut answer = Answer::of_map(self.schema, self.title, data);
-        answer.csv(all.csv());
-        let (lead, notes) = self.notes.split_at(self.lead);
-        for note in lead {
-            answer.sentence(note);
-        }
-        answer.table(self.reading.unwrap_or(all));
-        for note in notes {
-            answer.sentence(note);
-        }
-        answer
-    }
-
-    fn object(&self, row: &[Cell]) -> Value {
-        let pairs = self.columns.iter().zip(row);
-        let object: Map<String, Value> = pairs
-            .map(|(name, cell)| (name.clone(), cell.json()))
-            .collect();
-        Value::Object(object)
     }
 }

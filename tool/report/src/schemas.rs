@@ -1,0 +1,31 @@
+//! The schemas of the JSON of all commands, which are generated from its types.
+
+use schemars::Schema;
+
+use crate::answer::schema::{of, of_sheet};
+use crate::list;
+use jred_machine::analysis::steady::Steady;
+use jred_machine::export::data::ExportData;
+
+/// Each under the name of its form.
+pub fn all() -> Vec<(&'static str, Schema)> {
+    vec![
+        of::<list::balance::Form>(),
+        of::<list::bus::Form>(),
+        of::<ExportData>(),
+        of::<list::fastest::Form>(),
+        of::<list::inspection::Form>(),
+        of::<list::front::Form>(),
+        of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
+        of::<list::reduction::Form>(),
+        of::<list::retime::Form>(),
+        of_sheet(list::sensitivity::FORM, &list::sensitivity::COLUMNS),
+        of::<list::rule_list::Set>(),
+        of::<list::rule_list::Sets>(),
+        of::<list::simulation::Form>(),
+        of::<list::split::SplitData>(),
+        of::<Steady>(),
+        of::<list::listing::Form>(),
+        of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
+    ]
+}
