@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::support::schema::{VALIDATORS, faults};
-use crate::support::{Run, jred_with, press_file};
+use crate::support::{Run, jred_with, shipped};
 use jred_report::schemas;
 
 fn folder() -> PathBuf {
@@ -44,8 +44,7 @@ fn the_schemas_are_those_of_the_types() {
 
 #[test]
 fn every_answer_follows_its_schema() {
-    let folder = press_file();
-    let folder = folder.parent().unwrap();
+    let folder = shipped("");
     let mut runs: Vec<Vec<String>> = Vec::new();
     for (machines, commands) in [
         (

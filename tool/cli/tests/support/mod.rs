@@ -112,7 +112,7 @@ impl Run {
 pub(crate) fn sizeable_machines() -> Vec<std::path::PathBuf> {
     // No drive of the catalogue slides, and no ratio over the time can be sized.
     let refused = ["linear-gripper.toml", "variator-press.toml"];
-    let files = std::fs::read_dir(press_file().parent().unwrap()).unwrap();
+    let files = std::fs::read_dir(shipped("")).unwrap();
     let files = files.map(|entry| entry.unwrap().path());
     let is_machine = |file: &std::path::PathBuf| {
         file.extension().is_some_and(|end| end == "toml")
