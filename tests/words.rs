@@ -77,7 +77,9 @@ fn nobody_writes_the_dialect() {
             if count > ceiling {
                 wrong.push(format!("{phrase:?} is in {count} lines of {place}, above {ceiling}: docs/glossary.md has better words"));
             } else if count + SLACK < ceiling {
-                wrong.push(format!("{phrase:?} is in {count} lines of {place} only: lower the ceiling of {ceiling}"));
+                wrong.push(format!(
+                    "{phrase:?} is in {count} lines of {place} only: lower the ceiling of {ceiling}"
+                ));
             }
         }
     }
