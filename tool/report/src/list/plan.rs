@@ -1,4 +1,4 @@
-//! What a plan for firmware is, in a line.
+//! A plan for firmware in one line.
 
 use jred::axis::plan::Errors;
 use jred_machine::number::rounding::{bound, short};
@@ -6,7 +6,7 @@ use jred_machine::number::words::counted;
 use jred_motion::plan::{Excess, Plan, Quantity};
 use jred_motion::trace::Trace;
 
-/// Rows, bytes, and what it is off by.
+/// Rows, bytes, and largest errors.
 pub fn text(plan: &Plan, trace: &Trace) -> String {
     let coordinate = trace.coordinate;
     let Errors {
@@ -37,7 +37,7 @@ pub fn text(plan: &Plan, trace: &Trace) -> String {
     )
 }
 
-/// Where it is off by more than was asked, if it is.
+/// A warning if the error exceeds the allowed one.
 pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
     let Excess {
         quantity,

@@ -25,22 +25,22 @@ use jred_sizing::study::cell::Cell;
 /// Figures that differ by less are shown as the same.
 const SAME: f64 = 5e-4;
 
-/// What is shown.
+/// The content of the listing.
 #[derive(Debug)]
 pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
-    /// Name of the drive; `None`: the torque is that at the input of the drive train.
+    /// Name of the drive; `None`: the torque is at the input of the drive train.
     pub drive: Option<String>,
-    /// What was asked.
+    /// The request.
     pub request: &'a Request,
     /// The result.
     pub retimed: &'a Retimed,
     /// The contact that the motion loses.
     pub broken: Option<&'a Broken>,
-    /// The rules of the drive in the gentlest motion; none without a drive.
+    /// The rules of the drive in the gentlest motion; empty without a drive.
     pub checks: &'a [Check],
-    /// Which files were written.
+    /// The written files.
     pub written: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ fn words(shown: &View) -> &'static Vocabulary {
     input_kind(shown.file).vocabulary()
 }
 
-/// What is to be least, in words.
+/// Name of the objective.
 fn goal(goal: Goal, words: &Vocabulary) -> String {
     match goal {
         Goal::Rms => format!("RMS {}", words.torque),
@@ -72,12 +72,12 @@ fn rows(retimed: &Retimed) -> Vec<(&'static str, &Figures)> {
     rows
 }
 
-/// Column of the copper loss, and of the share of the drive's limits, where they are known.
+/// Whether there are columns for the copper loss, and for the shares of the drive's limits.
 fn columns(shown: &View) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
-/// What the motion is, with which drive, and how its moves begin and end.
+/// The motion, its drive, and the ends of its moves.
 pub(crate) fn subject(shown: &View) -> String {
     let words = words(shown);
     let drive = shown.drive.as_ref().map_or_else(
@@ -306,7 +306,7 @@ fn one_move(shown: &View, gentle: &Gentle, goal: Goal) -> String {
         );
     }
     if goal != Goal::Peak && waits == 0.0 {
-        // Of the RMS torque, by how much it changes with one per cent of the time.
+        // Change of the copper loss per 1 % of the time.
         let change = 0.01 * travel.duration * gentle.per_second / gentle.cost;
         if gentle.cost > 0.0 {
             let _ = write!(
@@ -461,7 +461,7 @@ fn data<'a>(shown: &'a View) -> RetimeData<'a> {
         Optimum::Local(reason) => (false, Some(why(reason))),
     };
     let axis = file.axis();
-    // The mean of a high power has no unit of use.
+    // The mean of a high power has no useful unit.
     let known = |figure: f64| Some(figure).filter(|_| request.goal != Goal::Peak);
     let moves = retimed.moves.iter().map(|gentle| {
         let travel = &gentle.travel;

@@ -8,7 +8,7 @@ use jred_sizing::select::size::Selection;
 
 use crate::list::listing::violations;
 
-/// The answer in HTML: the one piece of the page that is put together by hand.
+/// The answer in HTML, the one part of the page built by hand.
 pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
     let motor = best.drive.motor;
@@ -72,7 +72,7 @@ fn escape(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Self-check, way of working, sources.
+/// Self-check, method, sources.
 pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let work = duty.integral(|i| i.terms.total() * i.omega);
     let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);

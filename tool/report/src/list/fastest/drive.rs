@@ -1,4 +1,4 @@
-//! What the motion asks of the drive: torque, speed, temperature of the winding, forces in joints, and what is left unused.
+//! Load of the drive in a motion: torque, speed, winding temperature, joint forces, and the reserve.
 
 use std::fmt::Write as _;
 
@@ -11,28 +11,28 @@ use jred_motion::fastest::{KeptPart, Reserve};
 use super::View;
 use crate::answer::Answer;
 
-/// Share below which an S1 torque is another one.
+/// Relative difference below which two S1 torques are the same.
 const ROUNDED: f64 = 1e-5;
 
-/// How warm the winding of the motor gets.
+/// Temperatures of the motor winding.
 pub struct Warmth {
-    /// Temperature (°C) of the surroundings.
+    /// Ambient temperature (°C).
     pub ambient: f64,
     /// Its temperatures.
     pub temperatures: Temperatures,
     /// The limit (°C).
     pub limit: f64,
-    /// Where that binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    /// If the limit binds: duration (s) of the motion without it, and the RMS torque (N·m) that it allows.
     pub bound: Option<[f64; 2]>,
 }
 
 impl View<'_> {
-    /// What the motor does, and the pause that it needs.
+    /// The load of the motor, and the pause that it needs.
     pub(super) fn motor(&self, answer: &mut Answer) {
         let Vocabulary { torque, speed, .. } = self.words();
         let effort = torque.unit;
         let load = &self.cycle.load;
-        // A reserve of nothing stays a little below, too.
+        // Without a reserve, too, the allowed torque is slightly below S1.
         let is_less = load.allowed < (1.0 - ROUNDED) * load.continuous;
         let continuous = if load.continuous.is_finite() {
             format!(
@@ -106,7 +106,7 @@ impl View<'_> {
         }
     }
 
-    /// What a kept part exceeds.
+    /// Warns if a kept part exceeds a limit.
     pub(super) fn exceeded(&self, part: &KeptPart, answer: &mut Answer) {
         let (share, limit) = part.excess;
         if part.exceeds() {
@@ -133,7 +133,7 @@ impl View<'_> {
         )
     }
 
-    /// How warm the winding gets, and what its limit costs.
+    /// The temperature of the winding, and the cost of its limit.
     pub(super) fn winding(&self, warmth: &Warmth, answer: &mut Answer) {
         let Warmth {
             ambient,
