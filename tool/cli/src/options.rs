@@ -35,10 +35,10 @@ pub struct Cli {
 }
 
 impl Cli {
-    /// From the words of the command line, the first of which is the command's own name.
+    /// Parses the command line; the first word is the name of the command.
     ///
     /// # Errors
-    /// Words that are none of the command's.
+    /// Words that the command does not accept.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let mut command = numbers(Self::command());
         let matches = command.try_get_matches_from_mut(words)?;
@@ -46,7 +46,7 @@ impl Cli {
     }
 }
 
-/// The command with options whose number may be negative: then what they say of it is said, not that there is no option of this name.
+/// Lets numeric options accept negative values, so that errors concern the value and not an unknown option.
 fn numbers(command: clap::Command) -> clap::Command {
     let kinds = [
         TypeId::of::<f64>(),
@@ -72,7 +72,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing r
      reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
      from.";
 
-/// Most time steps of a cycle: --explain and the report, which compute it anew for many machines, take half a minute with them.
+/// Largest number of time steps of a cycle: --explain and the report, which recompute it for many machines, then take half a minute.
 const MOST_STEPS: i64 = 200_000;
 
 /// The commands.

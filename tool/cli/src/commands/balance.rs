@@ -68,7 +68,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     Ok(Done::Holds)
 }
 
-/// Why there is no answer; `links` are those that would have an effect.
+/// Why there is no answer; `links` are the links with an effect.
 fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) -> Report {
     let name = plain::path(&options.file);
     match fault {
@@ -149,7 +149,7 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
     })
 }
 
-/// The number of a spring.
+/// Index of a spring.
 fn spring(name: &str, file: &MachineFile) -> Result<usize> {
     let springs = || {
         let all = file.elements.iter().enumerate();

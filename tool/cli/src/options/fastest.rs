@@ -12,12 +12,12 @@ use jred_machine::read;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
-/// The reserve that is asked for.
+/// The requested reserve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// A share of torque and speed.
     Share(f64),
-    /// What the rules ask for.
+    /// The share that the rules require.
     Rules,
 }
 

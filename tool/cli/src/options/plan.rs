@@ -1,4 +1,4 @@
-//! `--plan` of the commands that make a motion.
+//! `--plan` of the commands that compute a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -19,19 +19,19 @@ pub struct PlanFile {
     pub plan_error: f64,
 }
 
-/// What a plan is written as.
+/// Format of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// Rust source.
     Rust,
     /// Source of C and C++.
     C,
-    /// The words as they are.
+    /// The words as binary.
     Image,
 }
 
 impl Form {
-    /// That of a file's ending, in any case.
+    /// The format for a file extension, case-insensitive.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_ascii_lowercase();
         match ending.to_str()? {

@@ -72,10 +72,10 @@ pub struct Retime {
     pub catalogue: CatalogueFiles,
 }
 
-/// The ramp where none is given.
+/// Default ramp.
 pub const RAMP: f64 = 0.1;
 
-/// A ramp's share of a move.
+/// A ramp as a share of a move.
 fn ramp(text: &str) -> Result<f64, String> {
     let parsed = match text.strip_suffix('%') {
         Some(percent) => percent.trim().parse::<f64>().map(|x| x / 100.0),

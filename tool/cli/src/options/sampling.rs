@@ -1,9 +1,9 @@
-//! How finely a cycle is sampled.
+//! Sampling of a cycle.
 
 use clap::Args;
 use jred_machine::analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
 
-/// Largest error that can be asked for.
+/// Largest allowed tolerance.
 const MOST_TOLERANCE: f64 = 1e-2;
 
 /// Error of the integrals.

@@ -1,10 +1,10 @@
-//! Options whose value is one of a few words.
+//! Options that take one of a few words.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use jred_machine::number::words::Word;
 
-/// Reads a word; the help lists all of them with what they mean.
+/// Parses a word; the help lists all of them with their meanings.
 pub(super) fn word<T: Word>() -> impl TypedValueParser<Value = T> {
     let values = T::WORDS.iter().map(|(_, word, meaning)| {
         let meaning = meaning.trim();

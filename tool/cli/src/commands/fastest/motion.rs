@@ -1,4 +1,4 @@
-//! What is made as fast as possible: one move, or the motion of the file.
+//! The motion to optimise: one move, or the motion of the file.
 
 use miette::{Result, miette};
 
@@ -9,16 +9,16 @@ use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
 use jred_motion::way::Actuator;
 
-/// What is made as fast as possible.
+/// The motion to optimise.
 pub(super) enum Motion {
     /// One move.
     Move(Box<Task>),
-    /// That of the file.
+    /// The motion of the file.
     Chain(Chain),
 }
 
 impl Motion {
-    /// What the motion of the file is made of.
+    /// The parts of the file's motion.
     pub(super) const fn chain(&self) -> Option<&Chain> {
         match self {
             Self::Move(_) => None,
@@ -26,7 +26,7 @@ impl Motion {
         }
     }
 
-    /// It as fast as possible; or why it cannot be made, with the number of the move.
+    /// The fastest motion; otherwise the reason, with the number of the move.
     pub(super) fn fastest(
         &self,
         file: &MachineFile,

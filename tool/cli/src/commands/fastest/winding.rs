@@ -14,7 +14,7 @@ use jred_sizing::catalogue::MotorKind;
 /// The winding whose temperature is limited, and the limit (°C).
 ///
 /// # Errors
-/// A limit below the temperature of the surroundings, or a motor of whose temperatures nothing is known.
+/// A limit below the ambient temperature, or a motor without thermal data.
 pub(super) fn limit<'a>(
     options: &Options,
     chosen: &'a Chosen,
