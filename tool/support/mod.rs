@@ -1,4 +1,4 @@
-//! What the tests of the tool's packages share, included by each. Not every package uses all of it.
+//! Shared by the tests of the tool's packages, each of which includes it. Not every package uses all of it.
 #![allow(dead_code)]
 
 pub(crate) mod budget;
@@ -17,7 +17,7 @@ pub(crate) fn press_file() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/press.toml")
 }
 
-/// Its text without the supply, which is the last table: tests give their own, or none.
+/// Its text without the supply, which is the last table: tests give their own, or omit it.
 pub(crate) fn press_text() -> String {
     let text = std::fs::read_to_string(press_file()).unwrap();
     let (machine, _) = text.split_once("\n# The three-phase supply").unwrap();
@@ -85,7 +85,7 @@ impl Columns {
         }
     }
 
-    /// A column that is full.
+    /// A column without gaps.
     pub(crate) fn get(&self, name: &str) -> Vec<f64> {
         let index = self.names.iter().position(|n| n == name);
         let index = index.unwrap_or_else(|| panic!("no column {name:?} in {:?}", self.names));
