@@ -93,7 +93,6 @@ proptest! {
 
 /// At rest, and where the direction of the start is undetermined, the drive supplies the losses: T/(i·η), and so for every further torque of an
 /// acceleration.
-/// acceleration takes.
 #[test]
 fn a_train_without_a_direction_drives() {
     let stages = [(-4.0, 0.9), (-2.5, 0.8)]

@@ -162,7 +162,7 @@ proptest! {
         }
     }
 
-    /// Next to the change point the joint forces require the same torque of the drive; close to it there are none.
+    /// Next to the change point the joint forces require the same torque of the drive; close to it they are not computed.
     #[test]
     fn forces_hold_beside_change_points(four_bar in linkage(), near in 0.05..0.2_f64, omega in -5.0..5.0_f64, alpha in -20.0..20.0_f64) {
         let assembly = drawn(&four_bar, clear(&four_bar)).unwrap();

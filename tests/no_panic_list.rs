@@ -2,7 +2,6 @@
 //!
 //! Trait implementations are not checked: operators of an angle are used in the program without a name, and those of a format or a number are part of
 //! every tick.
-//! a number are what every tick is made of.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -23,7 +23,7 @@ fn built<const SET: Set, L: Fixed>(machine: &Wave, scale: &Scale) -> Result<(), 
     rows.try_model::<SET>(scale).map(|_| ())
 }
 
-/// Only J + b + c, exactly: refused from 1 on, whichever term grows.
+/// Only J + b + c, exactly: refused from 1 on, for growth of any term.
 fn sum_is_bounded<const SET: Set, L: Fixed>() {
     let scale = Scale::SI.for_cells(CELLS, TAU);
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);

@@ -194,9 +194,8 @@ fn a_deceleration_is_kept() {
 
 #[test]
 fn a_weak_brake_keeps_what_is_possible_on_a_turn() {
-    // J from 0.32 at half a turn to 1.68 at its start. For ω ≤ 10 throughout, the energy at the start must be less than ½·J·10² anywhere plus the
-    // brake's work up to there.
-    // there.
+    // J from 0.32 at half a turn to 1.68 at its start. For ω ≤ 10 throughout, the energy at the start must not exceed ½·J·10² plus the brake's work
+    // up to there, at any position.
     let wave = Wave {
         swing: 0.68,
         load: 0.0,

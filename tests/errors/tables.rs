@@ -14,7 +14,7 @@ use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::scale_of;
 
-/// The table of a machine, or the reason why there is none.
+/// The table of a machine, or the reason for its absence.
 fn rows<S: jred::number::Scalar>(
     machine: &impl Reducible,
     set: Set,
@@ -117,7 +117,7 @@ fn tables_that_cannot_be_made_say_why() {
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
 }
 
-/// A possible cure names what to change; for damaged words there is none.
+/// A possible cure names the part to change; damaged words have no cure.
 #[test]
 fn tables_and_models_that_can_be_cured_say_how() {
     let (cell, phase) = (3, jred::Phase::default());

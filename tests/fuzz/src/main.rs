@@ -39,7 +39,8 @@ mod program {
     /// Runs random inputs.
     #[derive(clap::Parser)]
     pub(super) struct Options {
-        /// Harness: image, plan, machine, values (of machine files), profile, catalogue, rows, arguments, command, or heavy (the largest inputs of each command).
+        /// Harness: image, plan, machine, values (of machine files), profile, catalogue, rows, arguments, command, or heavy (the largest inputs of
+        /// each command).
         harness: String,
         /// How long.
         #[arg(long, default_value_t = 60)]

@@ -123,7 +123,7 @@ fn part(rng: &mut impl Rng, length: usize) -> std::ops::Range<usize> {
     start..length.min(start + rng.random_range(0..=longest))
 }
 
-/// Range of the next number from `start` on; empty at the end if there is none.
+/// Range of the next number from `start` on; empty at the end without a number.
 fn number_behind(bytes: &[u8], start: usize) -> std::ops::Range<usize> {
     let digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
     let from = bytes[start..]

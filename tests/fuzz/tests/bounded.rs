@@ -18,7 +18,6 @@ const SEED: u64 = 0x0051;
 
 /// Runs a harness over its corpus and `inputs` mutated seeds. At least 1/64 must be accepted, and some refused, or the test shows nothing: inputs
 /// that are not read are never refused.
-/// read is never refused.
 fn bounded(name: &str, inputs: u32) {
     let harness = harness::named(name).unwrap();
     let seeds = (harness.seeds)();

@@ -276,7 +276,6 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
 
 /// Compares every figure of two answers and of the objects in them; `path` is the position in the JSON. Tolerances are shares of the largest figure
 /// of the group (a small mean next to its RMS); for a margin, of its limit.
-/// group (a mean of nearly nothing beside its RMS), a margin as one of its limit.
 fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
     match (found, exact) {
         (Value::Object(found), Value::Object(exact)) => {

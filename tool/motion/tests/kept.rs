@@ -236,7 +236,7 @@ fn chain_of(motion: &Motion, file: &MachineFile) -> Result<Chain, NoMoves> {
     chain(motion, &file.process())
 }
 
-/// The web of a winder runs at its speed, whichever law leads to it; only start and stop are computed.
+/// The web of a winder runs at its speed, with any law leading to it; only start and stop are computed.
 #[test]
 fn a_winder_keeps_the_speed_of_its_web() {
     let file = example("winder");

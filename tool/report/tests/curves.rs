@@ -18,7 +18,7 @@ file = "curves.csv"
 range = "turn"
 "#;
 
-/// What `jred reduce --format csv` writes is read back as the same machine.
+/// The CSV of `jred reduce` is read back as the same machine.
 #[test]
 fn an_exported_machine_comes_back() {
     let file = read::read(&press_file()).unwrap();

@@ -5,7 +5,6 @@ use crate::support::{Folder, edited, press_file};
 
 /// Torque rates whose motion takes many times as long as the fastest one, in falling order: each is found, satisfied, and takes longer. One test per
 /// machine, so that they run in parallel.
-/// longer. One test for each machine, so that they run beside each other.
 fn found_at(machine: &str, drive: &str, rates: [&str; 2]) {
     let file = format!(
         "{}/../../machines/{machine}.toml",

@@ -207,7 +207,6 @@ fn the_motion_is_that_of_the_first_drive() {
 
 /// A table that indexes 3,900 times an hour: with --reserve rules the motion satisfies T2B at the shock factor of its own rate, T2N as cubic mean and
 /// the S1 torque, and `jred size` accepts it with the same drive. Limits that were not requested are named, with their options.
-/// it with the same drive. What is not asked for is named, with what keeps it.
 #[test]
 fn size_accepts_a_gearbox_with_shock_factors() {
     let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../support/engineer");

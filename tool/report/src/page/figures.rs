@@ -29,7 +29,7 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
     }
 }
 
-/// Sentence for a caption about parts that the curves over the position do not contain; empty if there are none.
+/// Sentence for a caption about parts that the curves over the position do not contain; empty without such parts.
 pub(super) fn not_contained(file: &MachineFile) -> String {
     let missing: Vec<String> = file.scheduled().map(|item| item.what).collect();
     if missing.is_empty() {

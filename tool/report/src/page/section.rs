@@ -135,7 +135,7 @@ pub(super) fn plot(
     drawn(&all.collect::<Vec<_>>(), axis, y)
 }
 
-/// The columns of a quantity over another that are not zero everywhere, each named after its part; `None` if there are none.
+/// The columns of a quantity over another that are not zero everywhere, each named after its part; `None` without such columns.
 pub(super) fn over(
     columns: &Columns,
     (along, axis): (Quantity, Axis),

@@ -244,7 +244,7 @@ fn the_energy_that_comes_back_is_said() {
     near("energy", number, back, 1e-3);
 }
 
-/// The course on the page repeats after a cycle and reaches the judged voltage; without data of the bus there is none.
+/// The course on the page repeats after a cycle and reaches the judged voltage; it exists only with data of the bus.
 #[test]
 fn the_course_of_the_voltage_reaches_the_judged_figure() {
     let (cycle, motor) = (cycle(), motor());
