@@ -7,14 +7,14 @@ use clap::builder::TypedValueParser;
 
 use super::output_file;
 
-/// Where the plan goes, and how exact it is.
+/// File and accuracy of the plan.
 #[derive(Debug, Args)]
 pub struct PlanFile {
     /// Write the motion of the drive link as a plan that firmware follows (docs/table-image.md): Rust source if the name ends in .rs, source of C
     /// and C++ if in .h, .hh, .hpp, .hxx, .c, .cc, .cpp or .cxx, a binary image if in .jred, .bin, .img or .dat.
     #[arg(long, value_name = "FILE", value_parser = plan_file())]
     pub plan: Option<PathBuf>,
-    /// Share of the greatest speed and acceleration by which the plan may be off, of the way a tenth of it.
+    /// Largest error of the plan as a share of the greatest speed and acceleration; for the position a tenth of this share of the distance.
     #[arg(long, value_name = "SHARE", default_value = "0.1 %", requires = "plan", value_parser = share)]
     pub plan_error: f64,
 }

@@ -23,7 +23,7 @@ use jred_sizing::study::shard::Shard;
 /// Which catalogue.
 #[derive(Clone, Debug, Args)]
 pub struct SizingOptions {
-    /// What drives are made of.
+    /// Parts of drives.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
     /// Rule set instead of that in the machine file: a name from `jred rules`, or a file; other entries of `[rules]` still
