@@ -190,7 +190,7 @@ fn a_passing_move_neither_repeats_nor_stands() {
     let run = jred("fastest", "rotary-table", &[&passing[..], &fast].concat());
     assert!(run.message().contains("rpm at the most"), "{}", run.err);
     assert!(
-        run.message().contains("a longer way does not help"),
+        run.message().contains("a longer distance does not help"),
         "{}",
         run.err
     );

@@ -54,7 +54,7 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
     if !matches!(options.format, Form::C | Form::Rust) {
         return Err(miette!(
             help = "remove --name, or use --format c or rust",
-            "--name is of source code, and --format {} has no names",
+            "--name applies to source code; --format {} has no names",
             options.format
         ));
     }
@@ -106,7 +106,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     if let (Some(whole), true) = (whole, options.pieces.is_some()) {
         return Err(miette!(
             help = "remove --pieces, or take another --layout",
-            "{whole} a whole turn, not a piece of one"
+            "{whole} a whole turn only, without pieces"
         ));
     }
     let coordinate = file.machine.mechanism().coordinate();

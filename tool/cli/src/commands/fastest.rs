@@ -260,7 +260,7 @@ fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &T
             format!("{} {}", short(most), axis.coordinate.speed_unit())
         };
         return Err(miette!(
-            help = "give a lower speed, or raise that limit: a longer way does not help",
+            help = "give a lower speed, or raise that limit: a longer distance does not help",
             "--{name} {} is too fast: the limit of the {} leaves {most} at the most, everywhere",
             plain::quoted(text),
             limit.name_in(file)

@@ -74,7 +74,7 @@ fn mean_speed(speed: Option<f64>, options: &options::Steady) -> Result<Option<Me
     };
     match speed {
         Some(0.0) => Err(miette!(
-            help = "give the speed at which the machine runs; a machine that stands has no cycle",
+            help = "give the speed at which the machine runs; a machine at rest has no cycle",
             "--mean-speed is zero"
         )),
         Some(speed) => Ok(Some(MeanSpeed { speed, by })),

@@ -49,7 +49,7 @@ fn plan_file() -> impl TypedValueParser<Value = PathBuf> {
             return Ok(path);
         }
         Err(
-            "its ending says what is written: .rs is Rust source; .h, .hh, .hpp, .hxx, .c, .cc, .cpp and .cxx are source of C and C++; .jred, .bin, .img and .dat are a binary image",
+            "its extension selects the form: .rs is Rust source; .h, .hh, .hpp, .hxx, .c, .cc, .cpp and .cxx are source of C and C++; .jred, .bin, .img and .dat are a binary image",
         )
     })
 }

@@ -11,5 +11,5 @@ pub(super) fn word<T: Word>() -> impl TypedValueParser<Value = T> {
         PossibleValue::new(*word).help(meaning.strip_suffix('.').unwrap_or(meaning))
     });
     PossibleValuesParser::new(values)
-        .try_map(|word| T::of_word(&word).ok_or("it is none of the words"))
+        .try_map(|word| T::of_word(&word).ok_or("it is not one of the words"))
 }

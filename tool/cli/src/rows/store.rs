@@ -105,7 +105,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     let mut file = file.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
             help = "name the file itself, or remove the link",
-            "{} is a symbolic link that leads nowhere: no file begins behind it",
+            "{} is a dangling symbolic link: no file is created through it",
             plain::path(path)
         ),
         std::io::ErrorKind::AlreadyExists => miette!(

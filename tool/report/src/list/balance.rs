@@ -194,7 +194,7 @@ fn mass(on: &str, found: &Attached) -> String {
     let inertia = if found.inertia > 0.0 {
         format!("inertia = \"{} kg m^2\"", figure(found.inertia))
     } else {
-        "# a point mass: a real one has an inertia of its own, which comes on top".to_owned()
+        "# a point mass: a real one has an inertia in addition".to_owned()
     };
     format!(
         "[[mass]]\nname = \"counterweight on {on}\"\non = \"{on}\"\nat = [\"{u} mm\", \"{v} mm\"]\nmass = \"{} kg\"\n{inertia}",

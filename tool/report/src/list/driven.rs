@@ -26,12 +26,12 @@ pub(super) fn driven(turns: &Turns) -> Option<String> {
         return None;
     }
     let why = if turns.is_backwards {
-        "φ falls, and a load keeps the sign of its file: give a motor torque of the other sign, or, if the load should resist this way, turn its sign"
+        "φ falls, and loads keep the sign of the file: reverse the sign of the motor torque, or that of the load if it should resist in this direction"
     } else {
-        "if they should resist, turn their sign"
+        "if they should resist, reverse their sign"
     };
     Some(format!(
-        "drive the machine, by {} J a turn; {why}",
+        "drive the machine with {} J per turn; {why}",
         short(process)
     ))
 }

@@ -148,7 +148,7 @@ impl View<'_> {
         }
         answer.fact("duration", says);
         if !self.asked.is_empty() {
-            answer.fact("asked for", self.asked.join("; "));
+            answer.fact("requested", self.asked.join("; "));
         }
         if let Some(chain) = self.chain {
             for (name, says) in kept::lines(self.file, chain) {

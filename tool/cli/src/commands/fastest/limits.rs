@@ -140,7 +140,7 @@ fn tool_speeds(texts: &[String], file: &MachineFile) -> Result<(ToolSpeeds, Vec<
         let (limit, own) = tool_speed(text, file)?;
         all = all.with(limit).ok_or_else(|| {
             miette!(
-                help = "one part of the way may take the place of two that touch",
+                help = "merge adjacent ranges into one",
                 "--max-tool-speed is given {} times, at most {MOST} are read",
                 texts.len()
             )
@@ -171,7 +171,7 @@ fn part(
             let lengths = read::drive_positions(from, domain, [axis, axis]);
             let between = both([drive, axis])?;
             if lengths.is_err() || read::drive_positions(to, domain, [axis, axis]).is_err() {
-                return Err("one position is an angle, the other a length; write both as angles of the drive link, which come again with every turn, or both as lengths".to_owned());
+                return Err("one position is an angle, the other a length; write both as angles of the drive link, which repeat every turn, or both as lengths".to_owned());
             }
             Ok((between, false))
         }
@@ -222,14 +222,14 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let width = between[1] - between[0];
     if width == 0.0 || (repeats && width.abs() > domain.span()) {
         return Err(miette!(
-            help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
-            "{given}: from {from} to {to} is no part of the way"
+            help = "the range runs from the first position to the second in the direction of growing positions; on a turn the second may be smaller",
+            "{given}: {from} to {to} is not a valid range"
         ));
     }
     let over = if width < 0.0 {
         let rest = spoken.coordinate.shown(domain.span() + width);
         format!(
-            ", over the end of the turn, {} {} in all (for the other part swap the two positions)",
+            ", over the end of the turn, {} {} in all (for the other part swap the positions)",
             short(rest),
             spoken.coordinate.unit()
         )

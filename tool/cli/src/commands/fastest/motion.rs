@@ -69,15 +69,15 @@ pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -
             let axis = file.axis();
             let unit = axis.coordinate.speed_unit();
             miette!(
-                help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
+                help = "give --from and --to, or begin and end the cycle of [motion] at a position where the machine is at rest",
                 "the motion of {} {end} with {} {unit}, so its moves are not known",
                 file.name,
                 short(axis.rate(speed.abs()))
             )
         }
         NoMoves::AllKept => miette!(
-            help = "give --from and --to, or a [motion] with moves beside the constant speed",
-            "the motion of {} is nothing but constant speed, which is kept",
+            help = "give --from and --to, or a [motion] with moves in addition to the constant speed",
+            "{} moves at constant speed only, which is kept: there is nothing to optimise",
             file.name
         ),
     })?;
