@@ -55,7 +55,7 @@ fn the_process_of_a_machine_is_kept() {
 fn limits_of_segments_are_not_dropped_without_a_word() {
     let drive = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
     let run = jred("fastest", "belt-axis", &drive);
-    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept; --max-speed, --max-acceleration, --max-jerk keep them";
+    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept; to keep them, give --max-speed, --max-acceleration, --max-jerk";
     assert!(run.out.contains(says), "{}", run.out);
     let limits = [
         &drive[..],
@@ -183,7 +183,7 @@ fn a_passing_move_neither_repeats_nor_stands() {
     let speeds = ["--from-speed", "20 rpm", "--to-speed", "10 rpm"];
     let run = jred("fastest", "rotary-table", &[&passing[..], &speeds].concat());
     assert!(run.out.contains("move 1"), "{}{}", run.out, run.err);
-    for line in ["more at rest each time", "to hold the end"] {
+    for line in ["more rest each time", "to hold the end"] {
         assert!(!run.out.contains(line), "{}", run.out);
     }
     let fast = ["--from-speed", "6000 rpm"];

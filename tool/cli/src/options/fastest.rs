@@ -31,7 +31,7 @@ fn asked(text: &str) -> Result<Asked, String> {
 /// `jred fastest`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` (with --reserve rules), loses a contact, or keeps a part of the file that is beyond a limit; 2 bad input, or there is no motion within the limits.\ndocs/motion/theory.md says what is found, and why it is the fastest."
+    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` (with --reserve rules), loses a contact, or keeps a part of the file that is beyond a limit; 2 bad input, or there is no motion within the limits.\ndocs/motion/theory.md explains the result, and why it is the fastest."
 )]
 pub struct Fastest {
     /// Machine file. The moves are those of its `[motion]`, whose pauses are kept, unless --from and --to are given.

@@ -134,7 +134,7 @@ fn the_error_of_a_plan_is_looked_at() {
     ])
     .ends(0)
     .says(&[
-        "warning: the plan's acceleration is off by",
+        "warning: the error of the plan's acceleration is",
         "but --plan-error allows",
         "give a larger --plan-error",
     ]);

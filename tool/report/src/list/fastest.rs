@@ -193,17 +193,17 @@ impl View<'_> {
             // A limit of the temperature is applied as a limit of the RMS torque.
             let (near, rms) = if binds {
                 let near = format!(
-                    "no motion near it with its RMS {torque} is faster; one that spreads its losses otherwise over the cycle may be"
+                    "no nearby motion with the same RMS {torque} is faster; one with another distribution of losses over the cycle may be"
                 );
                 (near, format!(", RMS {torque} and winding temperature"))
             } else {
                 (
-                    "no motion near it is faster".to_owned(),
+                    "no nearby motion is faster".to_owned(),
                     format!(" and RMS {torque}"),
                 )
             };
             let says = format!(
-                "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, and none takes less",
+                "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, a lower bound",
                 short(least)
             );
             answer.fact("optimum", says);

@@ -35,7 +35,7 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
     let mut lines: Vec<_> = (chain.kept().map(|part| ("kept", kept(file, part)))).collect();
     if let Some(steady) = &chain.given_up {
         let says = format!(
-            "the constant speed of the file, {}: it is all of the motion, so another one is sought for the same turn",
+            "the constant speed of the file, {}: the motion has no other part, so a new one is computed for the same turn",
             speed(file, steady.speed)
         );
         lines.push(("not kept", says));
@@ -44,7 +44,7 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
         let drive = file.machine.mechanism().coordinate();
         for overshoot in &chain.overshoots {
             let says = format!(
-                "the turning back of the law: {}; its move goes straight to its end",
+                "the overshoot of the law: {}; its move goes directly to its end",
                 overshoot.says(motion, drive)
             );
             lines.push(("not kept", says));
@@ -126,7 +126,7 @@ pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<Str
     names.dedup();
     let cure = if asked.is_some() && options {
         let names: Vec<String> = names.iter().map(|name| format!("--max-{name}")).collect();
-        format!("; {} keep them", names.join(", "))
+        format!("; to keep them, give {}", names.join(", "))
     } else {
         String::new()
     };

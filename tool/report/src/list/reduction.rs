@@ -101,7 +101,7 @@ impl<'a> View<'a> {
 /// Sentence about the parts that rows without the motion do not contain.
 pub fn not_contained(parts: &[String]) -> String {
     format!(
-        "not contained where no motion passes: {}: use --over time",
+        "not contained without the motion: {}; use --over time",
         parts.join("; ")
     )
 }

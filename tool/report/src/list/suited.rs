@@ -43,7 +43,7 @@ pub fn words(file: &MachineFile, suited: &Suited) -> String {
     };
     let ahead = suited.ahead.as_ref().map_or_else(String::new, |ahead| {
         format!(
-            "\nThe list ranks {} first: this motion suits it better than its own gentlest one, whose RMS {torque} is least but not its use of all limits",
+            "\nThe list ranks {} first: with this motion it uses less of its limits than with its own gentlest one, which has the least RMS {torque} only",
             named(ahead)
         )
     });

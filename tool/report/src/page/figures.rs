@@ -36,7 +36,7 @@ pub(super) fn not_contained(file: &MachineFile) -> String {
         return String::new();
     }
     format!(
-        " Not contained, because it goes by the motion: {}.",
+        " Not contained, because it follows the motion: {}.",
         missing.join("; ")
     )
 }

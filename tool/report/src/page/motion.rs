@@ -217,8 +217,8 @@ fn plane(
         y: &y,
     };
     let caption = format!(
-        "From {} to {} in {} s: speed over the position. A stretch has the colour of the limit that it is at; each change of colour is a switching \
-         point. Dashed: speeds that the motion cannot pass, and the largest speed that the limits let the machine keep at a place: above it, it can only slow down.",
+        "From {} to {} in {} s: speed over the position. Each stretch has the colour of its active limit; each change of colour is a switching \
+         point. Dashed: speeds that the motion cannot pass, and the largest speed that the limits allow at a position: above it the machine can only slow down.",
         axis.place(made.task.from),
         axis.place(made.task.to),
         short(made.fastest.time)
@@ -242,7 +242,7 @@ fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
         x: Axis::new("time [s]"),
         y: "temperature [°C]",
     };
-    let caption = "Temperature of the winding when the motion with its pauses repeats for ever.";
+    let caption = "Temperature of the winding when the motion with its pauses repeats endlessly.";
     let figure = Figure::new(lines(&axes, &series), caption.to_owned());
     Some(Section::new("Winding", vec![figure]))
 }

@@ -99,8 +99,8 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
          back."
             .to_owned(),
         format!(
-            "The cycle is evaluated exactly at {} instants; its integrals are those of Gauss and Kronrod's rule on \
-             panels that were halved until the error was known to be small; peaks lie between the instants.",
+            "The cycle is evaluated exactly at {} instants. Integrals are by Gauss-Kronrod quadrature, with panels halved \
+             until the error is known to be small; peaks between the instants are included.",
             duty.instants.len()
         ),
         "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A \

@@ -95,7 +95,7 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
         1e-3,
     );
     near(
-        "until it stands",
+        "until it stops",
         number("until the brake closes and "),
         (way / RADIUS).to_degrees(),
         1e-3,

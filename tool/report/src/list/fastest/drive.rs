@@ -91,11 +91,11 @@ impl View<'_> {
             Some(0.0) => {}
             _ if passes => {}
             _ if self.is_endless() => answer.warning(format!(
-                    "the RMS {torque} exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
+                    "the RMS {torque} exceeds {what}, and an endless motion has no pause: take a larger drive, or a slower motion"
                 ),
             ),
             Some(pause) => answer.warning(format!(
-                    "the RMS {torque} exceeds {what}: repeated, the motion needs {} s more at rest each time",
+                    "the RMS {torque} exceeds {what}: when repeated, the motion needs {} s more rest each time",
                     short(pause)
                 ),
             ),
@@ -111,7 +111,7 @@ impl View<'_> {
         let (share, limit) = part.excess;
         if part.exceeds() {
             let says = format!(
-                "what segment {} prescribes exceeds the limit of the {} by {}",
+                "segment {} exceeds the limit of the {} by {}",
                 part.kept.segment + 1,
                 limit.name_in(self.file),
                 percent(share)
@@ -168,11 +168,11 @@ impl View<'_> {
         }
         answer.fact("winding", says);
         let says = match bound {
-            None => "does not bind".to_owned(),
+            None => "not active".to_owned(),
             Some([free, rms]) => {
                 let whole = self.cycle.trace.duration();
                 format!(
-                    "binds: it comes to an RMS of {} {effort}; without it the whole motion takes {} s, {} less",
+                    "active: it limits the RMS to {} {effort}; without it the whole motion takes {} s, {} less",
                     short(*rms),
                     short(*free),
                     percent(1.0 - free / whole)
@@ -204,7 +204,7 @@ impl View<'_> {
         }
         if self.of_catalogue && asked.is_some() {
             return format!(
-                "none; `jred size` keeps {}: --reserve rules leaves that unused",
+                "none; the rules of `jred size` require {}: give --reserve rules",
                 shares(&asked)
             );
         }

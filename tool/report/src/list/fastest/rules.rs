@@ -59,12 +59,12 @@ impl View<'_> {
 /// The cure for a violated rule.
 fn cure(judged: &Judged, check: &Check) -> &'static str {
     if judged.sought.contains(&check.id) {
-        return "; no slower motion that was tried keeps it";
+        return "; no slower motion that was tried satisfies it";
     }
     match check.id {
         Rule::RmsTorque | Rule::WindingTemperature | Rule::HousingTemperature => {
-            "; --max-rms s1 keeps it"
+            "; --max-rms s1 satisfies it"
         }
-        _ => "; the motion is not made for it",
+        _ => "; the motion does not account for it",
     }
 }

@@ -116,11 +116,11 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     let brake = match of(Rule::BrakeTorque) {
         None => "not needed".to_owned(),
         Some(check) if check.verdict == Verdict::NotChecked => judged.least_brake.map_or_else(
-            || "needed; the catalogue states none of this motor".to_owned(),
+            || "needed; the catalogue gives none for this motor".to_owned(),
             |torque| {
                 let words = &drive.motor.kind.vocabulary().torque;
                 format!(
-                    "at least {} {} is needed; the catalogue states none of this motor",
+                    "at least {} {} is needed; the catalogue gives none for this motor",
                     short(torque / words.scale),
                     words.unit
                 )

@@ -165,7 +165,7 @@ pub(crate) fn violations(selection: &Selection) -> Vec<String> {
         let words = closest.drive.motor.kind.vocabulary();
         let alone = match violation.alone {
             0 => String::new(),
-            n => format!(", {n} by nothing else"),
+            n => format!(", {n} for no other reason"),
         };
         format!(
             "  {}: {}{alone}; the closest, {}: {figures}",

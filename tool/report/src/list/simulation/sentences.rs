@@ -86,7 +86,7 @@ impl View<'_> {
         let (far, way) = longest(|rest| rest.way.abs())?;
         let (slow, time) = longest(|rest| rest.time)?;
         Some(format!(
-            "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
+            "of {count} instants over the cycle before, the longest distance to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
             self.way(axis, way.way),
             self.time(way.time),
             from(far),
