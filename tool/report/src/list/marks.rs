@@ -36,10 +36,10 @@ pub(crate) fn legend(drives: &[Drive]) -> Vec<&'static str> {
         lines.push("* figures not from the maker's own document");
     }
     if drives.iter().any(|drive| drive.motor.made_for().is_none()) {
-        lines.push("– voltage that the motor is made for not stated in the catalogue");
+        lines.push("– voltage class of the motor not given in the catalogue");
     }
     if drives.iter().any(|drive| !drive.is_paired()) {
-        lines.push("† nobody states that this amplifier runs this motor; ask the makers");
+        lines.push("† no source pairs this amplifier with this motor; ask the makers");
     }
     lines
 }

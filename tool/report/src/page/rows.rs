@@ -92,7 +92,7 @@ impl FitRow {
             remarks.push("figures not from the maker's own document".to_owned());
         }
         if !drive.is_paired() {
-            remarks.push("nobody states that this amplifier runs this motor".to_owned());
+            remarks.push("no source pairs this amplifier with this motor".to_owned());
         }
         let power = judged.rated_power();
         Self {

@@ -321,7 +321,7 @@ fn what_is_in_doubt_ranks_last() {
     let ranking = selection.ranking(stand.motor.kind.vocabulary());
     let said = [
         "makers' own figures first",
-        "figures of others",
+        "figures from others",
         "unknown voltage",
     ];
     let said = said.map(|words| ranking.find(words).unwrap());

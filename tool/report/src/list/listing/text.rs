@@ -221,7 +221,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
-        Certainty::Pairing => "whose amplifier nobody pairs with the motor (†), of known voltage",
+        Certainty::Pairing => "whose amplifier no source pairs with the motor (†), of known voltage",
         Certainty::Voltage => "of unknown voltage (–)",
     }
 }
@@ -233,9 +233,9 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
         Certainty::Others => {
             "its figures are not all the makers' own; check them against the data sheets"
         }
-        Certainty::Pairing => "nobody states that this amplifier runs this motor; ask the makers",
+        Certainty::Pairing => "no source pairs this amplifier with this motor; ask the makers",
         Certainty::Voltage => {
-            "the catalogue does not state what voltage it is made for; ask the makers"
+            "the catalogue does not give its voltage class; ask the makers"
         }
     }
 }
