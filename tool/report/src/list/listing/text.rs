@@ -221,7 +221,9 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
-        Certainty::Pairing => "whose amplifier no source pairs with the motor (†), of known voltage",
+        Certainty::Pairing => {
+            "whose amplifier no source pairs with the motor (†), of known voltage"
+        }
         Certainty::Voltage => "of unknown voltage (–)",
     }
 }
@@ -234,9 +236,7 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
             "its figures are not all the makers' own; check them against the data sheets"
         }
         Certainty::Pairing => "no source pairs this amplifier with this motor; ask the makers",
-        Certainty::Voltage => {
-            "the catalogue does not give its voltage class; ask the makers"
-        }
+        Certainty::Voltage => "the catalogue does not give its voltage class; ask the makers",
     }
 }
 
