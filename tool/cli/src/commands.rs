@@ -101,7 +101,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Check(_) => "checking the machine",
         Command::Size(_) => "checking drives",
         Command::Vary(_) | Command::Tolerance(_) => "reading machine and catalogue",
-        Command::Ratio(_) => "seeking ratios",
+        Command::Ratio(_) => "searching gear ratios",
         Command::Sensitivity(_) => "changing each quantity",
         Command::Merge(_) => "merging rows",
         Command::Bus(_) => "following the DC bus",

@@ -324,7 +324,7 @@ pub fn retime_page(shown: &list::retime::View, own: &Motion) -> Result<String, E
         file,
         "gentlest motion",
         format!(
-            "{}, beside the motion of the file and the best laws",
+            "{}, with the motion of the file and the best laws",
             list::retime::subject(shown)
         ),
         &list::retime::answer(shown),

@@ -20,9 +20,9 @@ impl NoMotion {
                 axis,
             } => {
                 let slowly = if *stands {
-                    "while the machine stands there in a pause; its limit is"
+                    "while the machine rests there in a pause; its limit is"
                 } else {
-                    "in a machine that moves slowly; a motion that keeps the limit by its speed alone is not computed, and the limit is"
+                    "in a slowly moving machine; motions that satisfy the limit only by their speed are not computed, and the limit is"
                 };
                 write!(
                     f,
