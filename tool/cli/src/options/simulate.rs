@@ -28,7 +28,8 @@ pub struct Simulate {
     /// rest.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub stops: Option<u32>,
-    /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry friction.
+    /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry
+    /// friction.
     #[arg(long)]
     pub torques: bool,
     /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.
