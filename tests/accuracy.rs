@@ -1,4 +1,4 @@
-//! What the documentation says of accuracy names the test or the proof that holds it, and there is one.
+//! Every statement of accuracy in the documentation names an existing test or proof.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -89,7 +89,7 @@ fn what_holds_an_accuracy_exists() {
         "|error|",
     ];
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    // The published package has not all tests.
+    // The published package lacks some tests.
     if !root.join("tool").is_dir() {
         return;
     }

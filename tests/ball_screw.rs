@@ -50,7 +50,7 @@ fn ball_screw_textbook() {
             assert_eq!(reduced.inertias()[1..], [0.0, 0.0]);
             assert_near("U'", reduced.potential_slope, 0.0, 0.0);
 
-            // Thrust = m·ẍ − F, on the nut by the thread and on the screw by the bearings; the weights are carried apart.
+            // Thrust = m·ẍ − F, on the nut by the thread and on the screw by the bearings; weights are carried elsewhere.
             let alpha = 500.0;
             let forces = machine.forces(phi, 50.0, alpha).unwrap();
             let thrust = mass * alpha * lead / TAU - force;

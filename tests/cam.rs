@@ -1,4 +1,4 @@
-//! Cam programs: segments that make one turn, their transfer functions, and what is wrong with others.
+//! Cam programs: segments that make one turn, their transfer functions, and refused programs.
 
 use crate::support::spoken;
 use jred::number::RangeError;
@@ -39,7 +39,7 @@ fn four(law: Law, back: Law, lift: f64) -> Program {
     .unwrap()
 }
 
-/// Every derivative is that of the one before, away from the places where it jumps.
+/// Every derivative matches the one before, away from jumps.
 #[track_caller]
 fn derivatives_agree(program: &Program, size: f64) {
     let step = 1e-3;
@@ -100,7 +100,7 @@ fn rises_and_returns_follow_their_law() {
     }
 }
 
-/// The simple sine without dwells is one cosine all round, and goes on without a jump.
+/// The simple sine without dwells is one cosine over the turn, and continues without a jump.
 #[test]
 fn simple_sines_make_an_eccentric() {
     let e = 0.01;
@@ -169,7 +169,7 @@ fn peaks_are_the_characteristic_values() {
     }
 }
 
-/// Rest to constant velocity, on, to rest, a reversal with acceleration and back: s and s′ go on, s″ too.
+/// Rest to constant velocity, constant, to rest, a reversal with acceleration and back: s, s′ and s″ are continuous.
 #[test]
 fn velocity_and_reversal_transitions() {
     let v = 0.02; // m/rad
@@ -291,7 +291,7 @@ fn wrong_programs_are_refused_with_their_segment() {
     );
 }
 
-/// Roundings of the angles and rises are no mistake, but a ten-millionth is.
+/// Roundings of the angles and rises are accepted, a ten-millionth is not.
 #[test]
 fn roundings_are_forgiven() {
     let rise = Segment::law(Law::Cycloidal, PI, 0.02);
@@ -319,7 +319,7 @@ fn roundings_are_forgiven() {
 proptest! {
     #![proptest_config(config(200, 0x0ca0))]
 
-    /// A polynomial of fifth degree is found again from its values at the ends of a segment.
+    /// A quintic polynomial is recovered from its values at the ends of a segment.
     #[test]
     fn quintics_are_found_again(c in [-1.0f64..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0], angle in 0.2f64..3.0, z in 0f64..1.0) {
         let q = |x: f64| {
@@ -347,7 +347,7 @@ proptest! {
     }
 }
 
-/// However short a segment of a smooth law is, its acceleration does not jump; that of a simple sine does at each end, by h/2·(π/β)².
+/// For any length of a segment a smooth law has no jump of the acceleration; a simple sine has one at each end, of h/2·(π/β)².
 #[test]
 fn accelerations_of_short_segments() {
     for beta in [3.0, 0.3, 1e-4] {

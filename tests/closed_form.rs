@@ -34,7 +34,7 @@ fn slider_only(r: f64, l: f64, mass: f64) -> Machine<SliderCrank> {
     )
 }
 
-/// Two frames of the angle's neighbourhood differ by at most this: the largest derivative seen over a turn.
+/// The largest derivative over a turn, which bounds the difference between neighbouring frames.
 fn over_a_turn(f: impl Fn(f64) -> f64) -> f64 {
     largest((0..64).map(|k| f(TAU * f64::from(k) / 64.0)))
 }
@@ -77,7 +77,7 @@ fn central_slider_crank_is_the_lecture_notes_4_1() {
     }
 }
 
-/// With a long rod the slider moves as r·cos φ, and the difference falls as 1/l.
+/// With a long rod the slider moves as r·cos φ, and the difference falls with 1/l.
 #[test]
 fn long_rod_is_a_scotch_yoke() {
     let (r, m) = (0.1, 2.0);
@@ -292,7 +292,7 @@ proptest! {
                 let here = of(phi);
                 let turning = |x| {
                     let t = of(x).value;
-                    // ψ may cross ±π between the places of the difference.
+                    // ψ may cross ±π between the samples of the difference.
                     if which == 4 { here.value + (t - here.value + PI).rem_euclid(TAU) - PI } else { t }
                 };
                 let budget = budget::RICHARDSON;
@@ -316,7 +316,7 @@ proptest! {
         assert_near("U'", here.potential_slope, slope, budget * over_a_turn(|x| of(x).potential_slope));
     }
 
-    /// Loads by their power: force times the velocity of its point, found by differences of positions.
+    /// Loads by their power: force times the velocity of its point, from differences of positions.
     #[test]
     fn loads_are_power_over_speed(
         spec in spec(), phi in -7.0..7.0, link in 0usize..3, u in -1.0..1.0, v in -1.0..1.0,

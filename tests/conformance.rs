@@ -1,14 +1,12 @@
-//! One suite for every mechanism: machines at random, at random positions and motions.
+//! One suite for every mechanism: random machines at random positions and motions.
 //!
-//! - Both markers of every joint meet, in place and in every transfer function, and no joint does work.
-//! - d'Alembert's drive torque is that of the reduced equation, and every link is in equilibrium about the point of each of
-//!   its reactions.
-//! - The reduced kinetic energy is that of the links one by one.
-//! - Transfer functions, J′, J″ and U′ are the derivatives of what they are called after.
+//! - Both markers of every joint coincide, in position and in every transfer function, and no joint does work.
+//! - d'Alembert's drive torque equals that of the reduced equation, and every link is in equilibrium about the point of each of its reactions.
+//! - The reduced kinetic energy is the sum over the links.
+//! - Transfer functions, J′, J″ and U′ are the derivatives that their names state.
 //! - No link jumps over the drive's range.
 //!
-//! The closed forms against the general solver: `library_as_linkages.rs`. What belongs to one mechanism alone stands in its
-//! own file.
+//! The closed forms against the general solver: `library_as_linkages.rs`. Properties of a single mechanism are in its own file.
 
 use std::f64::consts::TAU;
 
@@ -22,8 +20,8 @@ use crate::{
     parallel_shafts, planetary, rack, scotch_yoke, six_link, toggle_press,
 };
 
-/// The tests of one mechanism: its machines, ranges of φ, ω and α, number of cases and seed, and the places of a turn in
-/// which its links are followed (planets do not come back after a turn).
+/// The tests of one mechanism: its machines, ranges of φ, ω and α, number of cases and seed, and the positions of a turn at which its links are
+/// followed (planets do not return after a turn).
 macro_rules! conforms {
     ($mechanism:ident: $machines:expr, $phi:expr, $omega:expr, $alpha:expr, $cases:literal from $seed:literal $(, $steps:literal)?) => {
         mod $mechanism {

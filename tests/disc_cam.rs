@@ -31,8 +31,8 @@ pub(crate) fn loaded(mechanism: DiscCam) -> Machine<DiscCam> {
 proptest! {
     #![proptest_config(config(60, 0x0ca1))]
 
-    /// The roller, or the face, touches the drawn profile at the point of contact and overlaps it nowhere; and the
-    /// profile's tangent is square to the normal there.
+    /// The roller, or the face, touches the drawn profile at the contact point and overlaps it nowhere; the profile's tangent is perpendicular to the
+    /// normal there.
     #[test]
     fn roller_touches_the_profile_all_round(mechanism in cam(), phi in 0.0f64..TAU) {
         let size = mechanism.base_radius();
@@ -43,7 +43,7 @@ proptest! {
         let normal = [cos * n_x + sin * n_y, cos * n_y - sin * n_x];
         let centre = mechanism.pitch_curve(phi);
         let radius = mechanism.follower().roller().map_or(0.0, Roller::radius);
-        // How far a point of the profile is inside the roller, or beyond the face.
+        // Depth of a point of the profile inside the roller, or beyond the face.
         let overlap = |[x, y]: [f64; 2]| match radius {
             0.0 => (x - centre[0]) * normal[0] + (y - centre[1]) * normal[1],
             radius => radius - (x - centre[0]).hypot(y - centre[1]),
@@ -59,7 +59,7 @@ proptest! {
         let slope = [0, 1].map(|c| derivative(|at| profile(at)[c], phi, 1e-3));
         let across = slope[0] * normal[0] + slope[1] * normal[1];
         assert_near("tangent", across, 0.0, budget::CAM_TANGENT * size);
-        // Curvature: the normal's turning over the way, both from the drawn curve. It runs clockwise.
+        // Curvature: change of the normal's direction over the distance, both from the drawn curve, which runs clockwise.
         let speed = slope[0].hypot(slope[1]);
         let heading = |at: f64| {
             let ([x, y], (s, c)) = (mechanism.contact(at).normal, at.sin_cos());
@@ -72,7 +72,7 @@ proptest! {
     }
 }
 
-/// The rim of the roller moves along with the cam, and its angle is the way rolled over its radius.
+/// The rim of the roller moves with the cam, and its angle is the rolled distance over its radius.
 #[test]
 fn rollers_roll() {
     for kind in [0, 2, 3] {
@@ -91,7 +91,7 @@ fn rolls(mechanism: &DiscCam) {
         let phi = TAU * f64::from(k) / f64::from(steps);
         let now = mechanism.pitch_curve(phi);
         let chord = (now[0] - before[0]).hypot(now[1] - before[1]);
-        // An arc is longer than its chord by κ²·chord²/24 of it.
+        // An arc is longer than its chord by the share κ²·chord²/24.
         let profile = mechanism
             .contact(phi - 0.5 * TAU / f64::from(steps))
             .curvature;
@@ -103,7 +103,7 @@ fn rolls(mechanism: &DiscCam) {
             assert_near("rolled", angle, phi - way / radius, budget::PITCH_LENGTH);
         }
     }
-    // Every derivative is that of the one before.
+    // Every derivative matches the one before.
     let psi = |phi: f64| mechanism.frames(phi).unwrap()[DiscCam::ROLLER].psi;
     for phi in [0.5, 1.3, 2.2, 4.4, 5.0] {
         let found = psi(phi);
@@ -136,7 +136,7 @@ fn rolls(mechanism: &DiscCam) {
     assert_near("rim y", rim[1], cam[1], budget::CAM_PROFILE);
 }
 
-/// Without losses the drive's work over a turn is zero, whatever the spring and the weight do in between.
+/// Without losses the drive's work over a turn is zero, with any spring and weight.
 #[test]
 fn a_turn_without_losses_needs_no_work() {
     for kind in 0..6 {
@@ -162,7 +162,7 @@ fn a_turn_without_losses_needs_no_work() {
     }
 }
 
-/// The spring's force is preload + stiffness·s on the cam.
+/// The spring's force on the cam is preload + stiffness·s.
 #[test]
 fn closing_springs_press() {
     let (stiffness, preload) = (7e3, 150.0);
@@ -198,7 +198,7 @@ fn closing_springs_press() {
     }
 }
 
-/// The joints are the documented ones, and the guide carries no force along itself.
+/// The joints are the documented ones, and the guide carries no force along its direction.
 #[test]
 fn joints_are_in_order() {
     let (roller, _) = follower(0, 0.01, [0.01, 0.09], 0.0);
@@ -244,7 +244,7 @@ fn joints_are_in_order() {
     assert_near("π/2", FRAC_PI_2, PI / 2.0, 0.0);
 }
 
-/// A cutter's path is the equidistant of the profile, and with the roller's size the pitch curve.
+/// A cutter's path is the equidistant of the profile; with the roller's size it is the pitch curve.
 #[test]
 fn cutter_paths() {
     let (roller, _) = follower(0, 0.01, [0.01, 0.09], 0.004);
@@ -275,7 +275,7 @@ fn cutter_paths() {
     );
 }
 
-/// A cam that would cover the axis of its own follower cannot be built; nor does such a one cure an undercut.
+/// A cam that would cover the axis of its own follower is refused, and is not offered as a cure for undercut.
 #[test]
 fn a_cam_does_not_cover_the_followers_pivot() {
     let roller = Roller::new(RollerDimensions {

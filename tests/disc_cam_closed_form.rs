@@ -90,7 +90,7 @@ fn textbook_forms_of_angle_and_radius() {
         let phi = TAU * (f64::from(k) + 0.5) / 720.0;
         let s = central.program().displacement(phi);
         let (v, a) = (s.d1, s.d2);
-        // The sign is that of the angle from the follower's way up to the normal: a rise leans it forward (clockwise cam).
+        // The sign is that of the angle from the follower's direction up to the normal: a rise leans it forward (clockwise cam).
         let tan = v / (prime + s.value);
         assert_near(
             "tan α",

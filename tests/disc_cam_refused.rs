@@ -1,4 +1,4 @@
-//! Cams that cannot be made: what is wrong with them, and what cures it.
+//! Impossible cams: the fault, and its cure.
 
 use crate::support::spoken;
 use std::f64::consts::{PI, TAU};
@@ -18,12 +18,12 @@ fn roller_of(radius: f64, mass: f64, inertia: f64) -> Result<Roller, RangeError>
     })
 }
 
-/// Undercut names the place, the radius and the base radius that cures it: a flat face needs r_b > −min(s + s″).
+/// Undercut names the position, the radius and a sufficient base radius: a flat face needs r_b > −min(s + s″).
 #[test]
 fn undercut_is_cured_by_the_radius_told() {
     let (beta, lift) = (2.0 * PI / 3.0, 0.03);
     let program = four(lift);
-    // Of the cycloidal rise s + s″ is smallest past its middle: found on a dense grid.
+    // For the cycloidal rise s + s″ is smallest after its middle: from a dense grid.
     let least = (0..400_000)
         .map(|k| {
             let s = program.displacement(TAU * f64::from(k) / 4e5);
@@ -155,7 +155,7 @@ fn impossible_cams_are_refused() {
         "the follower swings too far at φ = 180.00°: beyond the line of the two pivots, or square to it; reduce the rise \
          or move the pivot"
     );
-    // The same the other way: beyond the line of the pivots, and square to it, on the side that the follower falls to.
+    // The same on the other side: beyond the line of the pivots, and perpendicular to it, on the side of the return.
     for (follower, fall) in [(arm([0.1, 0.0], 0.09), -2.9), (swinging(0.1, 0.0), -1.9)] {
         let message = refused(four(fall), 0.03, follower);
         assert!(
@@ -192,7 +192,7 @@ fn impossible_cams_are_refused() {
     );
 }
 
-/// An arm takes its roller of 10 mm as near to the cam's axis as d² + l² − 2·d·l·cos ψ says: nearer than its radius it would cover the axis.
+/// An arm takes its roller of 10 mm as near to the cam's axis as d² + l² − 2·d·l·cos ψ gives: below its radius it would cover the axis.
 #[test]
 fn a_roller_does_not_cover_the_axis() {
     let (d, l) = (0.1, 0.105);

@@ -1,16 +1,16 @@
-//! Links and paths in the documents lead somewhere.
+//! Links and paths in the documents resolve.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The repository, or nothing where the tests run from the published package, which has no documents.
+/// The repository; `None` in the published package, which has no documents.
 fn repository() -> Option<&'static Path> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     root.join("docs").is_dir().then_some(root)
 }
 
-/// All files `*.md` in the folder, and in those below it, without hidden ones and compiler output.
+/// All files `*.md` in the folder and below it, without hidden ones and compiler output.
 fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -32,7 +32,7 @@ fn prose(text: &str) -> String {
         .collect()
 }
 
-/// What follows each `start`, up to the next `end`.
+/// The texts after each `start`, up to the next `end`.
 fn between<'a>(text: &'a str, start: &'a str, end: char) -> impl Iterator<Item = &'a str> {
     let after = text.split(start).skip(1);
     after
@@ -40,7 +40,7 @@ fn between<'a>(text: &'a str, start: &'a str, end: char) -> impl Iterator<Item =
         .map(|(inner, _)| inner)
 }
 
-/// The anchors of a document: `id="…"`, and those that its headings get.
+/// The anchors of a document: `id="…"`, and those of its headings.
 fn anchors(text: &str) -> BTreeSet<String> {
     let ids = between(text, "id=\"", '"').map(ToOwned::to_owned);
     let prose = prose(text);
@@ -120,7 +120,7 @@ fn paths_exist() {
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
 
-/// Each promise of docs/safety.md names steps of `scripts/test`; that its files exist, `paths_exist` looks at.
+/// Each promise of docs/safety.md names steps of `scripts/test`; `paths_exist` checks their files.
 #[test]
 fn steps_of_promises_exist() {
     let Some(root) = repository() else { return };

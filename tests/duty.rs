@@ -55,7 +55,7 @@ fn near(found: f64, expected: f64, relative: f64, what: &str) {
     );
 }
 
-/// The names of the figures that [`list`] gives.
+/// Names of the figures of [`list`].
 const NAMES: [&str; 12] = [
     "rms torque",
     "mean speed",
@@ -149,7 +149,7 @@ fn figures_are_those_of_closed_forms() {
         (1, 10_000, 0)
     );
 
-    // The largest share by search, with the curve written out.
+    // The largest share by search, with the curve as a formula.
     let limit = |n: f64| match n.abs() {
         n if n <= 50.0 => 20.0,
         n if n <= 120.0 => 20.0 - 8.0 * (n - 50.0) / 70.0,
@@ -204,7 +204,7 @@ fn a_constant_duty_gives_its_own_numbers() {
     }
 }
 
-/// After a step of the torque the mean square of an exponential window goes over by 1 − e^(−t/τ).
+/// After a step of the torque the mean square of an exponential window changes by 1 − e^(−t/τ).
 #[test]
 fn an_exponential_window_forgets() {
     let tau = 2.0;
@@ -265,7 +265,7 @@ fn single_precision_keeps_its_digits_over_a_million_ticks() {
     );
 }
 
-/// A duty that a plain sum would not see at all: a small torque after a long time of large ones.
+/// A duty that a plain sum would miss: a small torque after a long time of large ones.
 #[test]
 fn small_terms_are_not_lost_beside_large_sums() {
     let mut meter = Meter::new(Limits::default(), 1.0f32, Window::SinceStart).unwrap();
@@ -310,7 +310,7 @@ fn readings_that_are_no_numbers_are_counted_and_change_nothing() {
     after.invalid = 0;
     assert_eq!(before, after);
 
-    // What is just allowed does not overflow.
+    // The largest accepted values do not overflow.
     let mut meter = Meter::<f32>::new(Limits::default(), 1e-3, Window::SinceStart).unwrap();
     for _ in 0..1000 {
         meter.tick(most, 1e5, -most);
@@ -324,7 +324,7 @@ fn readings_that_are_no_numbers_are_counted_and_change_nothing() {
     assert_eq!(meter.figures().invalid, 0);
 }
 
-/// No quotient of nothing by nothing: neither before the first tick, nor of a drive that only holds.
+/// No 0/0: neither before the first tick, nor for a drive that only holds.
 #[test]
 fn without_ticks_or_without_speed_every_figure_is_a_number() {
     let mut meter = Meter::new(limits(), STEP, Window::SinceStart).unwrap();

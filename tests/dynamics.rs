@@ -1,4 +1,4 @@
-//! The equation of motion: both ways, its energy, its power, and a sliding drive link.
+//! The equation of motion: both directions, its energy, its power, and a sliding drive link.
 
 use jred::mechanism::TrainOutput;
 use std::f64::consts::TAU;
@@ -18,7 +18,7 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(config(64, 0x0003))]
 
-    /// The same without a table, and Coulomb friction changes sign with ω and vanishes at rest.
+    /// The same without a table; Coulomb friction changes sign with ω and is zero at rest.
     #[test]
     fn exact_reduction_both_ways(spec in spec(), phi in -7.0..7.0, omega in -60f64..60.0, alpha in -900.0..900.0) {
         let reduced = spec.machine().reduction(phi).unwrap();
@@ -57,7 +57,7 @@ proptest! {
         assert!(lost >= 0.0);
     }
 
-    /// What enters a lossy train is what leaves, what its wheels store, and the loss it states; never less.
+    /// The power into a lossy train is its output, the power stored in its wheels, and the loss it reports; never less.
     #[test]
     fn train_balances_its_power(
         i in [1.2f64..8.0, 1.2f64..8.0], j in [0.0..0.1, 0.0..0.1, 0.0..0.1, 0.0..0.1], eta in [0.6..1.0, 0.6..1.0],
@@ -78,7 +78,7 @@ proptest! {
         let size = 1.0 + balance.abs() + stored.abs() + input.loss;
         assert_near("power", input.torque * omega_in, balance, budget::CLOSED_FORM * size);
         assert!(input.loss >= 0.0, "{input:?}");
-        // Without loss the first law is (6.9); with it, the slope holds where no stage turns its power round.
+        // Without loss the first law is (6.9); with loss, the slope is valid where no stage reverses its power.
         let [before, after] = [at(alpha - 1e-3), at(alpha + 1e-3)];
         if (before.torque_per_alpha - after.torque_per_alpha).abs() == 0.0 {
             let slope = (after.torque - before.torque) / 2e-3;
@@ -91,8 +91,8 @@ proptest! {
     }
 }
 
-/// At rest, and where nothing says which way it starts, the drive gives the losses: T/(i·η), and so does every further torque that an
-/// acceleration takes.
+/// At rest, and where the direction of the start is undetermined, the drive supplies the losses: T/(i·η), and so for every further torque of an
+/// acceleration.
 #[test]
 fn a_train_without_a_direction_drives() {
     let stages = [(-4.0, 0.9), (-2.5, 0.8)]
@@ -114,7 +114,7 @@ fn a_train_without_a_direction_drives() {
         });
         let share = 1.0 / (10.0 * 0.72);
         assert_near("T", input.torque, torque * share, budget::CLOSED_FORM);
-        // The inertia of the load is felt through the ratio once more.
+        // The inertia of the load is divided by the ratio once more.
         assert_near(
             "dT/dα",
             input.torque_per_alpha,
@@ -140,8 +140,8 @@ fn a_train_without_a_direction_drives() {
 
 const CELLS: u32 = 32;
 
-/// Largest share by which ½·J·ω² + U of the table leaves its start over four turns without drive torque, with
-/// `per_cell` Runge-Kutta steps a cell. dω/dφ = α/ω over steps of a power of two of a turn: phases are exact.
+/// Largest share by which ½·J·ω² + U of the table changes over four turns without drive torque, with `per_cell` Runge-Kutta steps per cell. dω/dφ =
+/// α/ω over steps of a power of two of a turn: phases are exact.
 fn energy_drift<L: Format<Number = f64>>(
     table: &Table<'_, L>,
     omega: f64,
@@ -179,7 +179,7 @@ fn drifts<const CURVES: Set, L: Format<Number = f64>>(machine: &impl Reducible, 
     assert_near("order 4", coarse / fine, 16.0, 16.0 * budget::ORDER_SHARE);
     assert_near("energy", at(32), 0.0, budget::ENERGY);
 
-    // The same machine with J′ from the secants of its own J: not the derivative of the J of the energy.
+    // The same machine with J′ from the secants of its own J, which does not match the J of the energy.
     let inconsistent = |phase: Phase, w: f64| {
         let cell = phase.cell(CELLS).0;
         let knot = |k: u32| {
@@ -228,7 +228,7 @@ fn energy_is_conserved_through_the_table_with_gravity() {
     drifts::<{ curves::LOAD }, Quadratic<f64>>(&press().heavy(), 60.0);
 }
 
-/// A slider-crank reduced to the way of its slider, over a stroke between its dead centres: (7.10).
+/// A slider-crank reduced to the displacement of its slider, over a stroke between its dead centres: (7.10).
 struct AtTheSlider {
     machine: Machine<SliderCrank>,
     phi: [f64; 2],
@@ -239,7 +239,7 @@ impl AtTheSlider {
         self.machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x
     }
 
-    /// φ of a place of the slider, by bisection: x falls monotonically between the dead centres.
+    /// φ for a position of the slider, by bisection: x falls monotonically between the dead centres.
     fn phi(&self, place: f64) -> f64 {
         let [mut low, mut high] = self.phi;
         for _ in 0..80 {
@@ -316,7 +316,7 @@ fn sliding_drive_link_is_the_same_machine() {
     println!("sliding drive link: {worst:.1e} of the largest term");
 }
 
-/// A reduction that is put together by hand: every part where it belongs, and the drive torque made of them.
+/// A reduction assembled by hand: every part in its place, and the drive torque from them.
 #[test]
 fn a_reduction_is_what_it_is_made_of() {
     let made = Reduction::new([2.0, 0.5, -0.1])

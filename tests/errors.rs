@@ -1,4 +1,4 @@
-//! Every error of the core: some input produces it, and its text names quantity, value and cure.
+//! Every error of the core: some input produces it, and its message names quantity, value and cure.
 
 mod reach;
 mod tables;
@@ -9,7 +9,7 @@ use jred::{Error, Link, Machine};
 
 use crate::support::link_of;
 
-/// The error, after checking that its text holds every part.
+/// The error, after checking that its message contains every part.
 #[track_caller]
 fn says<T: std::fmt::Debug, E: Into<Error> + std::fmt::Debug>(
     result: Result<T, E>,

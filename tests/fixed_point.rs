@@ -1,4 +1,4 @@
-//! Fixed point against exact numbers: every rounding of a tick, and where an acceleration saturates.
+//! Fixed point against exact numbers: every rounding of a tick, and saturation of an acceleration.
 
 use crate::support::budget::Q31_UNIT;
 use crate::support::exact::place_bits;
@@ -36,7 +36,7 @@ fn torque<L: Fixed>(
     terms.iter().sum()
 }
 
-/// Nothing but the stated floors separates the tick from exact, in units of 2⁻³¹.
+/// Only the stated floors separate the tick from exact, in units of 2⁻³¹.
 fn rounds_as_stated<L: Fixed>() {
     let domain = Domain::stroke(0.0, 16.0).unwrap();
     let scale = scale_of(32.0, 2.0, 8.0);
@@ -221,7 +221,7 @@ fn cell_words<L: Fixed>() -> impl Strategy<Value = Vec<i32>> {
     })
 }
 
-/// A cell that is let in is read without a wrap, whatever its size: floors are all that separates it from exact.
+/// An accepted cell is read without a wrap, for any size: only floors separate it from exact.
 fn reads_without_a_wrap<L: Fixed>(
     words: Vec<i32>,
     bits: u32,

@@ -1,4 +1,4 @@
-//! Tabulation: the smallest table, as exact as it says, in every number type and layout.
+//! Tabulation: the smallest table, as accurate as stated, in every number type and layout.
 
 use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
@@ -108,7 +108,7 @@ fn q31_ticks_keep_the_stated_error() {
     ticks_keep_the_stated_error::<Quadratic<Q31>>(0x0021, rounding);
 }
 
-/// The bound of `tabulate`, written anew, on more places, none of which is among those checked.
+/// The bound of `tabulate`, reimplemented on a denser set of positions that are not among the checked ones.
 fn dense<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
@@ -158,7 +158,7 @@ fn finds_the_smallest<F: Format>() {
         assert!(everywhere <= found.bound, "{everywhere} {found:?}");
         let ratio = everywhere / found.torque_error;
         worst = [worst[0].min(ratio), worst[1].max(ratio)];
-        // No smaller table does.
+        // No smaller table is sufficient.
         for cells in MIN_CELLS as u32..found.cells {
             let scale = if F::Number::FIXED {
                 scale.for_cells(cells, machine.domain().span())

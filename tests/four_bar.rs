@@ -36,7 +36,7 @@ prop_compose! {
         u in [-0.5..1.0, -0.5..1.5, -0.5..1.5],
         v in [-0.3..0.3, -0.3..0.3, -0.3..0.3],
     ) -> Spec {
-        // Grashof: the longest is longer than the middle ones, but shortest + longest less than they together.
+        // Grashof: the longest is longer than the middle ones, but shortest + longest is less than their sum.
         let [p, q] = middle.map(|ratio: f64| ratio * shortest);
         let longest = p.max(q) + stretch * (p + q - shortest - p.max(q));
         let mut rest = [p, q, longest];
@@ -96,8 +96,8 @@ impl Spec {
     }
 }
 
-/// Freudenstein's equation with its derivatives: a relation of φ and the rocker's angle alone, found by another route
-/// (the square of AB), so a check on every transfer function.
+/// Freudenstein's equation with its derivatives: a relation of φ and the rocker's angle only, derived independently (the square of AB), so a check of
+/// every transfer function.
 fn freudenstein(spec: &Spec, mechanism: &FourBar, phi: f64) -> [f64; 4] {
     let [a, b, c] = spec.lengths;
     let d = spec.ground;
@@ -131,7 +131,7 @@ proptest! {
         }
     }
 
-    /// Angles go on without a jump, and after a turn every link is where it was: a drag link's have turned once.
+    /// Angles are continuous, and after a turn every link is back: those of a drag link after a full revolution.
     #[test]
     fn angles_are_continuous(spec in spec(), phi in -20.0..20.0) {
         let mechanism = spec.mechanism();
@@ -168,7 +168,7 @@ proptest! {
         assert_near("most", seen(spec.gamma + PI), most, 1e-7);
     }
 
-    /// The rocker stands still at its dead centres and nowhere else; crank angles are found again from its angle.
+    /// The rocker stops at its dead centres and nowhere else; crank angles are recovered from its angle.
     #[test]
     fn rocker_and_crank_find_each_other(spec in spec(), phi in 0.0..TAU) {
         let mechanism = spec.mechanism();
@@ -191,7 +191,7 @@ proptest! {
             }
             None => prop_assert!(mechanism.grashof() == Grashof::DoubleCrank),
         }
-        // Near a dead centre two crank angles meet, and each is known to the root of a rounding only.
+        // Near a dead centre two crank angles meet, and each is known only to the square root of a rounding.
         if psi(phi).d1.abs() > 1e-3 {
             let found = mechanism.crank_angles(psi(phi).value);
             let nearest = found.iter().map(|f| (f - phi).abs()).fold(f64::INFINITY, f64::min);
@@ -217,7 +217,7 @@ proptest! {
         assert_near("J″", there[2], here[2], budget::MIRROR * size);
     }
 
-    /// What cannot turn moves over the range that the error names, and not beyond.
+    /// A crank that cannot turn fully moves over the range that the error names, and not beyond.
     #[test]
     fn a_blocked_crank_moves_within_its_range(
         lengths in [0.1..1.0, 0.1..1.0, 0.1..1.0],
@@ -280,7 +280,7 @@ fn grashof_knows_the_textbook_linkages() {
     }
 }
 
-/// Coupler and rocker can fold but never stretch: the crank passes over the far side, from where |AC| = |b − c| to there again.
+/// Coupler and rocker can fold but not stretch: the crank passes the far side, between both positions with |AC| = |b − c|.
 #[test]
 fn a_crank_that_can_only_fold_swings_over_the_far_side() {
     let (crank, coupler, rocker, ground) = (0.3f64, 0.5f64, 0.3f64, 0.3f64);
@@ -306,7 +306,7 @@ fn a_crank_that_can_only_fold_swings_over_the_far_side() {
     }
 }
 
-/// The kind is that of the shape, whatever the size: sums that differ by 1e-10 of themselves differ, 1e-14 is a rounding.
+/// The kind depends on the shape only, at any size: sums that differ by 1e-10 relative differ, 1e-14 is a rounding.
 #[test]
 fn grashof_does_not_depend_on_the_size() {
     for power in [-20, -10, 0, 10, 20] {

@@ -1,5 +1,5 @@
 //! The motion in fixed steps: its energy over a hundred thousand turns, its order, closed forms, and friction.
-// What keeps every bit is compared bit by bit.
+// Bit-exact results are compared bit by bit.
 #![allow(clippy::float_cmp)]
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -29,7 +29,7 @@ fn uneven(phi: f64) -> Reduction {
         .with_potential_energy([5.0 * phi.sin(), 5.0 * phi.cos()])
 }
 
-/// Time in which the uneven rotor passes a turn with the energy `energy`: ∮ dφ/ω, which the rectangle rule gives to rounding.
+/// Time for a turn of the uneven rotor at the energy `energy`: ∮ dφ/ω, exact to rounding by the rectangle rule.
 fn period(energy: f64) -> f64 {
     let parts = 4096;
     let place = |k: i32| TAU * f64::from(k) / f64::from(parts);
@@ -40,8 +40,8 @@ fn period(energy: f64) -> f64 {
     (0..parts).map(|k| slowness(place(k))).sum::<f64>() * TAU / f64::from(parts)
 }
 
-/// Without torques the energy of the state keeps every bit for a hundred thousand turns, and speed and position belong to it; where the
-/// turns are counted by the time, the method is as far off after the last as it was after the first.
+/// Without torques the energy of the state is bit-exact over a hundred thousand turns, and speed and position match it. Where turns are counted by
+/// time, the method's error is the same after the last as after the first.
 #[test]
 fn a_hundred_thousand_turns_without_a_torque_keep_the_energy() {
     let rotor = Rotor(uneven);
@@ -124,7 +124,7 @@ fn a_pendulum_swings() {
     );
 }
 
-/// Torque against viscous friction: ω = T/b·(1 − e^(−b·t/J)); and its energy is the work less the losses.
+/// Torque against viscous friction: ω = T/b·(1 − e^(−b·t/J)); its energy is the work minus the losses.
 #[test]
 fn a_torque_against_viscous_friction() {
     let rotor = Rotor(|_| Reduction::new([0.5, 0.0, 0.0]).with_viscous(0.8));
@@ -140,7 +140,7 @@ fn a_torque_against_viscous_friction() {
     assert_near("phi", motion.phi(), phi, budget::FREE_MOTION * phi);
 }
 
-/// Coasting under Coulomb friction ends at rest after J·ω₀²/(2·c), and the friction holds against what is less than itself.
+/// Coasting under Coulomb friction ends at rest after J·ω₀²/(2·c), and friction holds against smaller torques.
 #[test]
 fn friction_stops_and_holds() {
     let (inertia, friction) = (0.5, 2.0);
@@ -171,8 +171,8 @@ fn friction_stops_and_holds() {
     }
 }
 
-/// A whole machine with weight and process loads: the energy changes by the work of torque and loads, for which the mean of both ends
-/// is of order 2 as well.
+/// A whole machine with weight and process loads: the energy changes by the work of torque and loads, for which the mean of both ends is also of
+/// order 2.
 #[test]
 fn a_press_does_the_work_that_is_put_into_it() {
     let spec = Spec {
@@ -207,7 +207,7 @@ fn a_press_does_the_work_that_is_put_into_it() {
     assert_near("ratio", coarse / fine, 4.0, budget::ORDER_SHARE * 4.0);
 }
 
-/// What leads nowhere is refused, and the state stays.
+/// Invalid steps are refused, and the state is unchanged.
 #[test]
 fn bad_steps_are_refused() {
     let rotor = Rotor(uneven);

@@ -1,4 +1,4 @@
-//! Friction drives: their equation of motion, slip, and what a time-varying ratio does.
+//! Friction drives: their equation of motion, slip, and the effect of a time-varying ratio.
 
 mod bad_input;
 mod constant;

@@ -57,7 +57,7 @@ fn wheel_textbook() {
     }
 }
 
-/// Largest speed and acceleration, and the acceleration at entry, as handbooks tabulate them (4 slots: 2.41, 5.41, 1.00).
+/// Largest speed and acceleration, and the acceleration at entry, as tabulated in handbooks (4 slots: 2.41, 5.41, 1.00).
 #[test]
 fn peak_figures_are_the_published_ones() {
     for (slots, speed, acceleration, entry) in [
@@ -91,7 +91,7 @@ fn peak_figures_are_the_published_ones() {
             (PI / f64::from(slots)).tan(),
             budget::GENEVA_STEP,
         );
-        // Found on a grid, the peaks are those of the formulas: second order in a step of 1e-4.
+        // On a grid the peaks match the formulas: second order in a step of 1e-4.
         let grid = |f: &dyn Fn(f64) -> f64| {
             largest((-10_000..=10_000).map(|k| f(half * f64::from(k) / 10_000.0)))
         };
@@ -127,7 +127,7 @@ fn wheel_dwells_and_advances_by_one_slot_a_turn() {
         let psi = |phi| geneva.frames(phi).unwrap()[WHEEL].psi;
         for turn in -4..9 {
             let start = TAU * f64::from(turn);
-            // From exit to the next entry, across the change of turn, nothing moves.
+            // From exit to the next entry, across the end of the turn, nothing moves.
             let rest = psi(start + half * (1.0 + 1e-9));
             for share in [0.01, 0.3, 0.5, 0.500_001, 0.9, 0.99] {
                 let now = psi(start + half + share * (TAU - 2.0 * half));
@@ -308,7 +308,7 @@ fn wrong_dimensions_are_refused() {
     );
 }
 
-/// A mechanism that is lent to a machine engages where it does itself: ∓(π/2 − π/n).
+/// A mechanism borrowed by a machine has its own edges: ∓(π/2 − π/n).
 #[test]
 fn a_mechanism_lent_has_its_edges() {
     let geneva = mechanism(6);

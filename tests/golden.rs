@@ -40,7 +40,7 @@ fn slider_crank_golden_motion() {
     let machine = golden_slider_crank(&case);
     let table = case.table("motion");
     let [phi0, w, a, nu] = ["phi0", "w", "A", "nu"].map(|name| case.motion(name));
-    // The law itself, so that the columns are known to be what they are called.
+    // The law itself, to verify the meaning of the columns.
     let times = table.column("t");
     let law = |f: &dyn Fn(f64) -> f64| times.iter().copied().map(f).collect::<Vec<_>>();
     table.compare(
@@ -257,7 +257,7 @@ fn belt_drive_golden() {
     let t = case.input("/t");
     compare(&case, "omega_1(t)", eps * t);
     compare(&case, "phi_1(t)", 0.5 * eps * t * t);
-    // Free bodies: each pulley is moved by the difference of the belt's tensions.
+    // Free bodies: each pulley is driven by the difference of the belt's tensions.
     let driver = (case.input("/T1") - j1 * eps) / r1;
     compare(&case, "tension_difference_driver_side", driver);
 }

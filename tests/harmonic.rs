@@ -15,7 +15,7 @@ use proptest::prelude::*;
 #[test]
 fn sine_and_cosine_keep_their_bounds() {
     let error = |found: (f64, f64), phase: Phase| {
-        // The quarter turn nearest is taken off exactly, as a multiple of 2³⁰.
+        // The nearest quarter turn is subtracted exactly, as a multiple of 2³⁰.
         let quarter = phase.to_bits().wrapping_add(1 << 29) >> 30;
         let x = f64::from(phase.to_bits().wrapping_sub(quarter << 30) as i32) * TAU / 2f64.powi(32);
         let (s, c) = x.sin_cos();
@@ -54,7 +54,7 @@ fn sine_and_cosine_keep_their_bounds() {
     }
 }
 
-/// Relative to the sum of the sizes of the coefficients.
+/// Relative to the sum of the coefficients' magnitudes.
 fn rounding<T>(waves: &Waves) -> f64
 where
     T: Circular + Number,
@@ -65,7 +65,7 @@ where
         .map(<T as Real>::from_f64)
         .collect();
     let model = model::<T, { curves::ALL | terms::GENERAL }>(&words).unwrap();
-    // Of the coefficients as the type holds them.
+    // Coefficients as represented by the type.
     let held = |c: &[[f64; 2]]| -> Vec<[f64; 2]> {
         c.iter()
             .map(|p| p.map(|x| Real::to_f64(<T as Real>::from_f64(x))))
@@ -133,7 +133,7 @@ where
         .torque(omega, alpha);
     let size = largest(terms.values())
         .max(largest(words.iter().map(|x| Real::to_f64(*x))) * omega * omega);
-    // Some tens of roundings of coefficients, waves and the motion.
+    // About twenty roundings of coefficients, waves and the motion.
     assert_near(
         "torque",
         Real::to_f64(torque),
@@ -187,7 +187,7 @@ fn free_machine_keeps_its_energy() {
             budget::HARMONIC_ENERGY * start,
         );
     }
-    // And it did exchange: the speed is not constant.
+    // Energy is exchanged: the speed is not constant.
     let quarter = model.table().at(Phase::from_radians(TAU / 4.0)).inertia
         / model.table().at(Phase::default()).inertia;
     assert!(quarter > 4.0, "{quarter}");
@@ -222,7 +222,7 @@ fn curves_of_sines_or_cosines_alone() {
     }
 }
 
-/// Bounds that are reached: all coefficients positive, so that everything is largest at φ = 0.
+/// Attained bounds: all coefficients are positive, so everything is largest at φ = 0.
 #[test]
 fn usage_is_the_sum_of_the_coefficients() {
     const SET: Set = curves::ALL

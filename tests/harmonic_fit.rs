@@ -27,12 +27,12 @@ proptest! {
         for (found, made) in words.iter().zip(&made) {
             assert_near("coefficient", *found, *made, budget::COEFFICIENT * size);
         }
-        // What was left out is no more than asked for.
+        // The dropped terms are within the requested error.
         let left: f64 = made.iter().skip(words.len()).map(|x| x.abs()).sum();
         prop_assert!(left <= asked);
     }
 
-    /// The bound holds on a grid that no sample lies on, and is no more than some times the error found.
+    /// The bound is valid on a grid without samples, and exceeds the observed error by a limited factor.
     #[test]
     fn the_bound_holds_everywhere(spec in spec(), exponent in 2f64..9.0) {
         let machine = spec.heavy();
@@ -44,7 +44,7 @@ proptest! {
         let (dense, _) = measure(&machine, model.table(), &request, 4001).unwrap();
         prop_assert!(dense <= found.bound, "{dense:e} {found:?}");
         prop_assert!(dense >= found.bound * budget::HARMONIC_BOUND_SLACK, "{dense:e} {found:?}");
-        // One harmonic less misses.
+        // One harmonic less is not sufficient.
         if found.harmonics > 0 {
             let fewer = request.with_max_cells(found.harmonics - 1);
             let missed = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &fewer);
@@ -175,7 +175,7 @@ fn terms_are_told_from_the_curves() {
     ] {
         assert_eq!(terms_of(&on(j, load), curves::ALL).unwrap(), expected);
     }
-    // What the terms leave out counts as error.
+    // Neglected terms count as error.
     let sine = on([0.0, 0.1], [0.0, 0.0]);
     let missed = fitted::<f64, { curves::ALL | terms::INERTIA_COS }>(&sine, &request(1e-3, 8));
     let Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) = missed else {
@@ -186,7 +186,7 @@ fn terms_are_told_from_the_curves() {
         (0.05 * OMEGA * OMEGA..=0.05 * OMEGA * OMEGA + 0.1 * ALPHA).contains(&reached),
         "{reached}"
     );
-    // So does a curve that is not in the set.
+    // So does a curve outside the set.
     let missed = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&sine, &request(1e-3, 8));
     assert!(
         matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if (reached - 0.1 * OMEGA).abs() < 1e-3),
@@ -208,7 +208,7 @@ impl Reducible for SlowFall {
     }
 }
 
-/// Half way between two samples all terms that are left out add up, and those behind them are missing in what is seen.
+/// Half-way between two samples all neglected terms add up, and those beyond them do not show in the samples.
 #[test]
 fn what_no_sample_shows_is_in_the_bound() {
     for samples in [32, 64, 128, 256] {
@@ -230,7 +230,7 @@ fn what_no_sample_shows_is_in_the_bound() {
     }
 }
 
-/// F·|x′| has kinks at the dead centres, F·x′ has none; a constant friction beside it has a number of its own.
+/// F·|x′| has kinks at the dead centres, F·x′ has none; an additional constant friction has a number of its own.
 #[test]
 fn friction_of_the_ram_is_smooth() {
     const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
@@ -254,7 +254,7 @@ fn friction_of_the_ram_is_smooth() {
     }
 }
 
-/// What the machine has beyond the set counts as error, and is no term.
+/// Parts of the machine outside the set count as error, and are not terms.
 #[test]
 fn terms_are_those_of_the_set() {
     let waves = Waves {
@@ -274,7 +274,7 @@ fn terms_are_those_of_the_set() {
     }
 }
 
-/// A curve that does not vary has no harmonics, not the roundings of its mean.
+/// A constant curve has no harmonics, not the roundings of its mean.
 #[test]
 fn a_constant_has_no_harmonics() {
     const SET: Set = curves::LOAD | terms::GENERAL;
@@ -290,7 +290,7 @@ fn a_constant_has_no_harmonics() {
     assert!(words[4..].iter().all(|word| word.abs() == 0.0), "{words:?}");
 }
 
-/// As its documentation says.
+/// As documented.
 #[test]
 fn scratch_grows_with_the_harmonics() {
     for harmonics in 0..=8 {

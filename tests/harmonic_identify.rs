@@ -135,7 +135,7 @@ fn without_noise_it_is_exact() {
     assert_eq!(found.samples, 3000);
 }
 
-/// The machine itself, friction added: what its higher harmonics leave is the residual, and J is that of the reduction.
+/// The machine itself with added friction: the residual is the effect of its higher harmonics, and J is that of the reduction.
 #[test]
 fn a_press_is_identified_from_its_motion() {
     let machine = press();
@@ -166,7 +166,7 @@ fn a_press_is_identified_from_its_motion() {
     assert_near("c", found.words[3], 3.0, budget::IDENTIFIED_INERTIA);
 }
 
-/// Errors of the coefficients over their standard errors, in many experiments: mean square 1, none beyond 5, no bias.
+/// Errors of the coefficients over their standard errors, in many experiments: mean square 1, none above 5, no bias.
 #[test]
 fn with_noise_it_is_within_its_standard_error() {
     let truth = truth();
@@ -195,7 +195,7 @@ fn with_noise_it_is_within_its_standard_error() {
         largest(ratios.clone())
     );
     assert!(largest(ratios) < 5.0);
-    // Coefficients of one experiment correlate: five standard deviations as if they were a quarter as many.
+    // Coefficients of one experiment are correlated: five standard deviations of a quarter of the number.
     assert_near("mean", mean, 0.0, 5.0 / (count / 4.0).sqrt());
     assert_near(
         "mean square",
@@ -222,7 +222,7 @@ const MEAN_INERTIA: Coefficient = Coefficient {
 #[test]
 fn what_the_samples_do_not_tell_is_named() {
     let all = from_truth(4000);
-    // One direction: c·sgn ω is a constant, as the mean of the load.
+    // One direction: c·sgn ω is a constant, like the mean of the load.
     let forward: Vec<_> = all.iter().copied().filter(|s| s.omega > 0.0).collect();
     let (a, b) = not_excited(&forward);
     let mut pair = [a.to_string(), b.unwrap().to_string()];
@@ -231,7 +231,7 @@ fn what_the_samples_do_not_tell_is_named() {
         pair,
         ["the mean of the Coulomb friction", "the mean of the load"]
     );
-    // No acceleration: the mean of J does nothing.
+    // No acceleration: the mean of J has no effect.
     let steady: Vec<_> = all.iter().map(|s| Sample { alpha: 0.0, ..*s }).collect();
     assert_eq!(not_excited(&steady), (MEAN_INERTIA, None));
     let message = found(&steady).unwrap_err().to_string();
@@ -239,7 +239,7 @@ fn what_the_samples_do_not_tell_is_named() {
         message.contains("do not depend on the mean of J"),
         "{message}"
     );
-    // Always at the same place: cosines are multiples of each other.
+    // Always at the same position: cosines are multiples of each other.
     let still: Vec<_> = all
         .iter()
         .map(|s| Sample {
@@ -248,7 +248,7 @@ fn what_the_samples_do_not_tell_is_named() {
         })
         .collect();
     assert!(not_excited(&still).1.is_some());
-    // A sixth of a turn only: harmonics are hard to tell, and the error says which.
+    // A sixth of a turn only: harmonics are hard to distinguish, and the error names them.
     let part: Vec<_> = all
         .iter()
         .map(|s| Sample {
@@ -262,7 +262,7 @@ fn what_the_samples_do_not_tell_is_named() {
     ));
 }
 
-/// One speed and one acceleration for ever: J·α and b·ω are the same but for a factor, exactly.
+/// A single speed and acceleration: J·α and b·ω are exactly proportional.
 #[test]
 fn coefficients_that_are_alike_are_both_named() {
     let sample = Sample {
@@ -278,7 +278,7 @@ fn coefficients_that_are_alike_are_both_named() {
     let mut both = [coefficient.curve, like.unwrap().curve].map(|curve| curve as u8);
     both.sort_unstable();
     assert_eq!(both, [Curve::Inertia as u8, Curve::Viscous as u8]);
-    // Beside them the mean of the load, of which samples at rest tell.
+    // Next to them the mean of the load, which samples at rest determine.
     let moves = |omega| Sample {
         omega,
         alpha: omega,
@@ -294,7 +294,7 @@ fn coefficients_that_are_alike_are_both_named() {
         both.contains(&Curve::Inertia) && both.contains(&Curve::Viscous),
         "{both:?}"
     );
-    // Another acceleration tells them apart: T = 3·α + 0.5·ω.
+    // A second acceleration separates them: T = 3·α + 0.5·ω.
     let truth = [(2.0, 2.0), (2.0, -1.0), (1.0, 4.0)].map(|(omega, alpha)| Sample {
         omega,
         alpha,
@@ -308,7 +308,7 @@ fn coefficients_that_are_alike_are_both_named() {
 
 #[test]
 fn bad_samples_are_named() {
-    // Far enough apart to go through all phases.
+    // Far enough apart to cover all phases.
     let all: Vec<_> = from_truth(160 * (WORDS as u32 + 1))
         .into_iter()
         .step_by(160)
@@ -350,7 +350,7 @@ fn bad_samples_are_named() {
     ] {
         assert_eq!(kept.add(&bad), Err(RangeError::NotFinite(what).into()));
     }
-    // They left no trace.
+    // They had no effect.
     for sample in &all {
         kept.add(sample).unwrap();
     }

@@ -1,4 +1,4 @@
-//! Harmonics that are refused, and why.
+//! Refused harmonics, with the reason.
 
 use jred::machine::PoseError;
 use jred::number::{Bases, RangeError};
@@ -13,7 +13,7 @@ use jred::mechanism::SliderCrank;
 use jred::table::Shape;
 use jred::{AnyModel, Domain, Error, Harmonic, Phase, Scale, Set, Table, TableError, curves};
 
-/// A load between all samples is measured at its edges.
+/// A load between all samples is evaluated at its edges.
 #[test]
 fn a_narrow_load_is_not_stepped_over() {
     let force = Load::new(SliderCrank::SLIDER, Action::Force([-100.0, 0.0])).unwrap();
@@ -52,7 +52,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
             );
         }
     }
-    // Harmonics that 32 samples, or 64 and their checks, take for others.
+    // Harmonics that 32 samples, or 64 with their checks, alias with others.
     for order in [31, 32, 33, 63, 64, 128, 256] {
         let mut waves = Waves {
             inertia: vec![[0.0; 2]; order + 1],
@@ -77,7 +77,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
             assert_eq!(found.harmonics as usize, order);
         }
     }
-    // Less than f64 can: named with what was reached.
+    // Below the resolution of f64: the message names the reached error.
     let found = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&press(), &request(1e-20, 16));
     assert!(
         matches!(found, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if reached < 1e-9),
@@ -157,7 +157,7 @@ fn bad_requests_are_named() {
             && negative.to_string().contains("rad, or m of a stroke"),
         "{negative:?}"
     );
-    // And between the 32 samples only: J is 1.2 at all of them.
+    // Negative between the 32 samples only: J is 1.2 at all of them.
     let mut waves = Waves {
         inertia: vec![[0.0; 2]; 33],
         load: vec![[1.0, 0.0]],
@@ -189,7 +189,7 @@ fn bad_coefficients_are_named() {
     );
     // 1/J is for fixed point.
     assert_eq!(check::<8>(&[1.0]), Some(TableError::Curves(8)));
-    // Harmonics are of a turn.
+    // Harmonics need a full turn.
     let stroke = Shape::<Harmonic<f32>> {
         domain: Domain::Stroke { from: 0.0, to: 1.0 },
         ..Shape::harmonics(0, 0)
@@ -202,7 +202,7 @@ fn bad_coefficients_are_named() {
             Some(TableError::Range { curve: 0, cell: 2 })
         );
     }
-    // Each number is one, but with this torque base their products are none: inf · 0 at standstill.
+    // Each number is finite, but with this torque base their products are not: inf · 0 at standstill.
     let bases = Bases {
         torque: 1e-38,
         speed: 1.0,
@@ -227,11 +227,11 @@ fn bad_coefficients_are_named() {
         check::<{ terms::INERTIA_COS }>(&[1.0, 1.5]),
         at(0x6000_0000)
     );
-    // 2.2 at the 64 places looked at first, −0.2 half way between them.
+    // 2.2 at the first 64 evaluated positions, −0.2 half-way between them.
     let mut hidden = [0.0f32; 65];
     (hidden[0], hidden[64]) = (1.0, 1.2);
     assert_eq!(check::<{ terms::INERTIA_COS }>(&hidden), at(1 << 25));
-    // Zero in theory at φ = 0, and at π/3 between all places looked at.
+    // Zero in theory at φ = 0, and at π/3 between all evaluated positions.
     let close = check::<{ terms::INERTIA_COS }>(&[1.0, -0.999_999_9]);
     assert_eq!(
         close,
@@ -243,6 +243,6 @@ fn bad_coefficients_are_named() {
         .unwrap()
         .to_string();
     assert!(message.contains("φ = 2.81°"), "{message}");
-    // J down to a thousandth of its mean is shown.
+    // J down to a thousandth of its mean is accepted.
     assert_eq!(check::<{ terms::INERTIA_COS }>(&[1.0, -0.999]), None);
 }

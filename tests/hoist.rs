@@ -69,7 +69,7 @@ fn hoist_textbook() {
             size,
         );
 
-        // Ropes: each fall of the load carries half of m·(g + a); the counterweight hangs in m·(g − a).
+        // Ropes: each fall of the load carries half of m·(g + a); the counterweight is carried with m·(g − a).
         let (omega, alpha) = (2.0, 5.0);
         let forces = balanced.forces(phi, omega, alpha).unwrap();
         let (s1, s2) = (load * (G + 0.1 * alpha) / 2.0, counter * (G - 0.3 * alpha));
@@ -90,7 +90,7 @@ fn hoist_textbook() {
     }
 }
 
-/// A machine with both loads equal on one sheave is Atwood's: a = T/(R·(m1 + m2) + J/R).
+/// A machine with equal loads on one sheave is Atwood's: a = T/(R·(m1 + m2) + J/R).
 #[test]
 fn equal_loads_need_no_holding_torque() {
     let rope = Rope::new(0.25, 1).unwrap();
@@ -155,7 +155,7 @@ proptest! {
 
     #[test]
     fn what_is_reduced_repeats(machine in machines(), phi in -60.0..60.0_f64) {
-        // All that the reduced equation needs repeats, though the load does not come back.
+        // All terms of the reduced equation repeat, though the load does not return.
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
         prop_assert!((now.inertia - later.inertia).abs() <= budget::A_TURN_LATER * now.inertia);
         prop_assert!((now.load_torque() - later.load_torque()).abs() <= budget::A_TURN_LATER);

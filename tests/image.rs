@@ -1,4 +1,4 @@
-//! The table image: its words, bit-exact round trips, and what cannot be written.
+//! The table image: its words, bit-exact round trips, and refusals.
 
 use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
@@ -98,7 +98,7 @@ fn an_image_is_of_its_machine() {
     encode(&rows.table(), VALIDITY, &mut buffer).unwrap();
     assert_eq!(Image::new(&buffer).unwrap().machine(), 0);
     identify(&mut buffer, 0x1a2b_3c4d).unwrap();
-    // Word 19, and nothing else but the CRC.
+    // Only word 19 and the CRC change.
     assert_eq!(buffer[19], 0x1a2b_3c4d);
     let image = Image::new(&buffer).unwrap();
     assert_eq!(image.machine(), 0x1a2b_3c4d);
@@ -111,7 +111,7 @@ fn an_image_is_of_its_machine() {
         format!("{other}; {}", other.cure()),
         "the image is of the machine 0x1a2b3c4d, not of 0x00000007; load the image that was exported for this machine"
     );
-    // What is no image gets no identifier.
+    // Words that are not an image get no identifier.
     buffer[24] ^= 1;
     let damaged = buffer;
     assert!(matches!(
@@ -157,7 +157,7 @@ proptest! {
     }
 }
 
-/// With the curve of 1/J, and constants or curves beside it.
+/// With the curve of 1/J, and constants or curves next to it.
 #[test]
 fn round_trip_of_every_curve_is_bit_exact() {
     const EVERY: Set = curves::ALL | curves::RECIPROCAL;

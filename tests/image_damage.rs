@@ -54,7 +54,7 @@ fn truncated_extended_and_misaligned_images_are_refused() {
         );
     }
     let bytes: Vec<u8> = image.iter().flat_map(|w| w.to_le_bytes()).collect();
-    // One of four places in a larger buffer is on a 4-byte boundary; every other one is refused.
+    // One of four positions in a larger buffer is 4-byte aligned; the others are refused.
     let mut buffer = vec![0; bytes.len() + 4];
     for shift in 0..4 {
         buffer[shift..shift + bytes.len()].copy_from_slice(&bytes);
@@ -94,8 +94,7 @@ fn tick<F: Format, const SET: Set>(
     1
 }
 
-/// Whatever an image holds, looking at it neither panics nor overflows (overflow checks are on in debug builds).
-/// Returns how many models there were to tick.
+/// Checking any image neither panics nor overflows (overflow checks are on in debug builds). Returns the number of models ticked.
 fn look_at(image: &[u32], state: [i32; 2], phase: Phase) -> u32 {
     const ALL: Set = curves::ALL;
     const SEEDED: Set = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
@@ -124,7 +123,7 @@ proptest! {
     }
 }
 
-/// Garbage behind a header that is right, with a right CRC: small enough rows are let in and ticked.
+/// Garbage after a correct header, with a correct CRC: rows with small values are accepted and ticked.
 #[test]
 fn garbage_with_a_header_never_panics() {
     let rows = prop::collection::vec(any::<i32>(), 64);
@@ -157,7 +156,7 @@ fn garbage_with_a_header_never_panics() {
         let right = [2f32, 1.0, 1.0].map(f32::to_bits);
         image[7..10].copy_from_slice(&bases.unwrap_or(right));
         for (k, (slot, constant)) in image[13..16].iter_mut().zip(constants).enumerate() {
-            // A negative friction is refused: now and then it is tried.
+            // A negative friction is refused: it is tried now and then.
             let friction = k > 0 && state[1] % 8 != 0;
             let constant = if friction {
                 constant.saturating_abs()
@@ -173,7 +172,7 @@ fn garbage_with_a_header_never_panics() {
         image.extend(rows.iter().take(words).enumerate().map(|(k, row)| {
             let (column, power) = (k % pitch / own, k % own);
             let row = match (column, power) {
-                // The inertia, which is to be positive; and a seed that is about its reciprocal.
+                // The inertia, which must be positive; and a seed close to its reciprocal.
                 (0, 0) => (row >> 10) + (1 << if own == 1 { 26 } else { 28 }),
                 (0, _) => row >> 8,
                 (3, 0) if seeded => (row >> 9) + if own == 1 { (1 << 28) / 3 * 2 } else { 1 << 30 },
@@ -193,7 +192,7 @@ fn garbage_with_a_header_never_panics() {
         ticked[usize::from(code) - 1][place] += look_at(&image, state, Phase::from_bits(bits));
     }
     println!("ticked: {ticked:?}");
-    // Of f32 and of i32; the last are seeds, which f32 has not.
+    // For f32 and i32; the last are seeds, which f32 lacks.
     assert!(ticked[0][..3].iter().all(|count| *count > 50), "{ticked:?}");
     assert!(ticked[1].iter().all(|count| *count > 50), "{ticked:?}");
     assert_eq!(ticked[0][3], 0);

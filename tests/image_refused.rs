@@ -1,4 +1,4 @@
-//! Table images that are whole, but of another kind, without meaning or without a sound table.
+//! Intact table images of another kind, without meaning or without a valid table.
 
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use jred::image::{HEADER_WORDS, VERSION};
@@ -8,7 +8,7 @@ use jred::{Cubic, Image, ImageError, Q31, Quadratic, Set, Spline, TableError, cu
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = HEADER_WORDS as u32 + 7 + 1;
 
-/// Another magic, version and length are named even with a right CRC.
+/// Another magic, version or length is named even with a correct CRC.
 #[test]
 fn other_kinds_of_image_are_named() {
     let with = |word: usize, value: u32| {
@@ -87,7 +87,7 @@ fn meaningless_header_words_are_refused() {
             );
         }
     }
-    // Bases that are numbers, but whose acceleration or velocity torque is none.
+    // Finite bases whose acceleration or velocity torque is not finite.
     assert_eq!(with(&turn, 7, 1e-45f32.to_bits()), ImageError::Header(7));
     assert_eq!(with(&turn, 8, 1e30f32.to_bits()), ImageError::Header(7));
 }
@@ -100,7 +100,7 @@ fn unknown_domain_is_refused_with_its_word() {
     assert_eq!(refused(&sealed(image)), ImageError::Header(3));
 }
 
-/// What to do, of everything that can be wrong with an image.
+/// The cure for every fault of an image.
 #[test]
 fn a_refused_image_says_what_to_do() {
     for (error, cure) in [

@@ -1,4 +1,4 @@
-//! Images that are checked in slices, and slots that take an image in pieces: the verdicts and the bits of an image in flash.
+//! Images checked in slices, and slots that receive an image in pieces: the verdicts and the bits equal those of an image in flash.
 
 use crate::support::images::{VALIDITY, in_slices, sealed, small, stroke, stroke_in};
 use crate::support::value;
@@ -35,7 +35,7 @@ fn slices_give_the_same_verdict() {
                 (found.cells(), found.set(), found.domain(), found.scale()),
                 (whole.cells(), whole.set(), whole.domain(), whole.scale())
             );
-            // The damage lies in the last slice, in the first, and in the CRC.
+            // Damage in the last slice, in the first, and in the CRC.
             for damaged in [covered - 1, HEADER_WORDS, covered] {
                 let mut other = image.clone();
                 other[damaged] ^= 0x100;
@@ -48,7 +48,7 @@ fn slices_give_the_same_verdict() {
     }
 }
 
-/// What is wrong with the header is not found after the whole CRC.
+/// A wrong header is detected before the CRC is complete.
 #[test]
 fn a_wrong_header_is_found_by_the_first_call() {
     let mut image = stroke();
@@ -64,7 +64,7 @@ fn bytes(image: &[u32]) -> Vec<u8> {
     image.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// A slot that has received these bytes, so many at a time.
+/// A slot that has received these bytes in pieces.
 fn received<'m, F: Format, const SET: Set>(
     memory: &'m mut [u32],
     bytes: &[u8],
@@ -94,7 +94,7 @@ fn checked<F: Format, const SET: Set>(
     panic!("the check does not end");
 }
 
-/// Torques all around, as they lie in memory.
+/// Torques over the range, compared bit by bit.
 fn torques<F: Format, const SET: Set>(found: &FeedForward<'_, F, SET>) -> Vec<(f64, f64)> {
     let scale = *found.model().table().scale();
     let at = |k: u32| {
@@ -120,13 +120,13 @@ fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
         let mut slot = received::<F, SET>(first, &bytes(image), piece);
         checked(&mut slot, words).unwrap();
         assert_eq!(torques(&slot.feed_forward().unwrap()), expected);
-        // What it has found does not depend on where it lies.
+        // The result does not depend on its address.
         let mut moved = ImageSlot::new(second);
         core::mem::swap(&mut slot, &mut moved);
         assert_eq!(torques(&moved.feed_forward().unwrap()), expected);
         assert!(slot.feed_forward().is_none());
         assert_eq!(moved.validity(), Some(VALIDITY));
-        // The images are for 10 rad/s, and the base is 11 at least.
+        // The images are for 10 rad/s; the base is at least 11.
         for (speed, beyond) in [(9.0, false), (10.5, true)] {
             let omega: SpeedOf<F> = whole.model().table().scale().omega(speed).value;
             let alpha = Quantity::of(omega.number());
@@ -209,7 +209,7 @@ fn a_slot_refuses_what_an_image_refuses() {
     );
 }
 
-/// After a refused image, after a good one, and in the middle of one.
+/// After a refused image, after a good one, and during one.
 #[test]
 fn a_slot_is_used_again() {
     let good = bytes(&small());
@@ -218,7 +218,7 @@ fn a_slot_is_used_again() {
     let mut memory = [0; WORDS];
     let mut slot = received::<Spline<f32>, 0>(&mut memory, &damaged, 7);
     assert!(checked(&mut slot, 3).is_err());
-    // The first bytes after a verdict begin another image.
+    // The first bytes after a verdict start another image.
     slot.receive(&good[..11]).unwrap();
     assert!(slot.feed_forward().is_none());
     slot.receive(&good[11..]).unwrap();
@@ -229,7 +229,7 @@ fn a_slot_is_used_again() {
     slot.receive(&good[..60]).unwrap();
     assert!(slot.check(1).is_some_and(|found| found.is_err()), "half");
     slot.receive(&good).unwrap();
-    // Checked in part, and more comes: then it is not the image that its header says.
+    // After a partial check more bytes arrive: then it is not the image of its header.
     assert!(slot.check(2).is_none());
     slot.receive(&good[..4]).unwrap();
     assert!(matches!(
@@ -237,7 +237,7 @@ fn a_slot_is_used_again() {
         Some(Err(ImageError::Length { .. }))
     ));
     slot.receive(&good).unwrap();
-    // Checked in part, and given up.
+    // Partially checked, then abandoned.
     assert!(slot.check(2).is_none());
     slot.clear();
     slot.receive(&good).unwrap();

@@ -64,7 +64,7 @@ fn table_textbook() {
     }
 }
 
-/// What makers reckon with: speed C_v·h/β, acceleration C_a·h/β², torque on the cam shaft C_Mdyn·J·h²/β³·ω² at constant speed.
+/// Figures used by makers: speed C_v·h/β, acceleration C_a·h/β², torque on the cam shaft C_Mdyn·J·h²/β³·ω² at constant speed.
 #[test]
 fn peaks_are_those_of_the_law() {
     for law in [Law::ModifiedSine, Law::ModifiedTrapezoid, Law::Cycloidal] {
@@ -81,7 +81,7 @@ fn peaks_are_those_of_the_law() {
         let places = || (0..=20_000).map(|k| 0.999_999 * beta * f64::from(k) / 20_000.0);
         let psi = |phi: f64| machine.mechanism().frames(phi).unwrap()[TABLE].psi;
         let found = law.characteristic();
-        // On a grid of 20,000 steps, half a step from the peak: its curvature, (4π)² at most, times 1.25e-9/2.
+        // On a grid of 20,000 steps, half a step from the peak: its curvature, at most (4π)², times 1.25e-9/2.
         let near = |what: &str, most: f64, expected: f64| {
             assert_near(what, most / expected, 1.0, 1e-6);
         };
@@ -101,13 +101,13 @@ fn peaks_are_those_of_the_law() {
             largest(places().map(torque)),
             found.dynamic_torque * inertia * h * h / beta.powi(3) * omega * omega,
         );
-        // Two indexes a turn, against the cam shaft.
+        // Two indexes per turn, against the direction of the cam shaft.
         let step = psi(TAU - 1e-9).value - psi(-1e-9).value;
         assert_near("two steps back", step, -2.0 * h, 1e-8);
     }
 }
 
-/// Edges: where an index begins and ends, and the breaks of its law; in each index of the turn.
+/// Edges: start and end of an index, and the breaks of its law; in each index of the turn.
 #[test]
 fn edges_are_where_derivatives_jump() {
     let edges = |dimensions| {
@@ -136,7 +136,7 @@ fn edges_are_where_derivatives_jump() {
     assert_eq!(found, [0.0]);
 }
 
-/// The moment on the table is J₂·ψ̈ − M, and ψ′ times it acts back on the cam shaft; in the dwell the cam locks the table.
+/// The moment on the table is J₂·ψ̈ − M, and ψ′ times it acts on the cam shaft; in the dwell the cam locks the table.
 #[test]
 fn the_cam_carries_the_table() {
     let (inertia, load) = (0.8, 3.0);

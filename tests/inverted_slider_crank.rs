@@ -65,7 +65,7 @@ fn turning_lever_textbook() {
         let phi = -10.0 + 0.1 * f64::from(k);
         let psi = whitworth.frames(phi).unwrap()[LEVER].psi;
         let [value, d1, d2] = textbook(r, c, phi);
-        // The textbook's arctangent knows no turns.
+        // The textbook's arctangent does not count turns.
         let turns = ((psi.value - value) / TAU).round();
         assert_near("ψ", psi.value - TAU * turns, value, budget::GOLDEN);
         assert_near("ψ'", psi.d1, d1, budget::GOLDEN);
@@ -146,7 +146,7 @@ fn time_ratio_is_that_of_the_strokes() {
         let whitworth = mechanism(r, pivot, e);
         let centres = pivot[1].atan2(pivot[0]);
         let lever = |phi| whitworth.frames(phi).unwrap()[LEVER].psi.value;
-        // A ram on a line square to OC reverses where the slot lies along that line.
+        // A ram on a line perpendicular to OC reverses where the slot is parallel to that line.
         let ends = roots(|phi| (lever(phi) - centres).cos());
         assert_near(
             "time ratio",
@@ -167,7 +167,7 @@ fn lever_about_the_crank_s_own_axis_is_a_coupling() {
 }
 
 prop_compose! {
-    /// Both motions; the pin keeps at least a tenth of the shorter length away from the change point.
+    /// Both motions; the pin keeps at least a tenth of the shorter length from the change point.
     pub(crate) fn machines()(
         turning in any::<bool>(),
         r in 0.02..0.3_f64,
@@ -270,7 +270,7 @@ fn wrong_dimensions_are_refused() {
     );
 }
 
-/// However close to the change point a mechanism is accepted, every angle can be placed.
+/// An accepted mechanism has a position at every angle, however close to the change point.
 #[test]
 fn nothing_fails_next_to_the_change_point() {
     for centres in [0.3 * (1.0 + 1e-11), 0.1 * (1.0 - 1e-10)] {

@@ -1,4 +1,4 @@
-//! The three layouts against the exact machine, against each other, at knots, at the turn and at the ends of a stroke.
+//! The three layouts against the exact machine, against each other, at knots, across the turn and at the ends of a stroke.
 
 mod halves;
 
@@ -36,7 +36,7 @@ impl Reducible for Smooth {
     }
 }
 
-/// Largest errors of the values and of the slope a cell, in machine units, over a grid that has every knot and both ends.
+/// Largest errors of the values and of the slope per cell, in machine units, over a grid with every knot and both ends.
 fn errors<F: Format>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
     let machine = Smooth(domain);
     let rows = Rows::<F>::of(&machine, ALL, cells, scale).unwrap();
@@ -61,7 +61,7 @@ fn errors<F: Format>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
     found
 }
 
-/// The slope is one a cell here, which is one order more.
+/// The slope is per cell here, which is one order more.
 fn converges<F: Format>(orders: [i32; 2]) {
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [48, 96] {
@@ -87,7 +87,7 @@ fn errors_fall_with_the_order_of_the_spline() {
     converges::<Quadratic<f64>>([3, 3]);
 }
 
-/// In every number type as in f64, but for the type's own roundings.
+/// As in f64 in every number type, up to the type's own roundings.
 fn agrees_with_f64<F: Format, E: Format>(roundings: [f64; 2]) {
     let scale = scale_of(1.0, 2.0, 1.0);
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
@@ -100,7 +100,7 @@ fn agrees_with_f64<F: Format, E: Format>(roundings: [f64; 2]) {
                 <F::Number as Number>::NAME,
                 F::NAME
             );
-            // A place of 16 bits moves along the slope, which is below 2.5 times the width of a cell.
+            // A position of 16 bits shifts the value along the slope, which is below 2.5 times the width of a cell.
             let place = if F::Number::FIXED && F::NAME == "quadratic" {
                 2.5 * domain.span() / f64::from(cells) / 65_536.0
             } else {
@@ -145,7 +145,7 @@ fn cubic_is_the_spline<S: Scalar>(machine: &impl Reducible, cells: u32, bits: u3
     }
 }
 
-/// Value and slope on both sides of every knot, and of the turn: equal but for what changes within the phases between.
+/// Value and slope on both sides of every knot, and across the turn: equal up to the change within the phases between.
 fn smooth_at_knots<F: Format>(rows: &Rows<F>, roundings: [f64; 2]) {
     let table = rows.table();
     let cells = rows.cells;
@@ -158,14 +158,14 @@ fn smooth_at_knots<F: Format>(rows: &Rows<F>, roundings: [f64; 2]) {
         assert_eq!(after.cell(cells).0, knot);
         assert_eq!(before.cell(cells).0, (knot + cells - 1) % cells);
         let [a, b] = [table.at(before), table.at(after)];
-        // Two phases are cells·2⁻³² of a cell apart; in 16 bits of a cell one step more.
+        // Two phases are cells·2⁻³² of a cell apart; with 16 bits per cell one step more.
         let apart = f64::from(cells) / 4_294_967_296.0
             + if F::Number::FIXED && F::NAME == "quadratic" {
                 1.0 / 65_536.0
             } else {
                 0.0
             };
-        // Slopes and curvatures of these curves are below 1, those a cell below h and h².
+        // Slopes and curvatures of these curves are below 1, per cell below h and h².
         let h = rows.domain.span() / f64::from(cells);
         let moved = apart * h.max(h * h);
         for (what, a, b, roundings) in [

@@ -1,5 +1,4 @@
-//! Library mechanisms against the general linkage: the closed form, and the joints alone solved by continuation, are the
-//! same motion.
+//! Library mechanisms against the general linkage: the closed form, and the joints solved by continuation, give the same motion.
 
 use crate::support::{assert_near, budget, config, forces, jointed, link_of};
 use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
@@ -33,7 +32,7 @@ fn same_motion(mechanism: &(impl Jointed + Clone), phi: f64) {
             closed.reduction(phi).unwrap(),
             solved.reduction(phi).unwrap(),
         ];
-        // J′ and J″ are sums whose terms may cancel: their size is that of J and of one another.
+        // J′ and J″ are sums whose terms may cancel: their scale is that of J and of each other.
         let mut size = 0.0_f64;
         for (order, (a, b)) in a.inertias().into_iter().zip(b.inertias()).enumerate() {
             size = size.max(a.abs());
@@ -62,7 +61,7 @@ proptest! {
         let four_bar = FourBar::new(FourBarDimensions { crank: lengths[0], coupler: lengths[1], rocker: lengths[2], pivot }, side, links());
         prop_assume!(four_bar.is_ok());
         let four_bar = four_bar.unwrap();
-        // Near a dead point every rounding grows.
+        // Near a dead point every rounding is amplified.
         let least = (0..360).map(|k| {
             let mu = four_bar.transmission_angle(f64::from(k).to_radians()).unwrap();
             mu.value.sin().abs()
@@ -110,7 +109,7 @@ proptest! {
         backward in any::<bool>(),
         phi in 0.0..6.3,
     ) {
-        // A crank-rocker: the crank is the shortest, and with the ground shorter than the other two together.
+        // A crank-rocker: the crank is the shortest, and crank plus ground are shorter than the other two together.
         let crank = sizes[0];
         let [rod, upper] = [4.0 * crank * sizes[1], 4.0 * crank * sizes[2]];
         let ground = 0.75 * (rod + upper) * 0.9;
@@ -130,7 +129,7 @@ proptest! {
         let ratios: [f64; 3] = ratios;
         let [a, b, c] = [0, 1, 2].map(|k| if reversed[k] { -ratios[k] } else { ratios[k] });
         let rotors = [0.01, 0.02, 0.03, 0.04].map(|j| Link::rotor(j).unwrap());
-        // In series: the driven side of a stage and the driver of the next turn together.
+        // In series: the driven side of a stage turns with the driver of the next.
         let stages = [(a, 0.01), (b, 0.02), (c, 0.03)].map(|(i, j)| Stage::new(i, [j, 0.0]).unwrap());
         let train = Train::new(&stages).unwrap();
         let belt = |from: usize, to: usize, ratio: f64| Pair::Belt {
@@ -156,7 +155,7 @@ proptest! {
         let hoist = Hoist::with_counterweight(drum, Suspended { rope: rope(0), link: mass(0) }, Suspended { rope: rope(1), link: mass(1) });
         let frames = hoist.frames(0.0).unwrap();
         let joints = hoist.joints(0.0, &frames).unwrap();
-        // A rope is a rack that the drum winds up; a tackle moves its load by a share of it.
+        // A rope is a rack that the drum winds up; a tackle moves its load by a share of that.
         let wound = |k: usize, side: f64| Pair::Rack {
             pinion: Marker::on(0, O),
             rack: Marker::on(k + 1, O).with_angle(std::f64::consts::FRAC_PI_2),
@@ -182,7 +181,7 @@ proptest! {
     }
 }
 
-/// The links of a mechanism that does not come back, held by `pairs`, over a stroke.
+/// The links of a mechanism that does not return, held by `pairs`, over a stroke.
 fn over_a_stroke<const LINKS: usize>(
     mechanism: &impl Mechanism,
     pairs: &[Pair],

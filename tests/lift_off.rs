@@ -1,4 +1,4 @@
-//! The contact force of a cam, and the speed at which it vanishes.
+//! The contact force of a cam, and the speed at which it becomes zero.
 
 use jred::machine::MachineError;
 use std::f64::consts::{PI, TAU};
@@ -32,8 +32,7 @@ fn force(machine: &Machine<DiscCam>, phi: f64, omega: f64, alpha: f64) -> f64 {
     contact_force(machine, DiscCam::CONTACT, phi, omega, alpha).unwrap()
 }
 
-/// N = F₀ + k·s + m·g + m·(s″·ω² + s′·α) with s = e·(1 − cos φ): it vanishes first at the top, φ = 180°, at
-/// ω² = (F₀ + 2·k·e + m·g)/(m·e).
+/// N = F₀ + k·s + m·g + m·(s″·ω² + s′·α) with s = e·(1 − cos φ): it becomes zero first at the top, φ = 180°, at ω² = (F₀ + 2·k·e + m·g)/(m·e).
 #[test]
 fn lift_off_of_a_circular_cam() {
     let (k, preload, g) = (4e3, 60.0, 9.81);
@@ -56,7 +55,7 @@ fn lift_off_of_a_circular_cam() {
     }
 }
 
-/// The closed form holds from a follower that hardly presses to one that is pressed on hard: far from the speed at which the search begins.
+/// The closed form is met from a lightly to a strongly pressed follower, far from the starting speed of the search.
 #[test]
 fn slow_and_fast_limits_are_exact() {
     for (k, preload) in [
@@ -72,8 +71,8 @@ fn slow_and_fast_limits_are_exact() {
     }
 }
 
-/// With a damper d on the follower N = F₀ + k·s + d·s′·ω + m·s″·ω²: the root of a quadratic at every φ, different for
-/// the two directions only in its place.
+/// With a damper d on the follower N = F₀ + k·s + d·s′·ω + m·s″·ω²: the root of a quadratic at every φ, whose position alone depends on the
+/// direction.
 #[test]
 fn damping_moves_the_place() {
     let (k, preload, damping) = (4e3, 60.0, 30.0);
@@ -105,7 +104,7 @@ fn damping_moves_the_place() {
     assert_near("φ", back.phi, TAU - found.phi, budget::EXTREME_PLACE);
 }
 
-/// A load that acts over a part of the turn only is seen however narrow it is.
+/// A load over a part of the turn is found, however narrow it is.
 #[test]
 fn short_loads_are_seen() {
     let machine = eccentric_machine(4e3, 60.0);
@@ -152,7 +151,7 @@ fn the_message_names_place_and_speed() {
     );
 }
 
-/// A follower without mass is held at any speed.
+/// A massless follower stays in contact at any speed.
 #[test]
 fn no_mass_never_lifts_off() {
     let still = Link::rotor(0.0).unwrap();
@@ -186,7 +185,7 @@ fn other_joints_are_no_contacts() {
 proptest! {
     #![proptest_config(config(16, 0x0ca2))]
 
-    /// At the limit speed the force vanishes at the place told, and it is positive all round just below.
+    /// At the limit speed the force is zero at the reported position, and positive everywhere just below that speed.
     #[test]
     fn contact_vanishes_at_lift_off(mechanism in cam(), stiffness in 0.5f64..2.0, preload in 0.5f64..2.0, forward in any::<bool>()) {
         let swings = mechanism.follower().pivot().is_some();

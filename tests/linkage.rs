@@ -1,4 +1,4 @@
-//! The general linkage: golden data, library mechanisms by their joints alone, and what it refuses.
+//! The general linkage: golden data, library mechanisms by their joints, and refusals.
 
 use crate::support::golden::Case;
 use crate::support::machines::spec;
@@ -14,7 +14,7 @@ fn pin(a: Marker, b: Marker) -> Pair {
     Pair::Joint(Joint::Revolute([a, b]))
 }
 
-/// The golden four-bar, described by its links and pins alone, from a drawing rounded to centimetres and five degrees.
+/// The golden four-bar by its links and pins, from a drawing rounded to centimetres and five degrees.
 fn golden_four_bar(case: &Case) -> Machine<Assembly<3, 4, 256>> {
     let input = |path: &str| case.input(path);
     let com = |name: &str| [0, 1].map(|k| input(&format!("/{name}_com/{k}")));
@@ -170,7 +170,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
             assert_near(what, found, expected, budget::JOINT_CLOSURE);
         };
         close("gear", frames[1].psi.value, i * phi);
-        // The pinion turns clockwise, its lowest point moves to the left: the rack goes along.
+        // The pinion turns clockwise, its lowest point moves to the left, and the rack with it.
         close("rack", frames[2].x.value - rack_line[0], r1 * i * phi);
         close("pulley", frames[3].psi.value, i * phi * r1 / r3);
         close("second transfer function", frames[2].x.d2, 0.0);
@@ -181,7 +181,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         forces::dalembert(&machine, phi, 3.0, -20.0);
         let expected = 0.01 + (0.01 + 2.0 * r1 * r1 + 0.01 * (r1 / r3).powi(2)) * i * i;
         close("J", machine.reduction(phi).unwrap().inertia, expected);
-        // The teeth push gear 1 with what its rack, its pulley and itself need.
+        // The teeth drive gear 1 with the torque for its rack, its pulley and itself.
         let forces = machine.forces(phi, 0.0, 100.0).unwrap();
         let tooth = forces.reactions[4].force;
         let size = (tooth[0].powi(2) + tooth[1].powi(2)).sqrt();
@@ -192,7 +192,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
             0.0,
         );
     }
-    // A rack does not come back, nor does the gear that moves it.
+    // A rack does not return, nor does the gear that moves it.
     let refused = linkage
         .assemble::<9>(Domain::Turn, 0.0, &drawing)
         .unwrap_err();
@@ -305,7 +305,7 @@ fn a_guide_can_be_driven() {
         );
         forces::dalembert(&Machine::new(pushed.clone()), at(phi), 0.7, -3.0);
     }
-    // Beyond the crank's dead centre there is nothing to push.
+    // Beyond the crank's dead centre nothing can be pushed.
     let too_far = Domain::stroke(from, at(0.0) + 0.5).unwrap();
     let refused = linkage
         .assemble::<64>(too_far, at(1.0), &drawing)
@@ -319,8 +319,8 @@ fn a_guide_can_be_driven() {
     assert_near("dead centre", phi, end, 1e-6);
 }
 
-/// A slider-crank driven at each of its joints in turn, with the joint's bodies in either order: a rotor geared to the
-/// joint acts between these two bodies. It adds its inertia to the drive's effort, and to no reaction.
+/// A slider-crank driven at each of its joints in turn, with the joint's bodies in either order: a rotor geared to the joint acts between these two
+/// bodies. It adds its inertia to the drive's effort, and to no reaction.
 #[test]
 fn a_rotor_loads_the_drive_and_no_joint() {
     let spec = crate::support::samples(1, 5, &spec()).remove(0);
@@ -368,7 +368,7 @@ fn a_rotor_loads_the_drive_and_no_joint() {
     }
 }
 
-/// Of a coupler and a rocker with pins at their frames' origins it is |sin μ|, with cos μ = (b² + c² − |AC|²)/(2·b·c).
+/// For a coupler and a rocker with pins at their frames' origins it is |sin μ|, with cos μ = (b² + c² − |AC|²)/(2·b·c).
 #[test]
 fn the_quality_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));
@@ -391,7 +391,7 @@ fn the_quality_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
     }
 }
 
-/// A new payload in the rocker, of mass m at the distance r from its pivot: J grows by m·r²·ψ′², and nothing moves.
+/// A new payload in the rocker, of mass m at the distance r from its pivot: J grows by m·r²·ψ′², and no position changes.
 #[test]
 fn another_mass_of_a_link_changes_the_inertia_alone() {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));

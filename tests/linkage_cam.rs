@@ -24,7 +24,7 @@ fn profile(cam: &DiscCam) -> CamProfile {
     CamProfile::new(cam.program().clone(), cam.base_radius(), *cam.follower()).unwrap()
 }
 
-/// Where a disc cam stands: its axis at `at`, all of it turned by `turn`, and the cam's own zero turned by `zero`.
+/// Position of a disc cam: its axis at `at`, all of it turned by `turn`, and the cam's own zero turned by `zero`.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     at: [f64; 2],
@@ -66,7 +66,7 @@ impl Place {
     }
 }
 
-/// Cam and follower of the closed form, without the roller, where they stand.
+/// Cam and follower of the closed form, without the roller, in this position.
 struct Standing<'a>(&'a DiscCam, Place);
 
 impl Mechanism for Standing<'_> {
@@ -94,7 +94,7 @@ impl Mechanism for Standing<'_> {
     }
 }
 
-/// A drawing by eye: where the links are, a millimetre and three degrees off.
+/// A rough drawing: the links are a millimetre and three degrees off.
 fn by_eye(frames: &Frames) -> Vec<Pose> {
     let off = |frame: &Frame| Pose {
         x: frame.x.value + 1e-3,
@@ -132,7 +132,7 @@ proptest! {
     ) {
         let linkage = assembled(&cam, place, start);
         jointed::same_frames(&Standing(&cam, place), &linkage, phi, budget::LINKAGE);
-        // The normal of the contact, without which its force would do work.
+        // Along the normal of the contact, otherwise its force would do work.
         jointed::joints_close(&linkage, phi);
         let gravity = place.vector([0.0, -9.81]);
         let machine = Machine::new(linkage).with_gravity(gravity).unwrap();
@@ -149,14 +149,14 @@ proptest! {
     }
 }
 
-/// The cam's shaft is held in a slide that moves on the ground: the base of the cam is no part of the ground.
+/// The cam's shaft is held in a slide that moves on the ground: the cam's base is not the ground.
 #[test]
 fn the_base_may_move() {
     let (follower, lift) = cams::follower(0, 0.01, O, 0.004);
     let cam = cams::build(lift, 0.04, follower).unwrap();
     let link = link_of(1.0, 0.001, O);
     let along = FRAC_PI_2;
-    // Cam 0 and follower 1 in slide 2, which a screw-like gear moves along x while the cam turns: x = r·θ.
+    // Cam 0 and follower 1 in slide 2, which a gear moves along x while the cam turns: x = r·θ.
     let base = Marker::on(2, O);
     let r = 0.02;
     let pairs = [
@@ -240,7 +240,7 @@ fn refused() {
     assert!(message(&[at(Marker::ground([f64::NAN, 0.0]))]).contains("marker u"));
     let refused = Linkage::<2, 3>::new(&links, &pairs, 0).unwrap_err();
     assert_eq!(refused, LinkageError::NoSuchCam { cam: 0, cams: 0 });
-    // The shape of the cam is checked as that of the disc cam.
+    // The shape of the cam is checked like that of the disc cam.
     let small = CamProfile::new(cams::four(0.03), 0.004, follower).unwrap_err();
     assert!(spoken(small).contains("base radius"), "{small}");
     // The whole is a machine like any other.

@@ -1,4 +1,4 @@
-//! General linkages through change points, on the branch on which they are drawn.
+//! General linkages through change points, on the branch of their drawing.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,7 +14,7 @@ use crate::support::{assert_near, budget, config, forces, link_of, spoken};
 
 type Kept = Assembly<3, 4, 128, 0, 8>;
 
-/// The four-bar as bodies and joints, drawn at `start` a little off.
+/// The four-bar as bodies and joints, from a slightly inaccurate drawing at `start`.
 fn drawn(four_bar: &FourBar, start: f64) -> Result<Kept, LinkageError> {
     let frames = four_bar.frames(start)?;
     let joints = four_bar.joints(start, &frames)?;
@@ -33,13 +33,13 @@ fn drawn(four_bar: &FourBar, start: f64) -> Result<Kept, LinkageError> {
     )
 }
 
-/// Coordinates against a closed form, each derivative of 1 or its size.
+/// Coordinates against a closed form, each derivative relative to 1 or its size.
 #[track_caller]
 fn same(name: &str, found: Transfer, exact: Transfer, turns: bool) {
     same_to(budget::CHANGE_POINT, name, found, exact, turns);
 }
 
-/// The same to other `errors`, of 1 or the derivative's size.
+/// The same with other tolerances.
 #[track_caller]
 fn same_to(errors: [f64; 4], name: &str, found: Transfer, exact: Transfer, turns: bool) {
     let mut off = found.value - exact.value;
@@ -96,7 +96,7 @@ prop_compose! {
     }
 }
 
-/// A position of the drawing, 1 rad or more from every change point.
+/// A position for the drawing, 1 rad or more from every change point.
 fn clear(four_bar: &FourBar) -> f64 {
     let first = four_bar.change_points()[0];
     let from = four_bar.domain().position(0.0);
@@ -106,8 +106,8 @@ fn clear(four_bar: &FourBar) -> f64 {
 proptest! {
     #![proptest_config(config(60, 0x04c1))]
 
-    /// Parallelograms, antiparallelograms, kites, Galloway's mechanism and linkages that come back after two turns: in the change points, on
-    /// both sides of each window's ends, and anywhere, as their closed forms.
+    /// Parallelograms, antiparallelograms, kites, Galloway's mechanism and linkages that return after two turns, against their closed forms: at the
+    /// change points, on both sides of each window's ends, and anywhere.
     #[test]
     fn linkages_pass_as_their_closed_forms(four_bar in linkage(), at in [0.0..1.0_f64, 0.0..1.0, 0.0..1.0]) {
         let assembly = drawn(&four_bar, clear(&four_bar)).unwrap();
@@ -131,7 +131,7 @@ proptest! {
         }
     }
 
-    /// What the drive does through a change point is what the energy grows by: T = ½·J′·ω² + U′ at constant speed.
+    /// The drive's work through a change point equals the change of energy: T = ½·J′·ω² + U′ at constant speed.
     #[test]
     fn the_drives_work_is_the_change_of_energy(four_bar in linkage(), omega in 1.0..20.0_f64) {
         let assembly = drawn(&four_bar, clear(&four_bar)).unwrap();
@@ -143,7 +143,7 @@ proptest! {
         let h = (to - from) / 400.0;
         let weigh = |k: i32| if k == 0 || k == 400 { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
         let work: f64 = (0..=400).map(|k| weigh(k) * torque(from + h * f64::from(k))).sum::<f64>() * h / 3.0;
-        // By hand, from where the links are and how fast they go: without J and its derivatives.
+        // By hand, from positions and velocities of the links, without J and its derivatives.
         let energy = |phi: f64| {
             let frames = machine.mechanism().frames(phi).unwrap();
             let mut sum = 0.0;
@@ -156,13 +156,13 @@ proptest! {
             sum
         };
         let size = energy(from).abs().max(energy(to).abs()).max(work.abs());
-        // Domains of strokes are clamped, those of turns wrapped.
+        // Strokes are clamped, turns wrapped.
         if four_bar.domain() == Domain::Turn || (four_bar.domain().position(0.0) < from && to < four_bar.domain().position(1.0)) {
             assert_near("work", work, energy(to) - energy(from), budget::CHANGE_POINT_WORK * size);
         }
     }
 
-    /// Beside the change point the forces in the joints demand the same torque of the drive; close to it they are not given.
+    /// Next to the change point the joint forces require the same torque of the drive; close to it they are not computed.
     #[test]
     fn forces_hold_beside_change_points(four_bar in linkage(), near in 0.05..0.2_f64, omega in -5.0..5.0_f64, alpha in -20.0..20.0_f64) {
         let assembly = drawn(&four_bar, clear(&four_bar)).unwrap();
@@ -211,7 +211,7 @@ fn slider_drawing(phi: f64, lengths: f64) -> [Pose; 3] {
     ]
 }
 
-/// Crank and rod of one length: the slider goes as 2·r·cos φ, through the crank's axis, and the rod turns as −φ (Cardan's circles).
+/// Crank and rod of equal length: the slider moves as 2·r·cos φ, through the crank's axis, and the rod turns by −φ (Cardan's circles).
 #[test]
 fn a_folded_slider_crank_goes_through_the_axis() {
     let r = 0.1;
@@ -235,7 +235,7 @@ fn a_folded_slider_crank_goes_through_the_axis() {
     }
 }
 
-/// With few stations, several of which lie in a window or have one between them, every position is the same.
+/// With few stations, several of which are in a window or have one between them, every position is the same.
 #[test]
 fn few_stations_do_through_change_points() {
     let r = 0.1;
@@ -254,7 +254,7 @@ fn few_stations_do_through_change_points() {
     }
 }
 
-/// Crank and ground of nearly one length: the rocker turns 29 times as fast as the crank in one of its change points.
+/// Crank and ground of nearly equal length: the rocker turns 29 times as fast as the crank in one of its change points.
 #[test]
 fn a_steep_antiparallelogram_is_less_exact() {
     let links = [link_of(1.0, 0.01, O); 3];
@@ -271,7 +271,7 @@ fn a_steep_antiparallelogram_is_less_exact() {
                 largest = std::array::from_fn(|order| largest[order].max(derivatives[order].abs()));
             }
         }
-        // (d + a)/(d − a) in the change point itself.
+        // (d + a)/(d − a) at the change point.
         assert_near("steepest", largest[1], 29.0, 0.01);
         let errors =
             std::array::from_fn(|order| budget::CHANGE_POINT_STEEP[order] * largest[order]);
@@ -286,7 +286,7 @@ fn a_steep_antiparallelogram_is_less_exact() {
     }
 }
 
-/// A rod that is longer or shorter by 1e-12 of its length is as long as the crank.
+/// A rod that differs from the crank by 1e-12 of its length counts as equally long.
 #[test]
 fn lengths_may_differ_by_their_last_digits() {
     let r = 0.1;
@@ -303,7 +303,7 @@ fn lengths_may_differ_by_their_last_digits() {
     }
 }
 
-/// Two folded slider-cranks on one crank: both groups change together.
+/// Two folded slider-cranks on one crank: both groups change simultaneously.
 #[test]
 fn two_groups_may_lie_flat_together() {
     let r = 0.1;
@@ -353,7 +353,7 @@ fn what_is_no_change_point_is_refused() {
         "there is no change point to pass: no two branches of the linkage cross in the drive's range; assemble it without: it stays \
          on the branch on which it is drawn"
     );
-    // A rod that is a little short locks, a little long stays on its side: neither crosses.
+    // A slightly short rod locks, a slightly long one stays on its side: neither crosses.
     for short in [1e-2, 1e-3, 1e-4] {
         let error = through(r * (1.0 - short), 0.4).unwrap_err();
         assert!(
@@ -368,19 +368,19 @@ fn what_is_no_change_point_is_refused() {
         through(r * 1.01, 0.4).unwrap_err(),
         LinkageError::NoChangePoint
     );
-    // A drawing in the change point names no branch.
+    // A drawing at the change point does not determine a branch.
     let error = through(r, FRAC_PI_2).unwrap_err();
     assert!(
         matches!(error, LinkageError::Pose(PoseError::DeadPoint { .. })),
         "{error}"
     );
-    // Both flat positions, but room for one.
+    // Two flat positions, but capacity for one.
     let error = slider_crank(r, r)
         .assemble_through_change_points::<64, 1>(Domain::Turn, 0.4, &slider_drawing(0.4, r))
         .map(|_| ())
         .unwrap_err();
     assert!(spoken(error).contains("change points"), "{error}");
-    // Not asked for, it is refused.
+    // Refused if not requested.
     let error = slider_crank(r, r)
         .assemble::<64>(Domain::Turn, 0.4, &slider_drawing(0.4, r))
         .map(|_| ())
@@ -391,7 +391,7 @@ fn what_is_no_change_point_is_refused() {
 proptest! {
     #![proptest_config(config(60, 0x04c2))]
 
-    /// No linkage slips through a change point that nobody asked for.
+    /// No linkage passes a change point without a request.
     #[test]
     fn without_a_branch_it_is_refused(four_bar in linkage(), from in 0.2..1.5_f64) {
         let flat = four_bar.change_points()[0];
@@ -411,7 +411,7 @@ proptest! {
     }
 }
 
-/// The same four-bar over a stroke that begins elsewhere.
+/// The same four-bar over a stroke with another start.
 fn kept_over(four_bar: &FourBar, start: f64) -> FourBar {
     let dimensions = four_bar.dimensions();
     let mut links = [link_of(1.0, 0.01, O); 3];

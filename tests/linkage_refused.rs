@@ -1,4 +1,4 @@
-//! What is not a linkage: refused with its place, and never taken for one that closes.
+//! Invalid linkages are refused with their position, and never taken for closed ones.
 
 use crate::support::budget;
 use crate::support::link_of;
@@ -65,7 +65,7 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
         refused.to_string(),
         "the mechanism has 2 degrees of freedom, not one: 3·2 links − 4 constraints"
     );
-    // Link 0 is held rigidly, by its pin and its slot, while link 1 is free in two ways.
+    // Link 0 is held rigidly by its pin and its slot, while link 1 has two freedoms.
     let held = [
         pin(ground(0.0), Marker::on(0, O)),
         Pair::Joint(Joint::PinInSlot([Marker::on(0, [0.1, 0.0]), ground(0.3)])),
@@ -114,8 +114,8 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
     );
 }
 
-/// A wheel that the pinion turns once in two turns of its own moves a slotted lever: nothing repeats after one turn of the
-/// drive, wherever the drawing begins, and whatever the links' centres of mass; over two turns it is a machine.
+/// A wheel that turns once in two turns of the pinion moves a slotted lever: nothing repeats after one turn of the drive, for any start of the
+/// drawing and any centres of mass; over two turns it is a machine.
 #[test]
 fn what_repeats_after_two_turns_does_not_close_after_one() {
     let (r, pivot) = (0.02, [0.12, -0.1]);
@@ -169,8 +169,8 @@ fn what_repeats_after_two_turns_does_not_close_after_one() {
     }
 }
 
-/// A parallelogram passes the line of its pins, where it can go on as a parallelogram or as an antiparallelogram: there are positions
-/// on both sides, and the error says that the branch changes, not that the crank stops.
+/// A parallelogram passes the line of its pins, where it can continue as a parallelogram or as an antiparallelogram: there are positions on both
+/// sides, and the error reports a change of branch, not a blocked crank.
 #[test]
 fn a_parallelogram_changes_its_branch_where_it_is_flat() {
     let sides = [0.1, 0.3, 0.1, 0.3];
@@ -186,8 +186,8 @@ fn a_parallelogram_changes_its_branch_where_it_is_flat() {
     crate::support::assert_near("coupler", frames[1].psi.value, 0.0, budget::LINKAGE);
 }
 
-/// A gear at 3 : 7 stops elsewhere after a turn of its pinion. Balanced it looks and weighs the same at any angle, and the machine
-/// repeats; with its centre of mass beside its axis it does not.
+/// A gear at 3:7 is at another angle after a turn of its pinion. A balanced gear is the same at any angle, and the machine repeats; with an eccentric
+/// centre of mass it does not.
 #[test]
 fn a_wheel_that_only_rolls_may_stop_at_any_angle_if_it_is_balanced() {
     let centre = [0.1, 0.0];

@@ -1,4 +1,4 @@
-//! Where a load acts: the part of a turn comes again with every turn, the part of a stroke does not.
+//! Range of a load: a part of a turn repeats every turn, a part of a stroke does not.
 
 use std::f64::consts::TAU;
 
@@ -76,7 +76,7 @@ fn press_with_a_narrow_load() -> Machine<SliderCrank> {
     press().with_load(force.within(window)).unwrap()
 }
 
-/// However narrow a load is, an error of a table where it acts is found.
+/// The table error of a load is found, however narrow the load is.
 #[test]
 fn a_narrow_load_is_not_stepped_over() {
     const CELLS: u32 = 200;
@@ -104,7 +104,7 @@ fn a_narrow_load_is_not_stepped_over() {
         panic!("{found:?}")
     };
     assert!((0.9 * height..1.1 * height).contains(&reached), "{reached}");
-    // The table of so many cells, measured.
+    // The table with that many cells, measured.
     let table =
         fill::<Spline<f64>>(&machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words).unwrap();
     let found = measure(&machine, &table, &request).unwrap();
@@ -123,14 +123,14 @@ fn edges_are_those_of_the_mechanism_and_of_the_loads() {
     {
         near(found, expected);
     }
-    // Seven places between each and the next, and the last one.
+    // Seven positions between neighbours, and the last one.
     assert_eq!(
         edge_places(&machine)
             .filter(|phi| (4.0..4.000_019).contains(phi))
             .count(),
         32
     );
-    // A part counts from its start, and a turn begins again.
+    // A part starts at its first position, and a turn wraps.
     let part = Part::new(&machine, 5.0, 10.5).unwrap();
     near(part.edge(0).unwrap(), 4.0 - 5.0 + TAU);
     assert_eq!(part.edge(4), None);
@@ -145,7 +145,7 @@ fn edges_are_those_of_the_mechanism_and_of_the_loads() {
     assert_eq!(geneva.edge(2), None);
 }
 
-/// Places so close together tell nothing about what lies between them: the bound is the largest error there, and little more.
+/// Positions this close have no information about the range between them: the bound is the largest error there, and little more.
 #[test]
 fn a_narrow_load_does_not_loosen_the_bound() {
     const CELLS: u32 = 64;

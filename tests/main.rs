@@ -1,4 +1,4 @@
-//! The one test program of the library.
+//! The test program of the library.
 
 mod accuracy;
 mod axis;

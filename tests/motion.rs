@@ -76,9 +76,8 @@ fn laws_rise_from_rest_to_rest() {
     }
 }
 
-/// A law is its own mirror image: S(1 − z) = 1 − S(z); a trapezoid is that of the exchanged shares.
-/// The first and last instants of a move are slow, not at rest: friction and losses go by the sign of the speed. The speed there
-/// is that of the first term of its series.
+/// A law is its own mirror image, S(1 − z) = 1 − S(z); a trapezoid is that with exchanged shares. The first and last instants of a move are slow, not
+/// at rest: friction and losses depend on the sign of the speed. The speed there is the first term of its series.
 #[test]
 fn the_speed_next_to_a_rest_is_not_rounded_to_zero() {
     let near: f64 = 1e-9;
@@ -130,7 +129,7 @@ fn laws_are_symmetric() {
     }
 }
 
-/// The trapezoid of thirds in closed form: the top speed is 3/2, the acceleration 9/2; nothing is rounded to f32 on the way.
+/// The trapezoid of thirds in closed form: the top speed is 3/2, the acceleration 9/2, without rounding to f32.
 #[test]
 fn trapezoid_of_thirds() {
     let third = 1.0 / 3.0;
@@ -187,7 +186,7 @@ fn speed_and_acceleration_are_derivatives() {
                 10.0 * budget::LAW_DIFFERENCES,
             );
         }
-        // Across a break position and speed go on; the trapezoid's acceleration may jump there, no other's.
+        // Across a break position and speed are continuous; only the trapezoid's acceleration may jump there.
         for at in law.breaks().into_iter().flatten() {
             let [before, after] = [law.at(at - 1e-9), law.at(at + 1e-9)];
             assert_near("S", after[0], before[0], budget::LAW_BREAK);
@@ -219,8 +218,7 @@ fn coefficients_of_vdi_2143() {
         (QUADRATIC, [2.0, 4.0, none, 8.0]),
         (TRAPEZOID, [1.6, 6.4, none, 10.24]),
     ] {
-        // The grid misses a maximum by at most half a step: S‴·(step/2)²/2 of it.
-        // What jumps at a break has its own value before it.
+        // The grid misses a maximum by at most half a step: S‴·(step/2)²/2. A value that jumps at a break is also taken before it.
         let before = law.breaks().into_iter().flatten().map(f64::next_down);
         let most = |f: &dyn Fn(f64) -> f64| largest(places(100_000).chain(before.clone()).map(f));
         let found = law.characteristic();
@@ -245,7 +243,7 @@ fn coefficients_of_vdi_2143() {
         let jumps = law.at(0.0)[2] != 0.0;
         assert_eq!(found.jerk.is_none(), jumps, "{law:?}");
         if let Some(jerk) = found.jerk {
-            // The largest jerk may lie at a corner of S‴, of which a step's share is lost.
+            // The largest jerk may be at a corner of S‴, where a share of a step is lost.
             let extreme = most(&|z| law.jerk(z));
             assert_near("C_j", extreme, jerk, budget::LAW_MAXIMUM * jerk);
             assert_near("C_j", jerk, printed[2], budget::PRINTED);
@@ -253,7 +251,7 @@ fn coefficients_of_vdi_2143() {
     }
 }
 
-/// A part without time has no jerk of its own, and none that is not a number.
+/// A part of zero duration has no jerk, and gives no NaN.
 #[test]
 fn parts_without_time_have_no_jerk() {
     for [sine, constant, cosine] in [
@@ -274,8 +272,8 @@ fn parts_without_time_have_no_jerk() {
     }
 }
 
-/// Members of the family of sine, constant and cosine acceleration: the traditional laws, value by value, and the figures printed
-/// for others: <http://mechdesigner.support/mt-motion-cam-law-sine-constant-cosine-cv.htm>.
+/// Members of the family of sine, constant and cosine acceleration: the traditional laws value by value, and printed figures of others:
+/// <http://mechdesigner.support/mt-motion-cam-law-sine-constant-cosine-cv.htm>.
 #[test]
 fn sine_constant_and_cosine_make_the_traditional_laws() {
     let scca = |sine, constant, cosine| Law::SineConstantCosine {
@@ -359,7 +357,7 @@ fn sine_constant_and_cosine_make_the_traditional_laws() {
 proptest! {
     #![proptest_config(config(256, 0x0006))]
 
-    /// Any shares: the extremes of the law are its figures, and it is smooth but at its breaks.
+    /// Any shares: the extremes of the law are its figures, and it is smooth except at its breaks.
     #[test]
     fn sine_constant_and_cosine_of_any_shares(parts in [0.02f64..1.0, 0.0f64..1.0, 0.02f64..1.0, 0.0f64..1.0]) {
         let sum: f64 = parts.iter().sum();
@@ -409,7 +407,7 @@ proptest! {
         let right = (z - (1.0 - d)).max(0.0);
         let area = left * left / (2.0 * a) + middle + right - right * right / (2.0 * d);
         assert_near("S", law.at(z)[0], top * area, 1e3 * budget::LAW_END);
-        // Corners: the acceleration is that after them, and one place before them that before.
+        // Corners: the acceleration is the one after them, and just before them the one before.
         let [Some(first), Some(last), ..] = law.breaks() else { unreachable!() };
         prop_assert!((first, last) == (a, 1.0 - d) && first <= last);
         let between = if first < last { 0.0 } else { -top / d };
@@ -428,7 +426,7 @@ proptest! {
         let travel = Move::<f64>::new(law, start, distance, duration).unwrap();
         prop_assert_eq!((travel.duration(), travel.distance(), travel.law()), (duration, distance, law));
         let (state, [s, v, a]) = (travel.at(z * duration), law.at(z));
-        // z comes back from z·duration with a rounding: beside a break S'' may be that of the other side.
+        // z is recovered from z·duration with a rounding: next to a break S″ may be that of the other side.
         prop_assume!(law.breaks().iter().flatten().all(|b| (z - b).abs() > 1e-12));
         assert_near("φ", state.phi, start + distance * s, 1e3 * budget::LAW_END);
         assert_near("ω", state.omega, distance / duration * v, 1e3 * budget::LAW_END / duration);

@@ -4,8 +4,8 @@ use crate::support::{assert_near, budget, config, derivative};
 use jred::machine::motion::{End, Law, Polynomial};
 use proptest::prelude::*;
 
-/// From rest to rest they are the laws 3-4-5 and 4-5-6-7; with one jerk of zero, 15z⁴ − 24z⁵ + 10z⁶ from the start on (its conditions,
-/// s = s′ = s″ = s‴ = 0 and s = 1, s′ = s″ = 0, are solved by hand) and its mirror image.
+/// From rest to rest they are the laws 3-4-5 and 4-5-6-7; with a single jerk of zero, 15z⁴ − 24z⁵ + 10z⁶ from the start (its conditions, s = s′ = s″
+/// = s‴ = 0 and s = 1, s′ = s″ = 0, are solved by hand) and its mirror image.
 #[test]
 fn rest_to_rest_are_the_laws() {
     let open = End::new(0.0, 0.0);
@@ -71,13 +71,13 @@ proptest! {
         }
     }
 
-    /// Each derivative is that of the one before.
+    /// Each derivative matches the one before.
     #[test]
     fn derivatives_follow(rise in -1.0..1.0, start in end(), last in end(), z in 0.1..0.9) {
         let polynomial = Polynomial::between(rise, 1.0, start, last);
         for order in 0..3 {
             let slope = derivative(|t| polynomial.at(t)[order], z, 0.05);
-            // Seventh degree: the extrapolated differences leave no term out but roundings of sums up to a thousand.
+            // Seventh degree: the extrapolated differences are exact up to roundings of sums up to a thousand.
             assert_near("derivative", polynomial.at(z)[order + 1], slope, 1e3 * budget::LAW_DIFFERENCES);
         }
     }

@@ -1,17 +1,17 @@
-//! `examples/no_panic.rs` and `no_panic_axis.rs`, which link only if no panic can be reached, call all that a tick can need.
+//! `examples/no_panic.rs` and `no_panic_axis.rs`, which link only if no panic can be reached, call everything that a tick can need.
 //!
-//! Implementations of traits are not looked for: operators of an angle stand in the program without a name, and those of a format or
-//! a number are what every tick is made of.
+//! Trait implementations are not checked: operators of an angle are used in the program without a name, and those of a format or a number are part of
+//! every tick.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// The layers that firmware with a finished image uses.
+/// The layers used by firmware with a finished image.
 const LAYERS: [&str; 4] = ["src/number", "src/curve", "src/tick", "src/axis"];
 
-/// The type of `impl<…> Type<…> {` as a path to its functions starts, without parameters of the block itself: `Type`, or
-/// `Type::<f32>` where the block is for that one only.
+/// The type of `impl<…> Type<…> {` as the prefix of a path to its functions, without the block's own parameters: `Type`, or `Type::<f32>` if the
+/// block is for that one only.
 fn implemented(header: &str) -> Vec<String> {
     let rest = header.trim_start().strip_prefix("impl").unwrap();
     // `dynamics!` in src/tick/model.rs writes one block for both.
@@ -43,7 +43,7 @@ fn implemented(header: &str) -> Vec<String> {
     }]
 }
 
-/// The public functions of a file, as `Type::name` or `name`; without those for the crate alone.
+/// The public functions of a file, as `Type::name` or `name`; without crate-private ones.
 fn public(text: &str, into: &mut BTreeSet<String>) {
     let mut types = Vec::new();
     for line in text.lines() {
@@ -124,7 +124,7 @@ fn the_gate_calls_all_that_a_tick_can_need() {
     let gate = ["no_panic", "no_panic_axis"]
         .map(|name| fs::read_to_string(root.join(format!("examples/{name}.rs"))).unwrap())
         .concat();
-    // "//! - `A`, `B::c`: the reason": a function, or a type with all of its own.
+    // "//! - `A`, `B::c`: the reason": a function, or a type with all of its functions.
     let lines = gate.lines().filter_map(|line| line.strip_prefix("//! - `"));
     let excepted: BTreeSet<_> = lines
         .flat_map(|line| {

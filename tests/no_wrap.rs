@@ -1,4 +1,4 @@
-//! Tables at the edge of what a model may be made of: a table that is let in never wraps, whatever its numbers.
+//! Tables at the limits of a model: an accepted table never wraps, whatever its numbers.
 
 use crate::support::rows::Rows;
 use crate::support::scale_of;
@@ -11,18 +11,18 @@ use jred::{
 
 const SPAN: f32 = core::f32::consts::TAU;
 
-/// The speed base that makes the factor of the velocity torque this, for 4 cells and the other bases 1.
+/// The scale whose speed base gives this factor of the velocity torque, for 4 cells and the other bases 1.
 fn scale(factor: f64) -> Scale {
     scale_of(1.0, (0.5 * factor * f64::from(SPAN)).sqrt() as f32, 1.0)
 }
 
-/// The floors of a slope count as often as the factor of the velocity torque says: with a factor of half a million they are as
-/// much as a thousandth of the number range.
+/// The floors of a slope count as often as the factor of the velocity torque: with a factor of half a million they are a thousandth of the number
+/// range.
 #[test]
 fn roundings_of_the_slope_are_in_the_proof() {
     let mut accepted = 0;
     for slope in 1900..2600i32 {
-        // So that the velocity torque is as large as may be, but for the floors.
+        // For the largest possible velocity torque, except for the floors.
         let factor = (0.999_98 * 1_073_741_824.0 / (f64::from(slope) + 0.8)).floor();
         let a = 8000;
         // Down in two cells, and up again.
@@ -59,7 +59,7 @@ fn roundings_of_the_slope_are_in_the_proof() {
     assert!(accepted > 100, "{accepted}");
 }
 
-/// 1/J that is right at the four places of a cell that are looked at first, and far off at its ends.
+/// 1/J that is correct at the first four evaluated positions of a cell, and far off at its ends.
 #[test]
 fn a_reciprocal_is_looked_at_everywhere() {
     const SET: Set = curves::RECIPROCAL;
@@ -98,7 +98,7 @@ fn a_reciprocal_is_looked_at_everywhere() {
         })
     };
     assert_eq!(build(0.19), Err(TableError::Reciprocal { cell: 0 }));
-    // Where it is let in, Newton's step squares what is left: up to 0.4² at the ends.
+    // Where it is accepted, Newton's step squares the remaining error: up to 0.4² at the ends.
     let alphas = build(0.05).unwrap();
     let exact = 2f64.powi(28) / (1_020_054_733.0 / 2f64.powi(30));
     assert!(
@@ -108,7 +108,7 @@ fn a_reciprocal_is_looked_at_everywhere() {
     );
 }
 
-/// A curve that no table reaches ends the search at the largest table there is, however many cells are allowed.
+/// A curve that no table reaches ends the search at the largest possible table, however many cells are allowed.
 #[test]
 fn a_search_without_a_limit_ends() {
     struct Ripple;
@@ -134,7 +134,7 @@ fn a_search_without_a_limit_ends() {
     );
 }
 
-/// A friction that drives, or is no number, is no table's constant.
+/// A friction that drives, or is NaN, is refused as a table's constant.
 #[test]
 fn constants_are_looked_at() {
     let words = [1.0f32 / 6.0; 7];

@@ -1,4 +1,4 @@
-//! Nothing that is not a finite number gets into the core.
+//! The core refuses every value that is not finite.
 
 use crate::support::machines::Wave;
 use jred::machine::motion::{Law, Move};

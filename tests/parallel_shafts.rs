@@ -25,12 +25,12 @@ fn fan_textbook() {
         .with_load(Load::new(2, Action::Moment(6.0)).unwrap())
         .unwrap();
     let reduced = machine.reduction(1.0).unwrap();
-    // 0.01 + 0.4/4 + 0.9/9 + 0.02·4; the load of 6 N·m turns against the drive at a third of its speed.
+    // 0.01 + 0.4/4 + 0.9/9 + 0.02·4; the load of 6 N·m opposes the drive at a third of its speed.
     assert_near("J", reduced.inertia, 0.29, budget::CLOSED_FORM);
     assert_near("process", reduced.process, -2.0, budget::CLOSED_FORM * 6.0);
     let frames = machine.mechanism().frames(3.0).unwrap();
     assert_near("ψ", frames[2].psi.value, -1.0, budget::CLOSED_FORM * 3.0);
-    // Each transmission gives its shaft what it needs: J·α/i − load.
+    // Each transmission supplies its shaft: J·α/i − load.
     let forces = machine.forces(1.0, 2.0, 30.0).unwrap();
     for (k, moment) in [(4, 0.4 * 15.0), (5, -0.9 * 10.0 - 6.0), (6, 0.02 * 60.0)] {
         assert_near(

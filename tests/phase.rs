@@ -23,7 +23,7 @@ proptest! {
         let per = NonZeroU32::new(per_turn).unwrap();
         let expected = (u128::from(count) << 32) / u128::from(per_turn) % (1 << 32);
         prop_assert_eq!(u128::from(Phase::from_counts(count, per).to_bits()), expected);
-        // Whole turns drop out.
+        // Whole turns cancel.
         let more = u64::from(count % per_turn) + turns * u64::from(per_turn);
         if let Ok(more) = u32::try_from(more) {
             prop_assert_eq!(Phase::from_counts(more, per), Phase::from_counts(count % per_turn, per));
@@ -54,7 +54,7 @@ proptest! {
     fn radians_round_to_half_a_unit(phi in -TAU..TAU, far in -1e6f64..1e6) {
         assert_near("phase", units(Phase::from_radians(phi), phi / TAU), 0.0, budget::PHASE_UNITS);
         prop_assert_eq!(Domain::<f64>::Turn.phase(phi), Phase::from_radians(phi));
-        // Further out the angle's own resolution counts: 2⁻⁵³ of it, in the quotient as well.
+        // Farther out the angle's own resolution matters: 2⁻⁵³ relative, in the quotient as well.
         let coarse = far.abs() / TAU * 2.0 * f64::EPSILON * TURN;
         assert_near("far", units(Phase::from_radians(far), far / TAU), 0.0, budget::PHASE_UNITS + coarse);
     }
@@ -75,7 +75,7 @@ proptest! {
         let position = domain.position(place);
         assert_near("position", position, from + place * length, budget::POSITION);
         let expected = place.clamp(0.0, 1.0 - 1.0 / TURN) * TURN;
-        // Truncated, so up to one unit low; a position of size 15 known to 2⁻⁵³ of a stroke of length.
+        // Truncated, so up to one unit low; a position of size 15 with a resolution of 2⁻⁵³, relative to the stroke.
         let coarse = 15.0 * 4.0 * f64::EPSILON / length * TURN;
         let found = f64::from(domain.phase(position).to_bits());
         assert_near("phase", found + 0.5, expected, 0.5 + coarse + 0.5);
@@ -127,12 +127,12 @@ fn radians_that_are_no_angle_give_phase_zero() {
     for phi in [7e8f32, -7e8, f32::MAX] {
         assert_eq!(Phase::from_radians_f32(phi), Phase::default());
     }
-    // Just below a full turn rounds to the full turn, which is none.
+    // Just below a full turn rounds to the full turn, which is phase 0.
     assert_eq!(Phase::from_radians(TAU * (1.0 - 1e-11)), Phase::default());
     assert_eq!(Phase::from_radians(-1e-30), Phase::default());
 }
 
-/// Every 509th single-precision number up to 2π, both signs: the promise of the documentation.
+/// Every 509th single-precision number up to 2π, both signs: the documented accuracy.
 #[test]
 fn single_precision_radians_keep_their_promise() {
     let places = (0..=core::f32::consts::TAU.to_bits())

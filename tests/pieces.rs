@@ -17,7 +17,7 @@ use jred::{
 };
 
 const SET: Set = curves::LOAD;
-/// Speed and acceleration at which tables are compared.
+/// Speed and acceleration for comparing tables.
 const AT: [f64; 2] = [20.0, 300.0];
 
 /// A press whose load is switched on and off without a ramp (N·m, from, to).
@@ -55,7 +55,7 @@ fn press() -> Machine<SliderCrank> {
     machine.with_flywheel(0.004).unwrap()
 }
 
-/// N·m, of a peak torque of about as much.
+/// N·m, for a peak torque of similar size.
 const JUMP: f64 = 6.0;
 
 fn switched(on: f64, off: f64) -> Switched<Machine<SliderCrank>> {
@@ -101,14 +101,14 @@ fn exact(machine: &impl Reducible, phase: Phase, sign: f64) -> f64 {
     reduction.torque(sign * AT[0], sign * AT[1]).total()
 }
 
-/// Places on a grid that no number of cells divides.
+/// Positions on a grid that no number of cells divides.
 fn places(count: u32) -> impl Iterator<Item = Phase> {
     (0..count).map(|k| Phase::from_bits(k.wrapping_mul(0x9e37_79b9)))
 }
 
 #[test]
 fn one_table_cannot_follow_a_jump() {
-    // Thirds of a turn are a third of a cell past a knot, or two, whatever the power of two.
+    // Thirds of a turn are one or two thirds of a cell past a knot, for any power of two.
     let machine = switched(TAU / 3.0, TAU / 1.5);
     let mut means = Vec::new();
     for cells in [64, 128, 256, 512] {
@@ -118,7 +118,7 @@ fn one_table_cannot_follow_a_jump() {
         let most = largest(places(1 << 18).map(error));
         let mean = places(1 << 18).map(error).sum::<f64>() / f64::from(1 << 18);
         println!("{cells} cells: largest {most:.2}, mean {mean:.2e} N m");
-        // A continuous curve is half the jump off on one side, and an interpolating one not more than the jump.
+        // A continuous curve has an error of half the jump on one side, and an interpolating one at most the jump.
         let [low, high] = budget::JUMP_LEFT;
         assert!(most >= low * JUMP && most <= high * JUMP, "{most}");
         means.push(mean);
@@ -161,7 +161,7 @@ fn pieces_of<F: Format>(
     pieces.collect()
 }
 
-/// Phases on both sides of every break, far enough off that their roundings do not matter.
+/// Phases on both sides of every break, far enough away for their roundings not to matter.
 fn beside(breaks: &[f64]) -> Vec<Phase> {
     let sides = [-4i32, 4].map(|step| step as u32);
     let both = breaks
@@ -170,7 +170,7 @@ fn beside(breaks: &[f64]) -> Vec<Phase> {
     both.collect()
 }
 
-/// The error asked for is reached at all places, those next to the breaks included.
+/// The requested error is reached at all positions, including those next to the breaks.
 fn reaches<F: Format, const N: usize>(machine: &impl Reducible, breaks: [f64; N], share: f64) {
     let size = largest(places(3600).map(|phase| exact(machine, phase, 1.0)));
     let asked = share * size;
@@ -185,7 +185,7 @@ fn reaches<F: Format, const N: usize>(machine: &impl Reducible, breaks: [f64; N]
             let expected = exact(machine, phase, sign);
             let torque = turn.torque(phase, omega, alpha);
             most = most.max((value(torque) - expected).abs());
-            // Both ways, and the range, are those of the model that the torque came from.
+            // Both directions, and the range, are those of the model that gave the torque.
             let back = turn.acceleration(phase, omega, torque);
             let range = turn.acceleration_range(phase, omega, torque, torque);
             assert_near(
@@ -223,7 +223,7 @@ fn pieces_reach_the_request_beside_a_jump() {
     reaches::<Quadratic<f64>, 2>(&machine, [on, off], 1e-3);
     reaches::<Cubic<f32>, 2>(&machine, [on, off], 1e-4);
     reaches::<Spline<f32>, 2>(&machine, [on, off], 1e-4);
-    // A piece more than there need be, and one that goes on past the end of the turn.
+    // One piece more than necessary, and one that continues past the end of the turn.
     reaches::<Spline<f64>, 5>(&machine, [0.5, 1.0, on, off, 5.0], 1e-4);
     let machine = switched(5.5, 5.5 + 1.5);
     reaches::<Spline<f64>, 2>(&machine, [5.5 + 1.5 - TAU, 5.5], 1e-4);
@@ -242,7 +242,7 @@ fn pieces_reach_the_request_beside_the_kinks_of_a_cam() {
     println!("{breaks:?}");
     let breaks: [f64; 6] = breaks.try_into().unwrap();
     reaches::<Cubic<f64>, 6>(&machine, breaks, 1e-7);
-    // One table is off by half the jump of ½·J′·ω² or more.
+    // A single table has an error of at least half the jump of ½·J′·ω².
     let jump = largest(breaks.map(|at| {
         let side = |d: f64| machine.reduction(at + d).unwrap().inertia_slope;
         0.5 * (side(1e-9) - side(-1e-9)) * AT[0] * AT[0]

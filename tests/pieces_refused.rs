@@ -1,4 +1,4 @@
-//! Pieces of a turn: how phases are mapped into them, and what is refused.
+//! Pieces of a turn: mapping of phases, and refusals.
 
 use std::f64::consts::TAU;
 
@@ -11,8 +11,8 @@ use proptest::prelude::*;
 
 const SET: Set = curves::LOAD;
 
-/// A load that grows evenly from 0 to 1 over a stroke of this length, which a spline follows exactly: the torque is minus the
-/// place in the piece.
+/// A load that grows linearly from 0 to 1 over a stroke of this length, which a spline follows exactly: the torque is minus the position in the
+/// piece.
 struct Ruler(f64);
 
 impl Reducible for Ruler {
@@ -28,7 +28,7 @@ impl Reducible for Ruler {
     }
 }
 
-/// Compares the place in the piece of every phase with exact arithmetic, in units of 2⁻³² of the piece.
+/// Compares the position in the piece of every phase with exact arithmetic, in units of 2⁻³² of the piece.
 fn maps<const N: usize>(starts: [u32; N], phases: impl Iterator<Item = u32>) {
     const WHOLE: u64 = 1 << 32;
     let length = |k: usize| match starts[(k + 1) % N].wrapping_sub(starts[k]) {
@@ -79,7 +79,7 @@ fn phases_at_the_edges_of_pieces() {
     }
     maps([0, 0x8000_0000], 0..1000);
     maps([0x4000_0000, 0xc000_0000], 0..1000);
-    // As short as a piece may be, at both ends of the turn.
+    // The shortest possible piece, at both ends of the turn.
     maps([0, 0x1_0000], 0x8000..0x1_8000);
     maps([0x1234, 0xffff_1234], (0xffff_0000..u32::MAX).step_by(7));
 }
@@ -148,7 +148,7 @@ fn pieces_that_do_not_belong_together() {
     ] {
         assert_eq!(pieces(wrong).unwrap_err(), TableError::Pieces, "{wrong:x?}");
     }
-    // Models of another length than their pieces.
+    // Models whose length differs from their pieces.
     for wrong in [
         [0, QUARTER + QUARTER / 1000, 2 * QUARTER, 3 * QUARTER],
         [0, QUARTER, 2 * QUARTER, 3 * QUARTER + QUARTER / 2],
@@ -159,7 +159,7 @@ fn pieces_that_do_not_belong_together() {
             "{wrong:x?}"
         );
     }
-    // One in other units.
+    // One with other units.
     let halves = [part(0.0, 0.5 * TAU), part(0.5 * TAU, 0.5 * TAU)];
     let doubled = scale_of(1.0, 2.0, 1.0);
     let together = |domain, scale| {
@@ -175,7 +175,7 @@ fn pieces_that_do_not_belong_together() {
         error.cure().to_string().contains("same machine units"),
         "{error}"
     );
-    // Of another range than the whole.
+    // With another range than the whole.
     assert!(together(Domain::Turn, &Scale::SI).is_ok());
     let shorter = Domain::stroke(0.0, 6.0).unwrap();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! The planetary gear: Willis' equation by another route, energy planet by planet, forces.
+//! The planetary gear: Willis' equation derived independently, energy planet by planet, forces.
 
 use crate::support::spoken;
 use jred::machine::PoseError;
@@ -87,7 +87,7 @@ fn speeds_by_the_tabular_method() {
     assert_near("star", star.ratio(), -7.0 / 3.0, budget::CLOSED_FORM * 4.0);
 }
 
-/// Every planet in its own place, with orbit and spin.
+/// Each planet at its own position, with orbit and spin.
 #[test]
 fn inertia_of_planets_one_by_one() {
     let (teeth, count, a) = ([30, 20, 70], 5, 0.12);
@@ -114,7 +114,7 @@ fn inertia_of_planets_one_by_one() {
         let [s, c, r, p] = speeds.map(|speed| speed * omega);
         let mut energy = 0.5 * (0.003 * s * s + 0.05 * c * c + 0.4 * r * r);
         for k in 0..count {
-            // The planet's centre moves across its radius, wherever it is.
+            // The planet's centre moves perpendicular to its radius, at any position.
             let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
             let velocity = [-a * sin * c, a * cos * c];
             energy += 0.5 * mass * (velocity[0].powi(2) + velocity[1].powi(2)) + 0.5 * spin * p * p;
@@ -213,7 +213,7 @@ proptest! {
         machine in machines().prop_filter_map("gears that do not fit", |machine| machine),
         phi in -60.0..60.0_f64,
     ) {
-        // All that the reduced equation needs repeats, though the planets are elsewhere after a turn.
+        // All terms of the reduced equation repeat, though the planets are elsewhere after a turn.
         let speeds = machine.mechanism().speeds();
         for (frame, speed) in machine.mechanism().frames(phi).unwrap().iter().zip(speeds) {
             prop_assert!((frame.psi.value - speed * phi).abs() <= budget::POSITION * (1.0 + (speed * phi).abs()));
@@ -221,7 +221,7 @@ proptest! {
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
         prop_assert!((now.inertia - later.inertia).abs() <= budget::A_TURN_LATER * now.inertia);
         assert_near("load", later.load_torque(), now.load_torque(), budget::CLOSED_FORM * now.load_torque().abs());
-        // The whole is in equilibrium: moments of the ground, the drive and the load, and inertia.
+        // Equilibrium of the whole: moments of the ground, the drive and the load, and inertia.
         let forces = machine.forces(phi, 0.0, 0.0).unwrap();
         let load = machine.loads()[0];
         let frames = machine.mechanism().frames(phi).unwrap();
@@ -280,7 +280,7 @@ fn wrong_gears_are_refused() {
         "planets with 20 teeth do not fill the gap between sun and ring: ring less sun, 37, must be twice the planet's \
          teeth, give or take 2 with profile shift"
     );
-    // A ring smaller than its sun is no ring.
+    // A ring smaller than its sun is refused.
     assert_eq!(
         gears([70, 20, 30], 4),
         BuildError::Misfit(Misfit::PlanetTeeth { planet: 20, gap: 0 })

@@ -1,7 +1,7 @@
-//! The arithmetic of a tick: bounds that Gappa proves from the scripts in `tests/proofs` (`scripts/test proofs`), and a search of
-//! the ticks themselves that tries to exceed them.
+//! The arithmetic of a tick: bounds that Gappa proves from the scripts in `tests/proofs` (`scripts/test proofs`), and a search over the ticks
+//! themselves that tries to exceed them.
 //!
-//! Exact is the tick's formula in double precision, of the words that the table has and the place that the tick reads.
+//! The exact value is the tick's formula in double precision, from the table's words and the position that the tick reads.
 
 mod f32;
 mod plan;
@@ -11,7 +11,7 @@ mod q31;
 use crate::support::budget::{self, Proven};
 use crate::support::search::extremes;
 
-/// What a script claims of `name`, after its arrow.
+/// The claim of a script about `name`, after its arrow.
 fn claim(script: &str, name: &str) -> [f64; 2] {
     let (_, goals) = script.split_once("->\n").unwrap();
     let start = format!("\n{name} in [");
@@ -28,7 +28,7 @@ fn same(claimed: [f64; 2], expected: [f64; 2], what: &str) {
     assert_eq!(bits(claimed), bits(expected), "{what}: {claimed:?}");
 }
 
-/// The bounds of the budget are those of the scripts.
+/// The bounds of the budget equal those of the scripts.
 #[test]
 fn bounds_are_the_proven_ones() {
     let scripts = [
@@ -78,7 +78,7 @@ fn bounds_are_the_proven_ones() {
     assert!(-low <= budget::FACTOR_ROUNDING && high <= budget::FACTOR_ROUNDING);
 }
 
-/// No tick exceeds the bound for a velocity torque of `whole` slopes a cell, and some come as near as is stated.
+/// No tick exceeds the bound for a velocity torque of `whole` slopes per cell, and some come as near as stated.
 #[track_caller]
 fn holds(
     what: &str,

@@ -61,7 +61,7 @@ fn rack_textbook() {
             budget::CLOSED_FORM * 12.0,
         );
 
-        // Tooth force = m·(ẍ + g) − F; the guide holds the levers of weight and inertia about the pitch line.
+        // Tooth force = m·(ẍ + g) − F; the guide takes the moments of weight and inertia about the pitch line.
         let alpha = 40.0;
         let forces = machine.forces(phi, 3.0, alpha).unwrap();
         let tooth = mass * (r * alpha + 9.81) - force;
@@ -123,7 +123,7 @@ proptest! {
 
     #[test]
     fn what_is_reduced_repeats(machine in machines(), phi in -20.0..20.0_f64) {
-        // All that the reduced equation needs repeats, though the rack does not come back.
+        // All terms of the reduced equation repeat, though the rack does not return.
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
         prop_assert!((now.inertia - later.inertia).abs() <= budget::A_TURN_LATER * now.inertia);
         prop_assert!((now.load_torque() - later.load_torque()).abs() <= budget::A_TURN_LATER);

@@ -1,4 +1,4 @@
-//! What is proven when a fixed-point model is built: terms that fit, and then no state that wraps.
+//! Proofs when a fixed-point model is built: the terms fit, and then no state wraps.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ fn built<const SET: Set, L: Fixed>(machine: &Wave, scale: &Scale) -> Result<(), 
     rows.try_model::<SET>(scale).map(|_| ())
 }
 
-/// J + b + c alone, exactly: refused from 1 on, whichever term it is that grows.
+/// Only J + b + c, exactly: refused from 1 on, for growth of any term.
 fn sum_is_bounded<const SET: Set, L: Fixed>() {
     let scale = Scale::SI.for_cells(CELLS, TAU);
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
@@ -59,7 +59,7 @@ fn terms_that_do_not_fit_together_are_refused() {
     sum_is_bounded::<CONSTANT, Quadratic<Q31>>();
 }
 
-/// A load of one peak is refused in the cells at the peak.
+/// A load with one peak is refused in the cells at the peak.
 #[test]
 fn a_load_that_does_not_fit_is_refused_where_it_does_not() {
     let scale = Scale::SI.for_cells(CELLS, TAU);
@@ -84,7 +84,7 @@ fn velocity_is_bounded<L: Fixed>() {
     let machine = Wave::bare(1.0, 0.25); // ½·J′·ω² is up to 0.125·ω²
     let build = |share: f32, inertia: f32| {
         let scale = scale_of(2.0, 4.0 * share.sqrt(), inertia);
-        // For this inertia base the factor is so large that a whole one is near: nothing grows but by a millionth.
+        // With this inertia base the factor is so large that an integer is near: the scale grows by a millionth only.
         let scale = scale.for_cells(CELLS, TAU);
         built::<{ curves::INERTIA }, L>(&machine, &scale)
     };
@@ -95,7 +95,7 @@ fn velocity_is_bounded<L: Fixed>() {
         matches!(error, TableError::VelocityTorque { cell: 13..=16 }),
         "{error:?}"
     );
-    // The velocity torque fits, but not with J beside it.
+    // The velocity torque fits, but not together with J.
     let error = build(0.995, 150.0).unwrap_err();
     assert!(
         matches!(error, TableError::TorqueRange { cell: 13..=16 }),
@@ -164,7 +164,7 @@ fn a_span_that_is_no_length_is_refused() {
     }
 }
 
-/// The model's set is the table's: neither more nor less.
+/// The model's set must be exactly the table's.
 #[test]
 fn another_set_of_curves_is_refused() {
     let machine = Wave::bare(0.5, 0.1);
@@ -192,8 +192,8 @@ fn another_set_of_curves_is_refused() {
     assert!(load.try_model::<{ curves::LOAD }>(&Scale::SI).is_ok());
 }
 
-/// A slope of −4008 units, which the tick may round further down, times a factor that makes −1 of it but for a hair: it must
-/// be refused, or the tick would wrap to +1.
+/// A slope of −4008 units, which the tick may round further down, times a factor that nearly makes it −1: it must be refused, otherwise the tick
+/// would wrap to +1.
 #[test]
 fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let words = [0, -660, -1328, -1996, -2664, -3332, -4000].map(|step| (1 << 18) + step);
@@ -206,7 +206,7 @@ fn a_slope_whose_rounding_leaves_the_range_is_refused() {
         .try_model::<{ curves::INERTIA }>(&scale(edge))
         .map(|_| ());
     assert_eq!(refused, Err(TableError::VelocityTorque { cell: 0 }));
-    // Less of it by eight units for each of the factor's, and by J, which is 0.0015 there.
+    // Lower by eight units for each unit of the factor, and by J, which is 0.0015 there.
     let refused = rows.try_model::<{ curves::INERTIA }>(&scale(0.9975 * edge));
     assert_eq!(
         refused.map(|_| ()),
@@ -250,8 +250,7 @@ fn words<L: Fixed>() -> impl Strategy<Value = Vec<i32>> {
     })
 }
 
-/// At every corner of the state space and at one random state: the exact torque, off by the stated floors and no more. A
-/// torque that wrapped would be off by 2³².
+/// At every corner of the state space and at one random state: the exact torque, up to the stated floors. A torque that wrapped would differ by 2³².
 fn never_wraps<L: Fixed>(
     words: Vec<i32>,
     factor: u32,
@@ -279,7 +278,7 @@ fn never_wraps<L: Fixed>(
             Acceleration::<Q31>::from_bits(alpha),
         );
         let torque = model.torque(phase, speed, acceleration);
-        // Each curve as read, and the tick; the slope's floors count `factor` times.
+        // The read error of each curve, and the tick; the slope's floors count `factor` times.
         let slope = if L::NAME == "spline" { 4.25 } else { 2.0 * 3.5 };
         let floors = 12.0 + 4.0 * 2.0 * 4.0 + slope * f64::from(factor);
         let error = f64::from(torque.to_bits()) - exact / Q31_UNIT;
@@ -310,7 +309,7 @@ proptest! {
     }
 }
 
-/// The sums of the tests above do come near the end of the range.
+/// The sums of the tests above come near the end of the range.
 #[test]
 fn a_model_may_use_the_range_up_to_its_end() {
     let scale = Scale::SI.for_cells(CELLS, TAU);

@@ -66,7 +66,7 @@ proptest! {
     }
 }
 
-/// Newton for the whole: the ground's reactions, gravity, loads and inertia forces balance.
+/// Newton's law for the whole: the ground's reactions, gravity, loads and inertia forces balance.
 #[test]
 fn the_ground_takes_what_the_links_give() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
@@ -83,7 +83,7 @@ fn the_ground_takes_what_the_links_give() {
             let sum = ground + weight + force[axis] + forces.shaking_force[axis];
             assert_near("sum of forces", sum, 0.0, budget::DALEMBERT * 1e3);
         }
-        // A force scaled by ω² alone: without gravity and loads, twice the speed is four times the shaking force.
+        // A force proportional to ω² only: without gravity and loads, twice the speed gives four times the shaking force.
         let twice = machine.forces(phi, 2.0 * omega, 4.0 * alpha).unwrap();
         assert_near(
             "shaking moment",
@@ -94,7 +94,7 @@ fn the_ground_takes_what_the_links_give() {
     }
 }
 
-/// A spring works as an energy store: a machine with a spring and no loss keeps ½Jω² + U.
+/// A spring stores energy: a machine with a spring and no loss conserves ½Jω² + U.
 #[test]
 fn a_spring_pulls_when_longer_and_pushes_when_shorter() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
@@ -136,7 +136,7 @@ fn a_spring_pulls_when_longer_and_pushes_when_shorter() {
     );
 }
 
-/// A spring has the same length after a turn, and the table of one turn stands for all; one that is wound up by the turns has not.
+/// A spring has the same length after a turn, so the table of one turn is valid for all; one that is wound up turn by turn has not.
 #[test]
 fn a_spring_repeats_and_a_wound_one_does_not() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));

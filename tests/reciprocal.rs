@@ -1,4 +1,4 @@
-//! Forward dynamics without a division: the curve of 1/J, what is left of its error, and where it is refused.
+//! Forward dynamics without a division: the curve of 1/J, its remaining error, and refusals.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 const SET: Set = curves::ALL | curves::RECIPROCAL;
 
-/// J_m: the power of two that J times its reciprocal's curve is.
+/// J_m: the product of J and its reciprocal's curve, a power of two.
 fn unit<L: Fixed>(rows: &Rows<L>) -> f64 {
     let read = rows.exact(Phase::default(), !0);
     (read.inertia * read.reciprocal).log2().round().exp2()
@@ -50,11 +50,11 @@ fn there_and_back<L: Fixed>(
     } else {
         relative * relative
     };
-    // J·α lost up to a unit of Q29; the quotient and the step each up to one of Q28 times J_m; the step's factor has 29 bits.
+    // J·α loses up to a unit of Q29; the quotient and the step each up to one of Q28 times J_m; the step's factor has 29 bits.
     let units = 4.0 / read.inertia + budget::RECIPROCAL_UNITS / unit;
     let budget = units * Q31_UNIT + left.abs() * value(alpha).abs();
     assert_near("α", value(back.value), value(alpha), budget);
-    // What the model says of itself is about the same everywhere in the table.
+    // The error that the model states is about the same everywhere in the table.
     let stated = f64::from(model.table().reciprocal_error());
     assert!(
         left.abs()
@@ -89,7 +89,7 @@ fn wave() -> Wave {
     }
 }
 
-/// The largest difference there and back, as a part of the acceleration, at large accelerations and everywhere.
+/// The largest difference after a round trip, as a share of the acceleration, at large accelerations and everywhere.
 fn inconsistency<L: Fixed>(cells: u32) -> [f64; 2] {
     // J is 0.19 to 0.57, so J_m is ⅛; the velocity factor is one.
     let speed = (2.0 * TAU / f64::from(cells) * 5.0 / 2.63).sqrt();
@@ -109,8 +109,7 @@ fn inconsistency<L: Fixed>(cells: u32) -> [f64; 2] {
     [found, f64::from(model.table().reciprocal_error())]
 }
 
-/// It falls with the order of the spline, squared by Newton's step, until the roundings are left; and it is what the model
-/// says.
+/// It falls with the order of the spline, squared by Newton's step, down to the roundings; and it matches the stated error.
 fn falls<L: Fixed>(cells: [u32; 3], ratio: [f64; 2], floor: f64) {
     let found = cells.map(inconsistency::<L>);
     for (cells, [found, stated]) in cells.iter().zip(found) {
@@ -138,7 +137,7 @@ fn the_inconsistency_is_what_is_stated() {
     falls::<Quadratic<Q31>>([32, 64, 1024], [7.0, 9.5], 3e-7);
 }
 
-/// Unit by unit around T = ±J: flagged where the quotient leaves the range, within the quotient's own error.
+/// Unit by unit around T = ±J: flagged if the quotient leaves the range, within the quotient's own error.
 fn saturates<L: Fixed>() {
     let scale = Scale::SI.for_cells(16, TAU);
     let [torque, inertia] = [scale.torque(), scale.inertia()].map(f64::from);
@@ -197,8 +196,7 @@ fn saturation_is_flagged() {
     saturates::<Quadratic<Q31>>();
 }
 
-/// Largest share by which the energy ½·J·ω² + U leaves its start over four turns without drive torque: the model's own J
-/// and load, the model's own acceleration.
+/// Largest share by which the energy ½·J·ω² + U changes over four turns without drive torque, with the model's own J, load and acceleration.
 fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
     const STEPS: u32 = 1024;
     let machine = spec.heavy();
@@ -294,7 +292,7 @@ fn refuses_another_reciprocal<L: Fixed>(accepted: [f64; 2], refused: [f64; 2]) {
             "{share}: {found:?}"
         );
     }
-    // Of the same inertia a quarter of a turn later.
+    // For the same inertia a quarter of a turn later.
     let mut shifted = rows.clone();
     let pitch = shifted.words.len() / 128;
     if L::NAME != "spline" {
@@ -321,7 +319,7 @@ fn a_reciprocal_of_another_inertia_is_refused() {
     refuses_another_reciprocal::<Quadratic<Q31>>([0.985, 1.0], [0.975, 0.9]);
 }
 
-/// 1/J of an inertia that swings much needs more cells than J itself.
+/// 1/J of a strongly varying inertia needs more cells than J itself.
 #[test]
 fn too_few_cells_are_refused() {
     const SET: Set = curves::RECIPROCAL;

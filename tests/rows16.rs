@@ -30,13 +30,13 @@ const fn row_words(set: Set) -> usize {
     jred::table::words_len::<Rows16>(1, set)
 }
 
-/// V, of what a table reads.
+/// V from a table's values.
 fn velocity(read: &CurveValues, scale: &Scale) -> f64 {
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
     0.5 * read.inertia_slope * inertia * speed * speed / torque
 }
 
-/// What a table reads.
+/// The values of a table.
 fn read_at(table: &Table<'_, Rows16>, phase: jred::Phase) -> [f64; 6] {
     let found = table.at(phase);
     [

@@ -1,4 +1,4 @@
-//! Per-unit scales: what they cover, and whole velocity factors.
+//! Per-unit scales: their coverage, and integer velocity factors.
 
 use std::f64::consts::TAU;
 
@@ -33,20 +33,20 @@ proptest! {
         let nearest = whole.round();
         prop_assert!(nearest >= 1.0);
         assert_near("factor", whole, nearest, budget::WHOLE_FACTOR * whole);
-        // No base shrinks but by its rounding; that of the acceleration stays.
+        // Each base shrinks at most by its rounding; that of the acceleration stays.
         for (after, before) in [(scale.torque(), torque), (scale.speed(), speed), (scale.inertia(), inertia)] {
             prop_assert!(after >= before * (1.0 - f32::EPSILON), "{after} after {before}");
         }
         let [after, before] = [scale, given].map(|s| f64::from(s.acceleration()));
         assert_near("acceleration base", after, before, budget::BASE_ROUNDINGS * before);
-        // To the next whole number, no further.
+        // Up to the next integer, no further.
         let before = factor(&given, cells, span);
         prop_assert!(nearest <= before.floor() + 1.0, "{before} became {whole}");
-        // A second time nothing changes.
+        // A second time changes nothing.
         prop_assert_eq!(scale.for_cells(cells, span), scale);
     }
 
-    /// No state inside the stated ones saturates, and none does on the way back.
+    /// No state within the stated ones saturates, nor on the way back.
     #[test]
     fn covering_scale_covers_what_it_says(
         spec in spec(), omega in 1.0..200.0, alpha in 1.0..5000.0, w in -1f64..1.0, a in -1f64..1.0, bits: u32,
@@ -59,7 +59,7 @@ proptest! {
         covers::<Quadratic<Q31>>(&machine, &scale, &states, bits)?;
     }
 
-    /// The same with the finest scale, in which torque is as large as inverse dynamics needs.
+    /// The same with the finest scale, whose torque covers inverse dynamics only.
     #[test]
     fn limited_scale_covers_its_own_accelerations(
         spec in spec(), omega in 1.0..200.0, alpha in 1.0..5000.0, w in -1f64..1.0, a in -1f64..1.0, bits: u32,
@@ -94,7 +94,7 @@ fn covers<L: Fixed>(
     Ok(())
 }
 
-/// An inertia that swings little, a high speed, a small acceleration: the velocity torque alone sets the base.
+/// A nearly constant inertia, a high speed, a small acceleration: the velocity torque alone sets the base.
 #[test]
 fn covering_scale_covers_the_velocity_torque() {
     let machine = Wave::bare(1.0, 0.01);
@@ -105,7 +105,7 @@ fn covering_scale_covers_the_velocity_torque() {
     assert!(built.is_ok(), "{:?} with {scale:?}", built.err());
 }
 
-/// A torque as large as the stated motions need, where speed and friction add to it, and where the inertia is least.
+/// A torque as large as the stated motions need, where speed and friction add to it, and where the inertia is smallest.
 #[test]
 fn covering_scale_covers_forward_dynamics() {
     let machine = Wave {
@@ -140,12 +140,12 @@ fn covering_scale_covers_forward_dynamics() {
         saturated(Scale::covering(&machine, 10.0, 20.0, 256).unwrap()),
         0
     );
-    // A scale for the accelerations alone says where such a torque gives more.
+    // A scale for the accelerations alone reports where such a torque gives more.
     let limited = saturated(Scale::limited_to(&machine, 10.0, 20.0, 256).unwrap());
     assert!((1..192).contains(&limited), "{limited} of 192");
 }
 
-/// A machine so slow that J′ hardly counts has a model all the same.
+/// A machine so slow that J′ has almost no effect still has a model.
 #[test]
 fn a_slow_machine_has_a_model() {
     let machine = Wave::bare(1.0, 0.25);

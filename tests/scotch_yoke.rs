@@ -98,7 +98,7 @@ fn straight_yoke_is_the_textbook_one() {
         assert_near("slot", forces.reactions[1].force[0], push, size);
         assert_near("slot y", forces.reactions[1].force[1], 0.0, size);
         assert_near("guide", forces.reactions[2].force[1], 0.0, size);
-        // The guide's moment holds the pin's and the inertia force's levers: Σ M about the yoke's origin.
+        // The guide's moment balances the pin's and the inertia force's moments: Σ M about the yoke's origin.
         let inertia_force = -mass * (-r * omega * omega * cos);
         let moment = push * r * sin + 0.05 * inertia_force;
         assert_near("guide moment", forces.reactions[2].moment, moment, size);

@@ -1,8 +1,8 @@
-//! Similar machines have similar forces: drawn elsewhere, turned, mirrored, in other units of length, mass and time; run
-//! backwards; a turn later; and with the loads one by one.
+//! Similar machines have similar forces: moved, turned, mirrored, in other units of length, mass and time; run backwards; a turn later; and with the
+//! loads one by one.
 //!
-//! With the lengths λ, masses μ and times τ times as large, every joint force is μ·λ/τ² and every torque μ·λ²/τ² times as
-//! large (Buckingham). A mirror image turns every angle and moment round, and so does φ.
+//! With the lengths λ, masses μ and times τ times as large, every joint force is μ·λ/τ² and every torque μ·λ²/τ² times as large (Buckingham). A
+//! mirror image reverses every angle and moment, and φ.
 
 use std::f64::consts::TAU;
 
@@ -86,7 +86,7 @@ impl Change {
         }
     }
 
-    /// The mechanism there, assembled from its joints.
+    /// The mechanism in that frame, assembled from its joints.
     fn mechanism(&self, mechanism: &impl Jointed, phi: f64) -> Assembly<16, 32, 256> {
         let frames = mechanism.frames(phi).unwrap();
         let joints = mechanism.joints(phi, &frames).unwrap();
@@ -117,7 +117,7 @@ impl Change {
     }
 }
 
-/// What acts on a machine.
+/// A load of a machine.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Gravity([f64; 2]),
@@ -127,7 +127,7 @@ enum Source {
 }
 
 impl Source {
-    /// Some of each kind.
+    /// One or more of each kind.
     fn all(last: usize, size: f64) -> [Self; 7] {
         let ends = [
             Marker::on(last, [0.2 * size, 0.1 * size]),
@@ -150,7 +150,7 @@ impl Source {
         ]
     }
 
-    /// Whether it takes power whichever way the machine turns.
+    /// Whether it takes power in both directions of motion.
     fn dissipates(&self) -> bool {
         match self {
             Self::Gravity(_) | Self::Spring(..) => false,
@@ -227,7 +227,7 @@ fn forces(machine: &Machine<impl Jointed>, phi: f64, omega: f64, alpha: f64) -> 
     std::iter::once(forces.drive).chain(reactions).collect()
 }
 
-/// Each figure near another, of the size of the largest torque, a force at the mechanism's size among them.
+/// Each figure close to another, relative to the largest torque, which includes a force at the mechanism's size.
 #[track_caller]
 fn same(what: &str, found: &[f64], expected: &[f64], size: f64) {
     assert_eq!(found.len(), expected.len());
@@ -241,7 +241,7 @@ fn same(what: &str, found: &[f64], expected: &[f64], size: f64) {
     }
 }
 
-/// All of it for one mechanism.
+/// All checks for one mechanism.
 fn holds(mechanism: &impl Jointed, change: &Change, [phi, omega, alpha]: [f64; 3]) {
     let frames = mechanism.frames(phi).unwrap();
     let length = jointed::size(mechanism, phi, &frames);
@@ -249,7 +249,7 @@ fn holds(mechanism: &impl Jointed, change: &Change, [phi, omega, alpha]: [f64; 3
     let machine = loaded(mechanism, &sources);
     let here = forces(&machine, phi, omega, alpha);
 
-    // Loads one by one, forward and backward: what each adds to the inertia forces.
+    // Loads one by one, forward and backward: the contribution of each to the inertia forces.
     let bare = loaded(mechanism, &[]);
     let inertia = forces(&bare, phi, omega, alpha);
     let alone = |source: &Source, omega: f64| -> Vec<f64> {
@@ -285,7 +285,7 @@ fn holds(mechanism: &impl Jointed, change: &Change, [phi, omega, alpha]: [f64; 3
     let turn = forces(&machine, phi + TAU, omega, alpha);
     same("a turn later", &turn, &here, size);
 
-    // Elsewhere, in other units.
+    // In another frame, in other units.
     let image = change.mechanism(mechanism, phi);
     let sources: Vec<Source> = sources.iter().map(|s| s.under(change)).collect();
     let image = loaded(&image, &sources);

@@ -1,4 +1,4 @@
-//! The six-link quick-return mechanism: the printed equations, geometry, forces, and what it refuses.
+//! The six-link quick-return mechanism: the printed equations, geometry, forces, and refusals.
 
 use crate::support::spoken;
 use jred::mechanism::BuildError;
@@ -75,7 +75,7 @@ impl Spec {
             .unwrap()
     }
 
-    /// φ₂, s and φ₃ as the mechanism gives them: s as the slot's coordinate, φ₃ from C to B.
+    /// φ₂, s and φ₃ of the mechanism: s as the slot's coordinate, φ₃ from C to B.
     fn coordinates(&self, phi: f64) -> [Transfer; 3] {
         let mechanism = self.mechanism();
         let frames = mechanism.frames(phi).unwrap();
@@ -126,7 +126,7 @@ proptest! {
         ]);
     }
 
-    /// The slider by the loop O₁-O₂-B-C, on the side asked for, and its velocity by differences.
+    /// The slider by the loop O₁-O₂-B-C, on the requested side, and its velocity by differences.
     #[test]
     fn slider_is_where_the_loop_puts_it(spec in spec(), phi in -7.0..7.0_f64) {
         let [_, l2, l3] = spec.lengths;
@@ -158,7 +158,7 @@ proptest! {
         } else {
             assert_near("a turn on", turn, 0.0, budget::MIRROR);
             prop_assert!(psi(phi).abs() <= ratio.asin() + 1e-7);
-            // It reverses where the crank stands across it: cos φ = −l₁/b.
+            // It reverses where the crank is perpendicular to it: cos φ = −l₁/b.
             let dead = (-ratio).acos();
             assert_near("end of the swing", psi(dead), ratio.asin(), 1e-7);
             let speed = mechanism.frames(dead).unwrap()[SixLink::ROCKER].psi;
@@ -289,13 +289,13 @@ fn what_cannot_turn_is_refused_with_its_reason() {
         refused([0.1, 0.5, 0.2], 0.2, 0.0),
         "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make the rod longer than 0.250000 m, shorten the crank, or drive it over a stroke that stays inside φ = -76.71° and 76.71°, its dead points"
     );
-    // Guide above: l₂·sin φ₂ = 0.05 and more is within reach, from φ₂ = asin 0.1 = 5.739° on: φ = φ₂ + asin 0.2, and φ₂ + 180° − asin 0.2.
+    // Guide above: l₂·sin φ₂ ≥ 0.05 is within reach, from φ₂ = asin 0.1 = 5.739° on: φ = φ₂ + asin 0.2, and φ₂ + 180° − asin 0.2.
     assert_eq!(
         refused([0.1, 0.5, 0.3], 0.2, -0.35),
         "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make the rod longer than 0.600000 m, shorten the crank, or drive it over a stroke that stays inside φ = 17.28° and 174.20°, its dead points"
     );
-    // Whitworth, guide above: the rocker points down too far first at φ₂ = 180° + asin(2/3), φ = φ₂ − asin(1/3), and from −asin(2/3) on no
-    // longer, φ = −41.81° − 19.47°.
+    // Whitworth, guide above: the rocker first points down too far at φ₂ = 180° + asin(2/3), φ = φ₂ − asin(1/3), until −asin(2/3), φ = −41.81° −
+    // 19.47°.
     assert_eq!(
         refused([0.2, 0.3, 0.4], 0.1, -0.2),
         "the crank cannot turn fully: the rod no longer reaches the guide at φ = 202.34°; make the rod longer than 0.500000 m, shorten the crank, or drive it over a stroke that stays inside φ = -61.28° and 202.34°, its dead points"

@@ -20,7 +20,7 @@ fn phases(count: u32) -> impl Iterator<Item = Phase> {
     (0..count).map(move |k| Phase::from_bits(k.wrapping_mul((u32::MAX / count) | 1)))
 }
 
-/// Errors of the torque and of J, J′, load, b and c, each as a share of the sum of the largest sizes of the torque's terms.
+/// Errors of the torque and of J, J′, load, b and c, each relative to the sum of the largest magnitudes of the torque's terms.
 fn rounding(given: &Given) -> [f64; 2] {
     let machine = given.machine();
     let (words, set) = words_of(&machine).unwrap();
@@ -50,7 +50,7 @@ fn rounding(given: &Given) -> [f64; 2] {
     [ticks / size, curves / size]
 }
 
-/// Every mass, weight, force and friction that the form can hold, on both sides, with offset; two-sided.
+/// Every mass, weight, force and friction that the form supports, on both sides, with offset; two-sided.
 #[test]
 fn the_tick_rounds_as_stated() {
     for (least, most, stated) in [
@@ -67,8 +67,8 @@ fn the_tick_rounds_as_stated() {
     }
 }
 
-/// In line, a point on the slider alone: x′ = −r at a quarter turn, 0 at the dead centres, and
-/// x = r·cos φ + √(l² − r²·sin²φ) by differences in between.
+/// In line, with mass at the slider only: x′ = −r at a quarter turn, 0 at the dead centres, and x = r·cos φ + √(l² − r²·sin²φ) by differences in
+/// between.
 #[test]
 fn a_bare_slider_is_as_by_hand() {
     let (r, l, mass, rotor) = (0.05, 0.2, 10.0, 0.004);
@@ -109,8 +109,8 @@ fn a_bare_slider_is_as_by_hand() {
     }
 }
 
-/// J′ is the slope of J: the trapezoidal rule over a turn of a smooth periodic curve is exact, and with Simpson's the work of
-/// ½·J′·ω² is the energy's change at every place.
+/// J′ is the slope of J: the trapezoidal rule over a turn of a smooth periodic curve is exact, and with Simpson's rule the work of ½·J′·ω² is the
+/// change of energy at every position.
 #[test]
 fn the_velocity_torque_balances_the_energy() {
     const PLACES: u32 = 2048;
@@ -125,7 +125,7 @@ fn the_velocity_torque_balances_the_energy() {
         for k in (0..PLACES).step_by(2) {
             let [a, b, c] = [k, k + 1, k + 2].map(|k| at(k).inertia_slope);
             gained += step / 3.0 * (a + 4.0 * b + c);
-            // Roundings of 2⁻²⁴ of each slope, of the same sign at worst.
+            // Roundings of 2⁻²⁴ of each slope, at worst of one sign.
             assert_near("energy", at(k + 2).inertia - start, gained, 3e-6 * size);
         }
     }
@@ -155,7 +155,7 @@ proptest! {
             prop_assert_eq!(range.least.value.to_bits(), back.value.to_bits());
             let more = model.acceleration(phase, omega, torque + 10.0);
             prop_assert_eq!(range.greatest.value.to_bits(), more.value.to_bits());
-            // A share of the friction is that share of its term.
+            // A share of the friction scales its term.
             let ramped = model.torque_with(phase, omega, alpha, Sliding::Share(share));
             let without = model.torque_with(phase, omega, alpha, Sliding::Share(0.0));
             let coulomb = share * model.table().at(phase).coulomb as f32;
@@ -163,7 +163,7 @@ proptest! {
         }
     }
 
-    /// The set is part of the image, its model has the same bits, and every bit of it counts.
+    /// The set is part of the image, its model has the same bits, and every bit of it matters.
     #[test]
     fn images_hold_the_form(given in cranks(0.05, 0.9), bits: u32, omega in -60f32..60.0, flipped: prop::sample::Index) {
         let (words, set) = words_of(&given.machine()).unwrap();
@@ -187,7 +187,7 @@ proptest! {
     }
 }
 
-/// A set that is known when the program is compiled gives the same bits, and the header tells it then.
+/// A set known at compile time gives the same bits, and must equal that of the header.
 #[test]
 fn known_and_unknown_sets_tick_alike() {
     const SET: Set = curves::LOAD | curves::COULOMB | terms::LOAD_SIN | terms::COULOMB_ROD;
@@ -233,13 +233,13 @@ fn known_and_unknown_sets_tick_alike() {
     assert!(!Image::is_of::<jred::Harmonic<f32>, SET>(image));
 }
 
-/// What counts as nothing is a part of the same curve: in a machine of millimetres an inertia is small beside a length.
+/// The threshold for zero is relative to the same curve: in a machine of millimetres an inertia is small compared with a length.
 #[test]
 fn a_small_machine_keeps_its_small_coefficients() {
     for size in [1.0, 0.1, 0.01] {
         let links = [
             link_of(0.01 * size, 1e-9 * size * size * size, [0.0, 0.0]),
-            // Its centre of mass is beside its line.
+            // Its centre of mass is off its line.
             link_of(
                 0.002 * size,
                 1e-8 * size * size * size,
@@ -268,8 +268,8 @@ fn a_small_machine_keeps_its_small_coefficients() {
     }
 }
 
-/// What a form says it uses is a bound of its curves at every phase; for a rod much longer than the crank it is the size itself, that
-/// of a sine: J₀ + m·r²·sin²φ, m·g·r·sin φ; ½·|J′| ≤ ½·m·r² is counted as |X·X′| ≤ 1, twice that.
+/// The usage stated by a form is a bound of its curves at every phase. For a rod much longer than the crank it is the magnitude of a sine: J₀ +
+/// m·r²·sin²φ, m·g·r·sin φ; ½·|J′| ≤ ½·m·r² is counted as |X·X′| ≤ 1, twice that.
 #[test]
 fn usage_bounds_the_curves() {
     for given in samples(60, 0x5c07, &cranks(0.05, 0.95)) {

@@ -1,4 +1,4 @@
-//! Slider-cranks that have no closed form, and coefficients that are none.
+//! Slider-cranks without a closed form, and invalid coefficients.
 
 use crate::support::cranks::{model_of, words_of};
 use crate::support::{link_of, scale_of};
@@ -74,7 +74,7 @@ fn a_set_without_what_the_machine_has_is_refused() {
         short,
         Error::Range(RangeError::BufferTooShort { needed, given })
     );
-    // What it has not is zero.
+    // Missing terms are zero.
     let mut words = [1.0; 18];
     let all = 0xff00 | curves::ALL | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     assert_eq!(form(&machine, all, &mut words), Ok(18));
@@ -91,7 +91,7 @@ fn a_set_without_what_the_machine_has_is_refused() {
     }
 }
 
-/// Gravity that is turned by a rounding does not make a term.
+/// Gravity rotated by a rounding does not create a term.
 #[test]
 fn roundings_of_a_turned_drawing_are_no_terms() {
     let turned = press().with_gravity([9.81, 1e-10]).unwrap();
@@ -138,7 +138,7 @@ fn words_that_are_no_machine_are_refused() {
             TableError::Range { curve, cell }
         );
     }
-    // The rod: (r + |e|)/l on either side of the limit, whatever the signs.
+    // The rod: (r + |e|)/l on either side of the limit, for all signs.
     for (ratio, offset) in [(STEEPEST, 0.0), (-0.5, -0.45), (0.0, 0.95)] {
         assert!(
             model_of(&[ratio, offset, 1.0, 0.0, 0.0], 0).is_ok(),
@@ -163,7 +163,7 @@ fn words_that_are_no_machine_are_refused() {
     ));
     let little = [0.25, 0.0, 0.005, 1.0, 0.0];
     assert!(model_of(&little, 0).is_ok());
-    // Between the first 64 places it would be negative.
+    // Between the first 64 positions it would be negative.
     let hidden = [0.0, 0.0, 0.0, 1.0, 0.0];
     assert!(model_of(&hidden, 0).is_err());
     let huge = [0.25, 0.0, 9e29, 9e29, 0.0];
@@ -196,7 +196,7 @@ fn shapes_that_do_not_suit_are_refused() {
         ),
         Err(TableError::Stroke)
     );
-    // Units in which J·ω² is a torque are fine, others are not.
+    // Units in which J·ω² is a torque are accepted, others are not.
     for (inertia, expected) in [(2.0, Ok(())), (2.1, Err(TableError::SpeedBase))] {
         let mut shape = shape;
         shape.scale = scale_of(8.0, 2.0, inertia);
@@ -224,7 +224,7 @@ fn shapes_that_do_not_suit_are_refused() {
     assert_eq!(accepted.count(), 2 * 4 * 17 * 5 * 3);
 }
 
-/// Damaged words in an image whose CRC was made anew: refused, or ticked without a panic to a number.
+/// Damaged words in an image with a recomputed CRC: refused, or ticked without a panic to a finite number.
 #[test]
 fn damaged_coefficients_are_refused_or_ticked() {
     let (words, set) = words_of(&press()).unwrap();
@@ -252,7 +252,7 @@ fn damaged_coefficients_are_refused_or_ticked() {
         }
     }
     assert!(accepted > 100 && refused > 10, "{accepted}, {refused}");
-    // Another set in the header: of another length, so refused.
+    // Another set in the header has another length, so it is refused.
     let mut buffer = vec![0; image_len::<SliderCrankForm>(0, set)];
     let mut image = encode(model.table(), validity, &mut buffer)
         .unwrap()

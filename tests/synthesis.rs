@@ -43,7 +43,7 @@ fn two_equal_pinions_follow_the_textbook() {
     assert_near("i1", best.ratios[0], 3.0, 3.0 * budget::SPLIT);
 }
 
-/// Large ratios: i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)), which leaves out the pinions behind the first.
+/// Large ratios: i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)), which neglects the pinions after the first.
 #[test]
 fn many_equal_pinions_tend_to_the_textbook_form() {
     for stages in 2..=4usize {
@@ -61,7 +61,7 @@ fn many_equal_pinions_tend_to_the_textbook_form() {
                 .map(|(found, k)| found / form(k) - 1.0);
             largest(each)
         };
-        // The left-out term is 1/i₁⁴ of the others.
+        // The neglected term is 1/i₁⁴ of the others.
         let [small, large] = [1e2, 1e4].map(|ratio: f64| miss(ratio * 30f64.powi(n - 2)));
         assert!(
             large < 0.02 && large < 0.4 * small,
@@ -70,7 +70,7 @@ fn many_equal_pinions_tend_to_the_textbook_form() {
     }
 }
 
-/// A load of the same size as in a constant driven wheel at the end changes nothing but J.
+/// A load equal to a constant driven wheel at the end only changes J.
 #[test]
 fn a_load_at_the_output_adds_its_reduced_inertia() {
     for stages in 2..=4 {
@@ -95,7 +95,7 @@ fn a_load_at_the_output_adds_its_reduced_inertia() {
     }
 }
 
-/// Constant inertias: the more ratio in front the better, up to the bound.
+/// Constant inertias: as much ratio as possible in front, up to the bound.
 #[test]
 fn constant_wheels_put_the_ratio_in_front() {
     let stage = OpenStage {
@@ -191,7 +191,7 @@ impl Spec {
                 "{ratio}"
             );
         }
-        // Nothing is gained by moving ratio from one stage to another: the slope of the giver is not above the taker's.
+        // Moving ratio from one stage to another gains nothing: the giver's slope is not above the taker's.
         for (giver, from) in each() {
             for (taker, to) in each() {
                 let can = *giver > low * (1.0 + 1e-9) && *taker < high * (1.0 - 1e-9);
@@ -367,7 +367,7 @@ fn what_cannot_be_split_is_refused() {
             max: 10.0
         }
     );
-    // At the edge of what the bounds allow, all stages are at a bound.
+    // At the edge of the bounds, all stages are at a bound.
     let edge = equal_pinions(100.0, 2, [1.0, 10.0]).optimum();
     assert_near("edge", edge.ratios[0], 10.0, 1e-12);
     assert_near("edge", edge.ratios[1], 10.0, 1e-11);

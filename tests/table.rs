@@ -1,4 +1,4 @@
-//! Tables: read as what was put in, and refused when they are not sound.
+//! Tables: values as put in, and refusal of invalid tables.
 
 use std::f64::consts::TAU;
 
@@ -54,7 +54,7 @@ fn reads_its_spline<L: Format>(machine: &impl Reducible, cells: u32, bits: u32) 
     for (found, (expected, size)) in [
         (read.load, at(&|r| r.load_torque())),
         (read.viscous, at(&|r| r.viscous)),
-        // Roundings decide which of two equal signs a constant magnitude has: none here.
+        // Roundings decide between equal signs of a constant magnitude: not needed here.
         (read.coulomb, at(&|r| r.coulomb)),
     ] {
         assert_near("curve", found, expected[0], size);
@@ -98,7 +98,7 @@ fn refused<F: Format>(rows: &Rows<F>) -> TableError {
     rows.try_table().map(|_| ()).unwrap_err()
 }
 
-/// With another word, over a stroke, where nothing need close.
+/// With another word, over a stroke, where no end needs to close.
 #[track_caller]
 fn refused_with<F: Plain>(index: usize, word: F::Word) -> TableError {
     let mut rows = Rows {
@@ -171,7 +171,7 @@ fn every_layout_refuses_what_is_no_table() {
     refused_in_every_layout::<Quadratic<Q31>>();
 }
 
-/// A number spoils the first cell that reads it, whichever of its words it is.
+/// An invalid number affects the first cell that reads it, in any of its words.
 #[test]
 fn numbers_out_of_range_are_refused_with_their_cell() {
     let range = |cell| TableError::Range { curve: 0, cell };
@@ -199,13 +199,13 @@ fn numbers_out_of_range_are_refused_with_their_cell() {
             assert_eq!(refused_with::<Quadratic<Q31>>(index, value), range(2));
         }
     }
-    // What no cell reads may be anything.
+    // Words that no cell reads may have any value.
     let mut rows = good::<Quadratic<Q31>>();
     rows.words[11] = i32::MIN;
     assert!(rows.try_table().is_ok());
 }
 
-/// A single-precision word that is not a number among the other constants.
+/// A single-precision word of NaN or infinity among the other constants.
 #[test]
 fn constants_that_are_not_finite_are_refused() {
     for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e31] {
@@ -259,7 +259,7 @@ fn inertia_must_be_positive_between_knots_too() {
     assert!(tilted(0.1, 0.19).try_table().is_ok());
 }
 
-/// Any of the six rows that must repeat; rows of polynomials repeat by themselves.
+/// Any of the six rows that must repeat; rows of polynomials repeat by construction.
 #[test]
 fn a_turn_that_does_not_close_is_refused() {
     for index in [0, 1, 2, 4, 5, 6] {
@@ -280,7 +280,7 @@ fn a_turn_that_does_not_close_is_refused() {
     assert_eq!(refused(&rows), TableError::Range { curve: 1, cell: 2 });
 }
 
-/// Of words that hold two curves the first of both is named.
+/// For words that contain two curves the first one is named.
 #[test]
 fn a_turn_of_halves_that_does_not_close_is_refused() {
     let wave = Wave {
@@ -300,7 +300,7 @@ fn a_turn_of_halves_that_does_not_close_is_refused() {
     assert!(rows.try_table().is_ok());
 }
 
-/// c₁ + 4c₂ + c₃, six times J at the end of the last cell, is −7 units, less than single precision tells apart there.
+/// c₁ + 4c₂ + c₃, six times J at the end of the last cell, is −7 units, below the resolution of single precision there.
 #[test]
 fn inertia_just_below_zero_is_refused() {
     let knot = 1 << 24;

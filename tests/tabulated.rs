@@ -1,4 +1,4 @@
-//! What a search for a table says of what it found, and of what no table can hold.
+//! The report of a search for a table, and machines without a table.
 
 use std::f64::consts::TAU;
 
@@ -19,7 +19,7 @@ fn request(torque_error: f64, max_cells: u32) -> Request {
         .with_max_cells(max_cells)
 }
 
-/// What the search says, and what is measured of a table of as many cells.
+/// The report of the search, and the measured errors of a table of as many cells.
 fn found<F: Format>(
     machine: &impl Reducible,
     set: Set,
@@ -34,7 +34,7 @@ fn found<F: Format>(
     [found, measured]
 }
 
-/// J waves faster in one half of the turn, where the error is largest; the load has its sharpest bend in the other.
+/// J varies faster in one half of the turn, where the error is largest; the load has its sharpest bend in the other.
 struct TwoPlaces;
 
 impl Reducible for TwoPlaces {
@@ -59,8 +59,8 @@ impl Reducible for TwoPlaces {
     }
 }
 
-/// Beyond the sizes that are all tried, most candidates are looked at near their worst place only; the figures of the result are
-/// those of all places all the same.
+/// Beyond the sizes that are all tried, most candidates are evaluated near their worst position only; the figures of the result are still those of
+/// all positions.
 #[test]
 fn figures_of_a_large_table_are_those_of_all_its_places() {
     for (torque_error, least) in [(1e-5, EXHAUSTIVE), (1e-3, 0)] {
@@ -68,11 +68,11 @@ fn figures_of_a_large_table_are_those_of_all_its_places() {
         let [said, mut measured] =
             found::<Spline<f64>>(&TwoPlaces, curves::LOAD, &request, &Scale::SI);
         assert!(said.cells > least, "{said:?}");
-        // The curves are symmetric: the worst place may be its mirror image.
+        // The curves are symmetric: the worst position may be its mirror image.
         measured.worst = said.worst;
         assert_eq!(said, measured);
         assert!(said.torque_error <= torque_error && said.torque_error > 0.5 * torque_error);
-        // The fewest: one cell less misses.
+        // The minimum: one cell less is not sufficient.
         let rows = Rows::<Spline<f64>>::of(&TwoPlaces, curves::LOAD, said.cells - 1, &Scale::SI);
         let fewer = measure(&TwoPlaces, &rows.unwrap().table(), &request).unwrap();
         assert!(fewer.torque_error > torque_error, "{fewer:?}");
@@ -90,7 +90,7 @@ fn holds<F: Format>(wave: &Wave, scale: Scale, torque_error: f64) {
     }
 }
 
-/// A table of 16 bits in machine units: every curve counts in the units of its own, b in those of torque over speed.
+/// A table of 16 bits in machine units: every curve counts in its own units, b in those of torque over speed.
 #[test]
 fn errors_are_in_si_units_in_every_format() {
     let wave = Wave {
@@ -101,7 +101,7 @@ fn errors_are_in_si_units_in_every_format() {
         coulomb: 0.5,
         domain: Domain::Turn,
     };
-    // Full torque of 60 N·m; what a word of 16 bits rounds counts at full speed and acceleration.
+    // Full torque of 60 N·m; the roundings of 16-bit words count at full speed and acceleration.
     let scale = scale_of(60.0, 8.0, 1.6);
     holds::<Spline<f64>>(&wave, Scale::SI, 1e-3);
     holds::<Cubic<f32>>(&wave, Scale::SI, 1e-3);
@@ -109,7 +109,7 @@ fn errors_are_in_si_units_in_every_format() {
     holds::<Rows16>(&wave, scale, 0.05);
 }
 
-/// A winder: J grows with every turn; or its load does, or one of the frictions.
+/// A winder: J, its load or one of its frictions grows with every turn.
 struct Grows(fn(f64) -> [f64; 4]);
 
 impl Reducible for Grows {
@@ -126,7 +126,7 @@ impl Reducible for Grows {
     }
 }
 
-/// One turn cannot stand for all turns of it: no table is made.
+/// One turn does not represent all turns: no table is made.
 #[test]
 fn what_differs_from_turn_to_turn_is_refused() {
     let repeats = Grows(|phi| [2.0 + phi.cos(), phi.sin(), 0.1, 0.5]);
@@ -148,12 +148,12 @@ fn what_differs_from_turn_to_turn_is_refused() {
             "{made:?}"
         );
     }
-    // Where it is a sixth of a millionth of the size, it is a rounding.
+    // A growth of a sixth of a millionth is a rounding.
     let nearly = Grows(|phi| [1.0 + phi / TAU * 3e-7, 0.0, 0.0, 0.0]);
     assert_eq!(nearly.check_repeats(), Ok(()));
 }
 
-/// Control points are stored from the middle of J on: what single precision rounds is a share of the swing, not of J.
+/// Control points are stored relative to the middle of J: roundings in single precision are a share of the swing, not of J.
 #[test]
 fn a_large_constant_inertia_costs_no_digits() {
     let wave = Wave::bare(1000.0, 0.01);
@@ -164,7 +164,7 @@ fn a_large_constant_inertia_costs_no_digits() {
         let exact = wave.reduction(phase.radians()).unwrap();
         table.at(phase).inertia_slope - exact.inertia_slope
     }));
-    // J′ of a cubic spline of 64 cells is off by 0.01·(2π/64)³/24 at most.
+    // J′ of a cubic spline of 64 cells has an error of at most 0.01·(2π/64)³/24.
     let cut = 0.01 * (TAU / 64.0f64).powi(3) / 24.0;
     assert!(worst < 1.5 * cut, "{worst:e}, {cut:e}");
     assert_near("constant", rows.constants.inertia.into(), 1000.0, 1e-3);

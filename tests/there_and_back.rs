@@ -14,8 +14,7 @@ use proptest::prelude::*;
 const ALL: Set = curves::ALL;
 const CELLS: u32 = 64;
 
-/// Acceleration → torque → acceleration, and the range of accelerations of two torques. `bound` is of J·α and J in machine
-/// units.
+/// Acceleration → torque → acceleration, and the range of accelerations of two torques. `bound` is in terms of J·α and J in machine units.
 fn there_and_back<F: Format>(
     spec: &Spec,
     [omega, alpha, other]: [f64; 3],
@@ -41,7 +40,7 @@ fn there_and_back<F: Format>(
         value(alpha),
         budget,
     );
-    // Both at once are each by itself.
+    // Both at once equal each one alone.
     let least = model.torque(phase, omega, other);
     let range = model.acceleration_range(phase, omega, least, torque);
     assert_eq!(range.greatest, back);
@@ -52,11 +51,11 @@ fn there_and_back<F: Format>(
 }
 
 fn float(epsilon: f64) -> impl Fn(f64, f64) -> f64 {
-    // The parts of what resists may be larger than their sum: up to the torque base, 1.
+    // The parts of the resisting torque may exceed their sum: up to the torque base, 1.
     move |own, inertia| budget::TICK_ROUNDINGS * epsilon * (own.abs() + 1.0) / inertia
 }
 
-/// What resists is the same number both ways, J·α lost up to a unit of Q29 to its floor, the quotient up to one of Q31.
+/// The resisting torque is the same number both ways; J·α loses up to a unit of Q29 by its floor, the quotient up to one of Q31.
 fn fixed(_: f64, inertia: f64) -> f64 {
     budget::Q31_UNIT * (4.0 / inertia + 1.0)
 }

@@ -1,6 +1,6 @@
-//! The tests of the library that `scripts/test tests-release` runs again, optimised: of all that wraps on purpose (angles, counters,
-//! fixed point, the reading of tables, ticks, pieces), and of the search for tables, which reads them. Elsewhere nothing may
-//! wrap, which `tests/main.rs` shows with overflow checked; then an optimised program computes the same.
+//! The tests of the library that `scripts/test tests-release` repeats with optimisation: all code that wraps on purpose (angles, counters, fixed
+//! point, table reading, ticks, pieces), and the search for tables, which reads them. No other code may wrap, which `tests/main.rs` shows with
+//! overflow checks; so optimisation does not change its results.
 
 mod axis;
 mod duty;

@@ -1,4 +1,4 @@
-//! The toggle press: geometry against four-bar and slider-crank, dead centres, forces, and what it refuses.
+//! The toggle press: geometry against four-bar and slider-crank, dead centres, forces, and refusals.
 
 use jred::mechanism::BuildError;
 use jred::mechanism::SliderCrankDimensions;
@@ -118,7 +118,7 @@ proptest! {
         assert_near("printed", ram.d1, printed, budget::GOLDEN * first * 10.0);
     }
 
-    /// The ram stands still at its dead centres, between them it moves one way, and they bound its stroke.
+    /// The ram stops at its dead centres, moves one way between them, and they bound its stroke.
     #[test]
     fn dead_centres_are_where_the_ram_stands(spec in spec()) {
         let press = spec.mechanism();
@@ -153,7 +153,7 @@ proptest! {
         }
     }
 
-    /// A lower link too short: the angle named is where it first stands across the guide.
+    /// Too short a lower link: the error names the angle at which it is first perpendicular to the guide.
     #[test]
     fn a_short_lower_link_is_refused_at_the_right_angle(spec in spec(), short in 0.05..0.999_f64) {
         let rotors = [Link::rotor(0.1).unwrap(); 5];
@@ -180,7 +180,7 @@ proptest! {
         } else {
             prop_assert!(off(0.0) >= lengths[3]);
         }
-        // A hair longer than what it names is enough.
+        // 1e-9 longer than the named length is sufficient.
         lengths[3] = shortest * (1.0 + 1e-9);
         let press = TogglePress::new(TogglePressDimensions { crank: lengths[0], rod: lengths[1], upper: lengths[2], lower: lengths[3], pivot: spec.pivot, guide: spec.guide }, spec.sides.0, spec.sides.1, rotors).unwrap();
         for k in 0..500 {
@@ -189,7 +189,7 @@ proptest! {
     }
 }
 
-/// A press with its knuckle on the guide's line at `l + r − 400 mm` beyond the stretched position.
+/// A press whose knuckle is at the guide's line at `l + r − 400 mm` beyond the stretched position.
 fn press(rod: f64) -> TogglePress {
     let lengths = [0.06, rod, 0.25, 0.25];
     let rotors = [Link::rotor(0.01).unwrap(); 5];
@@ -212,7 +212,7 @@ fn press(rod: f64) -> TogglePress {
 
 #[test]
 fn the_stretched_links_are_no_dead_point() {
-    // The knuckle passes the line: the ram is at its bottom twice, and a little higher between.
+    // The knuckle passes the line: the ram is at its bottom twice, and slightly higher in between.
     let passing = press(0.35);
     jointed::turns(&passing, 1440);
     let centres = passing.dead_centres().unwrap();
@@ -231,12 +231,12 @@ fn the_stretched_links_are_no_dead_point() {
         assert_near("bottom", toggle.ram, 0.25, 1e-12);
         let frames = passing.frames(toggle.phi).unwrap();
         assert_near("in line", frames[2].psi.value, frames[3].psi.value, 1e-7);
-        // The upper link moves on while the ram stands.
+        // The upper link moves on while the ram rests.
         assert!(frames[2].psi.d1.abs() > 0.05, "{:?}", frames[2].psi);
         assert_near("ram", frames[4].x.d1, 0.0, 1e-8);
         assert!(frames[4].x.d2 < 0.0);
     }
-    // The knuckle stops short of the line: one bottom, at the reversal.
+    // The knuckle does not reach the line: one bottom, at the reversal.
     let short = press(0.335);
     let centres = short.dead_centres().unwrap();
     assert_eq!(centres.len(), 2);
@@ -246,8 +246,7 @@ fn the_stretched_links_are_no_dead_point() {
     assert_near("stroke", bottom.ram - top.ram, 0.069_468, 1e-6);
 }
 
-/// Virtual work: a force F at the ram needs the torque F·x_R′, here against differences of the position, and almost none
-/// near the stretched position.
+/// Virtual work: a force F at the ram needs the torque F·x_R′, here from differences of the position, and almost none near the stretched position.
 #[test]
 fn the_knuckle_multiplies_the_force() {
     let press = press(0.335);

@@ -29,7 +29,7 @@ prop_compose! {
 }
 
 prop_compose! {
-    /// Bounded away from zero, so that quotients and roots keep their size.
+    /// Bounded away from zero, so that quotients and roots keep their magnitude.
     fn positive()(value in 0.5..4.0, d1 in -2.0..2.0, d2 in -2.0..2.0, d3 in -2.0..2.0) -> Transfer {
         Transfer { value, d1, d2, d3 }
     }
@@ -92,7 +92,7 @@ proptest! {
         assert_near("(f·g)'''", (f * g).d3, third, budget::IDENTITY * size);
     }
 
-    /// φ^n has the derivatives that school teaches, and motion follows the chain rule.
+    /// φ^n has the elementary derivatives, and motion follows the chain rule.
     #[test]
     fn powers_and_motion(phi in -2.0..2.0, omega in -50.0..50.0, alpha in -500.0..500.0) {
         let x = Transfer::variable(phi);

@@ -1,4 +1,4 @@
-//! Friction in tables: magnitudes with kinks become smooth curves with a sign, and constants are numbers, not curves.
+//! Friction in tables: magnitudes with kinks become smooth signed curves, and constants are stored as numbers, not curves.
 
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
@@ -15,7 +15,7 @@ use jred::{
 };
 use proptest::prelude::*;
 
-/// J = 1 and c = |v|, of any v.
+/// J = 1 and c = |v|, for any v.
 struct Friction<V> {
     domain: Domain,
     v: V,
@@ -46,7 +46,7 @@ fn error<F: Format>(machine: &impl Reducible, cells: u32, scale: &Scale) -> f64 
     }))
 }
 
-/// A slider-crank with friction at its slider, which turns round twice a turn.
+/// A slider-crank with friction at its slider, which reverses twice per turn.
 fn press() -> Machine<SliderCrank> {
     let link = |mass| link_of(mass, 0.002, [0.01, 0.0]);
     let links = [link(0.8), link(0.5), Link::point_mass(0.6).unwrap()];
@@ -96,7 +96,7 @@ fn friction_of_a_slider_converges_as_a_smooth_curve_does() {
     converges::<Quadratic<f64>>(&stroke, 3);
 }
 
-/// The prediction is a cubic's: of a cubic polynomial it is right even where the sign changes next to the largest value, whichever way.
+/// The prediction is cubic: for a cubic polynomial it is correct even if the sign changes next to the largest value, in either direction.
 #[test]
 fn signs_of_a_cubic_polynomial_are_right_at_once() {
     let v = |x: f64| (x - 0.5) * (x - 2.5) * (x - 5.3);
@@ -116,8 +116,7 @@ fn signs_of_a_cubic_polynomial_are_right_at_once() {
     }
 }
 
-/// A magnitude that touches zero an odd number of times a turn belongs to no curve that closes: it stays as it is, with its
-/// kink, of order 1.
+/// A magnitude that touches zero an odd number of times per turn has no closed signed curve: it stays as it is, with its kink, of order 1.
 #[test]
 fn a_single_kink_a_turn_stays() {
     let odd = Friction {
@@ -127,10 +126,10 @@ fn a_single_kink_a_turn_stays() {
     for cells in [64, 128] {
         let ratio = error::<Spline<f64>>(&odd, cells, &Scale::SI)
             / error::<Spline<f64>>(&odd, 2 * cells, &Scale::SI);
-        // The error of a kink at a knot is in proportion to the cell; a jump's would not fall at all.
+        // The error of a kink at a knot is proportional to the cell; that of a jump would not fall.
         assert!((1.8..2.2).contains(&ratio), "{ratio}");
     }
-    // Over a stroke of the same length nothing need close.
+    // Over a stroke of the same length no end needs to close.
     let stroke = Friction {
         domain: Domain::stroke(0.0, TAU).unwrap(),
         v: odd.v,
@@ -145,7 +144,7 @@ fn a_single_kink_a_turn_stays() {
     assert!(found < 2.0 * (TAU / 128.0).powi(2), "{found:e}");
 }
 
-/// Magnitudes without a zero stay as they are, bit by bit.
+/// Magnitudes without a zero stay bit-exact.
 #[test]
 fn a_magnitude_without_zeros_keeps_its_sign() {
     let rippled = Friction {
@@ -165,9 +164,8 @@ fn a_magnitude_without_zeros_keeps_its_sign() {
 proptest! {
     #![proptest_config(config(128, 0x00a1))]
 
-    /// Any even number of reversals anywhere on a turn. A sample so near a zero that the cubic through the four before it does
-    /// not tell its sign is smaller than h⁴·f⁗ (of 2⁴ + 0.2·3⁴ at most), and off by twice itself at most; far from zeros the
-    /// curve is as exact as any.
+    /// Any even number of reversals anywhere on a turn. A sample so close to a zero that the cubic through the four before it does not determine its
+    /// sign is smaller than h⁴·f⁗ (at most 2⁴ + 0.2·3⁴), and has an error of at most twice itself; far from zeros the curve is as accurate as any.
     #[test]
     fn reversals_anywhere_are_found(shift in 0.0..TAU, mean in -0.7..0.7, ripple in 0.0..0.2, twice: bool) {
         let waves = if twice { 2.0 } else { 1.0 };
@@ -176,7 +174,7 @@ proptest! {
         let scale = scale_of(4.0, 1.0, 2.0).for_cells(128, TAU);
         let h = TAU / 128.0;
         let near = 2.0 * 32.2 * h.powi(4);
-        // A quadratic errs by less than h³·f‴/24 of its own; f‴ is 2³ + 0.2·3³ at most.
+        // A quadratic's own error is below h³·f‴/24; f‴ is at most 2³ + 0.2·3³.
         let quadratic = near + 13.4 * h.powi(3) / 24.0;
         prop_assert!(error::<Spline<f64>>(&machine, 128, &Scale::SI) < near);
         prop_assert!(error::<Cubic<Q31>>(&machine, 128, &scale) < near);
@@ -184,7 +182,7 @@ proptest! {
     }
 }
 
-/// The same everywhere, or nowhere.
+/// The same value everywhere.
 struct Constant {
     viscous: f64,
     coulomb: f64,
@@ -274,7 +272,7 @@ fn the_set_in_use_has_what_the_machine_has() {
         let both = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
         assert_eq!(set(0.1, 0.2, 1.0, domain), curves::LOAD | both);
     }
-    // What varies is a curve, whatever it starts with.
+    // A varying magnitude is a curve, whatever its first value.
     let friction = |v: fn(f64) -> f64| {
         let domain = Domain::Turn;
         curves_in_use(&Friction { domain, v }, 64).unwrap()

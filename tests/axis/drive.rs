@@ -18,7 +18,7 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
     let fixed = Transmission::new(gearbox, &units).unwrap();
     assert_near("base", fixed.base().into(), 150.0 / (8.0 * 0.9), 1e-5);
     for (torque, omega, alpha) in samples(300, 0xff03, &(-140.0..140.0, -9.0..9.0, -60.0..60.0)) {
-        // Power through the gearbox: out is in less the losses, whichever side drives.
+        // Power through the gearbox: output is input less the losses, for either driving side.
         let [motor, load]: [f64; 2] = [8.0 * omega, omega];
         let through = single.motor(torque, omega, alpha).value - 8.0 * 0.002 * alpha;
         let (at_motor, at_load): (f64, f64) = (through * motor, torque * load);
@@ -47,7 +47,7 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
             1e-4,
         );
     }
-    // At rest the motor drives, whatever the torque's sign.
+    // At rest the motor counts as driving, for either sign of the torque.
     for torque in [50.0, -50.0] {
         assert_near(
             "at rest",
@@ -56,7 +56,7 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
             1e-5,
         );
     }
-    // The gearbox alone, the rotor alone, and their sum leave the range.
+    // The gearbox alone, the rotor alone, and their sum exceed the range.
     let light = Transmission::new(
         Gearbox {
             rotor: 0.0,

@@ -30,7 +30,7 @@ fn mounting() -> impl Strategy<Value = Mounting> {
         })
 }
 
-/// The phase against the exact one, in parts of a unit of 2⁻³² of a turn: as many as the encoder has counts a turn, and more.
+/// The error of the phase, in fractions of 2⁻³² turn: with a denominator of at least the encoder's counts per turn.
 fn check(mounting: &Mounting, count: i64, phase: u32) {
     let per = i128::from(mounting.counts_per_turn) * i128::from(mounting.gear[0]);
     let from_home = i128::from(count) - i128::from(mounting.home);
@@ -101,7 +101,8 @@ proptest! {
             let exact = (counted * (resolution / span) + (at_home - from) / span) * 4_294_967_296.0;
             let found = encoder.phase(count);
             let limited = exact.clamp(0.0, 4_294_967_295.0);
-            // Half a unit, a quarter for a step that is half a unit of 2⁻⁶⁴ off 2³¹ times from the middle on, and what double precision leaves of the reference.
+            // Half a unit, a quarter for a step with an error of half a unit of 2⁻⁶⁴ up to 2³¹ times from the middle, and the roundings of the
+            // reference in double precision.
             let from_middle = counted - (from + 0.5 * span - at_home) / resolution;
             let most = 0.5 + 0.25 * (from_middle.abs() + 1.0) / 2_147_483_648.0 + 1e-5;
             prop_assert!((f64::from(found.value.to_bits()) - limited).abs() < most, "{count}: {exact}");
@@ -119,7 +120,7 @@ proptest! {
         let mut wide = Counter::<32>::at(start);
         let mut count = start;
         for moved in moves {
-            // Half of the range and no more.
+            // At most half of the range.
             count = count.wrapping_add((moved / 2).into());
             prop_assert_eq!(counter.extend(u32::from(count as u16)), count);
             prop_assert_eq!(wide.extend(count as u32), count);
@@ -127,7 +128,7 @@ proptest! {
     }
 }
 
-/// Of all readings between two right ones, as many lead to a wrong count as the machine moves counts.
+/// Among all readings between two correct ones, the number that lead to a wrong count equals the number of counts moved.
 #[test]
 fn a_wrong_reading_is_corrected_unless_it_is_half_the_range_off() {
     for (start, moved) in [(0, 0), (70_000, 30), (-32_760, -30), (i64::MAX, 5)] {
@@ -143,7 +144,7 @@ fn a_wrong_reading_is_corrected_unless_it_is_half_the_range_off() {
             let from_half = half.cast_signed().unsigned_abs();
             assert!(off == 0 || u64::from(from_half) <= moved.unsigned_abs());
         }
-        // Half of the range is a count down, and none up.
+        // Half of the range counts down, not up.
         assert!(wrong > 0 && wrong.abs_diff(moved.unsigned_abs()) <= 1);
     }
 }
@@ -274,7 +275,7 @@ fn an_end_of_the_stroke_is_in_it() {
 
 #[test]
 fn the_extremes_keep_the_promises() {
-    // The rest of the step is half a unit of 2⁻⁶⁴, either way.
+    // The remainder of the step is half a unit of 2⁻⁶⁴, in either direction.
     for counting in [Counting::Up, Counting::Down] {
         let mounting = Mounting {
             counts_per_turn: 4_294_967_294,
@@ -287,7 +288,7 @@ fn the_extremes_keep_the_promises() {
             check(&mounting, count, encoder.phase_wide(count).to_bits());
         }
     }
-    // As few counts as a stroke may have, as far away as home may be.
+    // A stroke with the fewest counts and the most distant home.
     let domain = Domain::Stroke { from: 0.0, to: 1.0 };
     for (resolution, home, at_home) in [
         (1.0 / 16.0, i64::from(i32::MIN), 1e5),
@@ -309,7 +310,8 @@ fn the_extremes_keep_the_promises() {
     }
 }
 
-/// A screw of 10 mm a turn and a stroke of whole turns: every turn is a fraction of the stroke that can be written down. From encoders of 17 bits to some of 45, whose stroke has 2⁵² counts.
+/// A screw of 10 mm per turn and a stroke of whole turns: every turn is an exact fraction of the stroke. From encoders of 17 bits to some of 45,
+/// whose stroke has 2⁵² counts.
 #[test]
 fn strokes_of_many_counts_are_within_a_unit() {
     for (bits, turns) in [
@@ -334,7 +336,7 @@ fn strokes_of_many_counts_are_within_a_unit() {
             };
             let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
             for k in 0..=turns {
-                // 2³²·k/turns to half a unit; the ends of the stroke are off by what double precision leaves of 0.25 + 0.8.
+                // 2³²·k/turns to half a unit; the ends of the stroke have the rounding error of 0.25 + 0.8 in double precision.
                 let exact = f64::from(k) / f64::from(turns) * 4_294_967_296.0;
                 let found = encoder.phase_wide(home + sign * i64::from(k) * a_turn);
                 let off = (f64::from(found.value.to_bits()) - exact.min(4_294_967_295.0)).abs();
@@ -348,7 +350,7 @@ fn strokes_of_many_counts_are_within_a_unit() {
     }
 }
 
-/// A register of 32 bits, signed or not, may overflow anywhere within the stroke.
+/// A 32-bit register, signed or not, may overflow anywhere within the stroke.
 #[test]
 fn a_register_may_overflow_within_the_stroke() {
     let stroke = Domain::Stroke { from: 0.0, to: 0.3 };
@@ -379,7 +381,7 @@ fn a_register_may_overflow_within_the_stroke() {
             assert!(encoder.phase((home + count) as u32 as i32).saturated);
         }
     }
-    // More counts than the register has: each is flagged, never read as another place.
+    // More counts than the register has: each is flagged, none is read as another position.
     let scaled = Scaled {
         resolution: 1e-11,
         home: 0,
@@ -406,7 +408,8 @@ fn a_register_may_overflow_within_the_stroke() {
     );
 }
 
-/// A register of 32 bits that passes 2³¹ in one direction: with a power of two of counts a turn of the drive link it keeps its angle by itself, with others a `Counter` keeps it.
+/// A 32-bit register that passes 2³¹ in one direction: with a power of two of counts per turn of the drive link it keeps its angle, otherwise a
+/// `Counter` keeps it.
 #[test]
 fn a_register_that_overflows_keeps_its_angle() {
     for (counts_per_turn, gear) in [

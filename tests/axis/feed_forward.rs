@@ -11,7 +11,7 @@ use super::machine::{in_units, si, with_model};
 use crate::support::images::VALIDITY;
 use crate::support::{assert_near, quantity, samples, scale_of, value};
 
-/// Every term against the curve that it is made of; their sum against the torque.
+/// Every term against its curve; their sum against the torque.
 fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
@@ -96,7 +96,7 @@ fn friction_does_not_chatter() {
             assert_near("flickering", torque(measured, 0.01), rest, 1e-9);
         }
         assert_near("the other way", torque(1e-6, -0.01), rest - 1.0, 1e-9);
-        // By the measured speed it would chatter.
+        // With the measured speed it would chatter.
         let chatter = [1e-6, -1e-6].map(|omega| model.torque(phase, omega, 2.0));
         assert_near("chatter", chatter[0] - chatter[1], 1.0, 1e-9);
 
@@ -192,7 +192,7 @@ fn a_motion_beyond_the_table_is_flagged() {
     );
 }
 
-/// A speed base that ends where the table does: what was limited to it is no motion of the table, though the limits of both are the same number.
+/// A speed base that equals the table's limit: a saturated speed is still outside the table's validity.
 #[test]
 fn a_number_that_was_limited_is_flagged() {
     fn limited<F: Format>() {
@@ -254,7 +254,7 @@ fn the_measured_state_is_where_the_curves_are_read() {
             expected,
             1e-5,
         );
-        // The measured speed is judged, and a set-point that is no number.
+        // The measured speed is checked, and a set-point of NaN.
         assert!(
             feed_forward
                 .at_measured(reference.phase, 11.0, reference, sliding)
@@ -273,7 +273,8 @@ fn the_measured_state_is_where_the_curves_are_read() {
     });
 }
 
-/// A vertical axis: whatever is flagged, NaN, infinity, too fast, the torque is that of the nearest motion of the table, and never less than the weight needs at rest.
+/// A vertical axis: for any flagged input (NaN, infinity, too fast) the torque is that of the nearest valid motion, and never less than the weight
+/// needs at rest.
 #[test]
 fn what_is_flagged_holds_the_weight() {
     fn held<F: Format>(scale: Scale, wrong: &[f64], error: f64) {

@@ -1,4 +1,4 @@
-//! A follower of a plan: its time, its rate, and the motion that both make.
+//! A follower of a plan: its time, its rate, and the resulting motion.
 
 use core::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use super::machine::in_units;
 use super::plan::{evenly, exact, found, image, trapezoid};
 use crate::support::scale_of;
 
-/// Each tick is where the plan is at that time, whatever the tick: 2⁻⁴⁰ s a tick off.
+/// Each tick has the plan's position at that time, for any tick period: an error of 2⁻⁴⁰ s per tick.
 #[test]
 fn a_follower_is_on_time() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -54,7 +54,7 @@ fn a_follower_is_on_time() {
     }
 }
 
-/// With a rate that changes all the time the speed is the derivative of the position, and the acceleration that of the speed.
+/// With a continuously changing rate the speed is the derivative of the position, and the acceleration that of the speed.
 #[test]
 fn an_override_is_a_motion() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -104,7 +104,7 @@ fn an_override_is_a_motion() {
     // Three of the plan, and two or three of each ramp, which ends within a tick.
     assert!((11..=15).contains(&corners), "{corners}");
     let held = rows.iter().filter(|row| row.1 == Stage::Held).count();
-    // A thousand ticks less the 320 of the ramp from 40 % to 0.
+    // A thousand ticks minus the 320 of the ramp from 40 % to 0.
     assert!((679..=681).contains(&held), "{held}");
     assert_eq!(rows.last().unwrap().1, Stage::Done);
     // At 40 % in the first part, φ = 0.5 + s²: the speed of the plan times 0.4, its acceleration times 0.16.
@@ -114,14 +114,14 @@ fn an_override_is_a_motion() {
     assert!((alpha - 0.16 * 2.0).abs() < 1e-6, "{alpha}");
 }
 
-/// A plan that ends where it begins goes on without a pause; another is refused.
+/// A plan that ends where it begins repeats without a pause; any other is refused.
 #[test]
 fn a_closed_plan_is_repeated() {
     let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
     let words = image(&trapezoid(), Domain::Turn);
     let open = Follower::new(Plan::new(&words, &model).unwrap(), 0.001, 0.0, &model).unwrap();
     assert_eq!(open.repeating().map(|_| ()), Err(PlanError::Open));
-    // One turn a second, evenly.
+    // One turn per second at constant speed.
     let knot = |t, position| Knot {
         t,
         position,
@@ -152,7 +152,7 @@ fn a_closed_plan_is_repeated() {
     }
 }
 
-/// A plan that states its shortest ramp is followed with no shorter one; one for which the drive leaves none at any ramp, or is not known, with any.
+/// A plan with a shortest ramp refuses shorter ones; a plan whose shortest ramp is infinite or unknown accepts any.
 #[test]
 fn a_ramp_that_is_too_short_is_refused() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -181,8 +181,8 @@ fn a_ramp_that_is_too_short_is_refused() {
     assert!(with_ramp(&mut [1; 40], 0.1).is_err());
 }
 
-/// A ramp of minutes at ticks of microseconds, of which each changes the rate by less than a 2²⁵th, is neither faster nor slower than it is asked for: its speed, its acceleration
-/// and the way are those of the closed form.
+/// A ramp of minutes at ticks of microseconds, each of which changes the rate by less than 2⁻²⁵, takes the requested time: its speed, acceleration
+/// and distance are those of the closed form.
 #[test]
 fn a_long_ramp_takes_its_time() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -195,7 +195,7 @@ fn a_long_ramp_takes_its_time() {
     ] {
         let mut follower = Follower::new(plan, period, ramp, &model).unwrap();
         follower.start();
-        // The first tick takes the rate that is commanded.
+        // The first tick has the commanded rate.
         let first = follower.next(Rate::percent(1));
         let per_tick = f64::from(period) / f64::from(ramp);
         let began = first.motion.omega / 2.0;
@@ -205,7 +205,7 @@ fn a_long_ramp_takes_its_time() {
         for _ in 0..ticks {
             last = follower.next(Rate::FULL);
         }
-        // This tick's rate is that which the ticks before have reached.
+        // The rate of a tick is the one reached by the ticks before it.
         let changes = f64::from(ticks) - 1.0;
         let rate = began + changes * per_tick;
         let speed = last.motion.omega / 2.0;
@@ -218,7 +218,7 @@ fn a_long_ramp_takes_its_time() {
             (found_alpha - alpha).abs() < 2f64.powi(-22) * alpha,
             "{period}: {found_alpha} {alpha}"
         );
-        // One tick at the first rate, then the mean of both ends of each. The place in a row of 16 s is known to 32 s·2⁻³².
+        // One tick at the first rate, then the mean of both ends of each. The position in a row of 16 s is resolved to 32 s·2⁻³².
         let time = f64::from(period) * (began + changes * 0.5 * (began + rate));
         let place = Place {
             motion: last.motion,
@@ -233,8 +233,8 @@ fn a_long_ramp_takes_its_time() {
     }
 }
 
-/// The acceleration of a ramp, ω·dr/dt, to the last digit of the number type and the single precision of a factor: also of 16 bits at a short tick, where the speed that a tick
-/// gains is a small part of a digit of speeds.
+/// The acceleration of a ramp, ω·dr/dt, to the last digit of the number type and the single precision of a factor: also in 16 bits at a short tick,
+/// where the speed gained per tick is a small part of a digit.
 #[test]
 fn a_ramp_is_as_fine_as_its_numbers() {
     fn check<N: Number>(model: &impl MachineUnits<Number = N>, digit: f64) {
@@ -263,13 +263,13 @@ fn a_ramp_is_as_fine_as_its_numbers() {
                 worst = worst.max(error / (digit * base));
             }
         }
-        // No slack: a fifth of a digit would be too little.
+        // The bound is tight: a fifth of a digit would be exceeded.
         assert!(digit == 0.0 || worst > 0.2, "{worst}");
     }
     let scale = scale_of(100.0, 10.0, 0.5);
     check(&in_units::<Spline<f64>>(Domain::Turn, Scale::SI), 0.0);
     check(&in_units::<Spline<f32>>(Domain::Turn, Scale::SI), 0.0);
-    // A factor gives a whole number of four digits, rounded down; a Q15 is rounded down as well.
+    // A factor gives an integer of four digits, rounded down; so is a Q15.
     check(
         &in_units::<Spline<Q31>>(Domain::Turn, scale),
         10.0 * 2f64.powi(-31),

@@ -13,27 +13,27 @@ use crate::support::{scale_of, value};
 
 const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
-/// 8 N·m up to 6 rad/s, 4 at 12; 8 when it brakes.
+/// 8 N·m up to 6 rad/s, 4 at 12; 8 when braking.
 const POINTS: [[f32; 2]; 2] = [[6.0, 8.0], [12.0, 4.0]];
 const BRAKE: f32 = 8.0;
 
-/// Fast, but from half to three quarters of the turn.
+/// Fast, except from half to three quarters of the turn.
 fn limit(phase: Phase) -> f32 {
     if phase.to_bits() >> 30 == 2 { 3.0 } else { 9.0 }
 }
 
-/// What a tick of a governed machine did, in SI units.
+/// State of a governed machine in a tick, in SI units.
 struct Tick {
     phase: Phase,
     omega: f64,
     alpha: f64,
     torque: f64,
     by: Option<Limit>,
-    /// The greatest speed here.
+    /// Speed limit at this position.
     most: f64,
 }
 
-/// The motion of a governed machine that is to follow `commanded` rad/s (of the time), for so many seconds.
+/// The motion of a governed machine that follows `commanded` (rad/s, of the time) for this many seconds.
 fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) -> Vec<Tick> {
     let mut ticks = Vec::new();
     with_model::<F, SET>(scale, |model| {
@@ -114,7 +114,7 @@ fn kept<F: Format>(scale: Scale, error: f64) {
         }
     }
     assert!(seen[1] > 100 && seen[2] > 100, "{seen:?}");
-    // Both ways it comes round, again and again.
+    // It passes the turn repeatedly in both directions.
     for way in [1.0, -1.0] {
         let fast = ticks.iter().filter(|tick| tick.omega * way > 5.0).count();
         assert!(fast > 200, "{fast}");
@@ -134,14 +134,14 @@ fn the_governor_keeps_torque_and_speed() {
 #[test]
 fn the_governor_does_not_chatter() {
     let ticks = governed::<Cubic<f64>>(Scale::SI, 4.0, |_| 10.0);
-    // A command that switches between driving and braking would change by 15 rad/s² every tick; this one goes up and down a few times a turn.
+    // A command that switches between driving and braking would change by 15 rad/s² every tick; this one rises and falls a few times per turn.
     let changes = ticks
         .windows(2)
         .map(|pair| (pair[1].alpha - pair[0].alpha).abs());
     let passed: f64 = ticks.iter().map(|tick| tick.omega * f64::from(TICK)).sum();
     let [range, a_turn] = [25.0, changes.sum::<f64>() / (passed / TAU)];
     assert!(a_turn < 6.0 * range, "{a_turn}");
-    // Where the look-ahead binds, the machine is at the limit, and loses no time.
+    // Where the look-ahead is active, the machine is at the limit and loses no time.
     let bound: Vec<&Tick> = ticks
         .iter()
         .filter(|tick| tick.by == Some(Limit::Ahead))
@@ -184,10 +184,10 @@ fn what_cannot_be_kept_ahead_is_flagged_and_a_slow_machine_may_be_strong() {
             }
             (flagged, fastest_change)
         };
-        // The look-ahead counts on 8 N·m, the limits allow 2 rad/s² only: too fast into the slow part.
+        // The look-ahead assumes 8 N·m, the limits permit only 2 rad/s²: too fast into the slow part.
         assert!(run(8.0, 2.0, limit, 16_000).0 > 100);
         assert_eq!(run(8.0, 2.0, |_| 9.0, 16_000).0, 0);
-        // A slow machine with a strong drive starts with all that it has: 300 N·m less friction for J = 1.25.
+        // A slow machine with a strong drive starts with its full torque: 300 N·m minus friction for J = 1.25.
         let (_, alpha) = run(300.0, 1000.0, |_| 0.5, 10);
         assert!((alpha - 299.5 / 1.25).abs() < 0.5, "{alpha}");
     });
@@ -207,7 +207,7 @@ fn at_rest_the_torque_is_one_that_the_drive_has() {
         };
         let [forward, backward] = [Direction::Forward, Direction::Backward].map(made);
         let governor = Governor::both_ways(&forward, &backward).unwrap();
-        // The load pulls forward with 3, friction holds 0.5. A weak drive cannot hold it, one of 2.8 can with the help of friction.
+        // The load pulls forward with 3, friction holds 0.5. A weak drive cannot hold it; one of 2.8 can with the help of friction.
         for (peak, wanted, least) in [
             (1.0_f32, 0.0, 1.5),
             (2.8, 0.0, 0.0),
@@ -227,7 +227,7 @@ fn at_rest_the_torque_is_one_that_the_drive_has() {
                 held || torque.abs() < f64::from(peak) + 1e-4,
                 "{peak}: {torque}"
             );
-            // Held by friction: what is missing to balance the load is at most c.
+            // Held by friction: the torque missing for balance is at most c.
             assert!(
                 !held || torque.abs() < f64::from(peak) + 0.5,
                 "{peak}: {torque}"
@@ -252,7 +252,7 @@ fn a_commanded_speed_that_is_possible_is_reached() {
         last.iter()
             .all(|tick| tick.by.is_none() && (tick.omega - 2.0).abs() < 1e-6)
     );
-    // And rest is rest.
+    // At rest it stays at rest.
     let ticks = governed::<Spline<f32>>(Scale::SI, 3.0, |time| if time < 1.5 { 9.0 } else { 0.0 });
     let last = &ticks[ticks.len() - 1000..];
     assert!(
@@ -347,19 +347,19 @@ fn a_stroke_is_stopped_at_its_end() {
                     end_speed = end_speed.max(omega.abs());
                 }
             }
-            // It was fast, and at the end it came to rest instead of being stopped by it.
+            // It was fast, and at the end it came to rest by itself.
             let end = f64::from(motion.phase.to_bits()) / 4_294_967_296.0;
             let expected = if way > 0.0 { 1.0 } else { 0.0 };
             assert!(fastest > 2.0, "{fastest}");
             assert!((end - expected).abs() < 2e-3, "{way}: {end}");
             assert!(end_speed < 0.05, "{way}: {end_speed}");
-            // But for the rounding of a tick.
+            // Up to the rounding of a tick.
             assert!(value(motion.omega).abs() < 1e-8, "{way}: {motion:?}");
         }
     });
 }
 
-/// What friction opposes at rest is a speed, and one that the table was made for: not the acceleration's number taken for one.
+/// Friction at rest takes a speed within the table's validity, not the numerical value of the acceleration.
 #[test]
 fn a_start_from_rest_is_a_valid_motion() {
     fn starts<F: Format>(scale: Scale) {
@@ -409,8 +409,8 @@ fn a_start_from_rest_is_a_valid_motion() {
     starts::<Rows16>(scale_of(250.0, 11.5, 1.5));
 }
 
-/// Look-ahead and limits have the same deceleration, the drive more torque than it takes: the machine brakes from the top speed to nearly rest, and is never
-/// beyond what can be kept. At 64 ticks or more of braking.
+/// Look-ahead and limits have the same deceleration, and the drive has more torque than it takes: the machine brakes from the top speed to nearly
+/// rest within its limits, in 64 ticks or more.
 #[test]
 fn the_deceleration_of_the_limits_gives_no_false_alarm() {
     fn alarms<F: Format>(scale: Scale) {
@@ -481,7 +481,7 @@ fn the_deceleration_of_the_limits_gives_no_false_alarm() {
     alarms::<Cubic<Q31>>(scale_of(250.0, 11.5, 1.5));
 }
 
-/// A command that is none gets the nearest acceleration to 0 that is possible, and what binds is named.
+/// A command of NaN gives the possible acceleration nearest to 0, and the active limit is named.
 #[test]
 fn a_command_that_is_no_number_stays_within_what_is_possible() {
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
@@ -509,7 +509,7 @@ fn a_command_that_is_no_number_stays_within_what_is_possible() {
         assert!((governed.alpha - least).abs() < 1e-4, "{governed:?}");
         assert_eq!(governed.by, Some(Limit::Torque));
         assert_eq!(governed.unkept, Some(Limit::Speed));
-        // A strong one: no acceleration, nothing binds, and the command is said to be none.
+        // A strong drive: zero acceleration, no active limit, and the command is flagged as not kept.
         let envelope = Envelope::new([[12.0, 8.0]], 8.0, &model).unwrap();
         let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
         let governed = governor.govern(&limits, &model, &motion, f64::NAN);

@@ -1,4 +1,4 @@
-//! The shortest stop from a plan: its follower is left, and a governor brakes from the state that it had.
+//! The shortest stop from a plan: the governor takes over from the follower and brakes from its state.
 
 use core::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ const BRAKE: f32 = 8.0;
 /// Time in which a follower changes its rate by 100 % (s).
 const RAMP: f32 = 0.8;
 
-/// From rest to 6 rad/s in a second, and on for three.
+/// From rest to 6 rad/s in a second, then constant for three.
 fn knots() -> [Knot; 3] {
     let knot = |t, position, omega, before, after| Knot {
         t,
@@ -83,7 +83,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
                 assert!(ticks < 4000, "{at}");
             }
             assert!(way <= told * 1.02 + 0.01, "{}: {way} {told}", F::NAME);
-            // The follower's own ramp, which knows no torque, takes longer or asks for more than the drive has.
+            // The follower's own ramp, which ignores torque, takes longer or needs more torque than the drive has.
             let (mut slow, mut least) = (0.0, 0.0f64);
             for _ in 0..=(RAMP / TICK) as u32 {
                 let planned = follower.next(Rate::STILL).motion;
@@ -105,7 +105,7 @@ fn speed_of<F: Format>(scale: &Scale, number: F::Number) -> f64 {
     number.to_f64() * f64::from(scale.speed())
 }
 
-/// The torque stays one that the drive has, and the machine stops where `LookAhead::stop` said, or before.
+/// The torque stays within the drive's limits, and the machine stops no later than `LookAhead::stop` predicts.
 #[test]
 fn a_plan_is_left_for_the_shortest_stop() {
     stops::<Cubic<f64>>(Scale::SI, 1e-3);

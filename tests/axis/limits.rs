@@ -10,10 +10,10 @@ use super::machine::{in_units, si, with_model};
 use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
-/// A drive for the wave: 8 N·m up to 4 rad/s, 3 at 8 and nothing beyond; 6 when it brakes.
+/// A drive for the wave: 8 N·m up to 4 rad/s, 3 at 8 and nothing beyond; 6 when braking.
 const POINTS: [[f32; 2]; 3] = [[4.0, 8.0], [6.0, 7.0], [8.0, 3.0]];
 
-/// The same, written down once more.
+/// The same, as an independent formula.
 fn driving(omega: f64) -> f64 {
     match omega {
         w if w <= 4.0 => 8.0,
@@ -80,7 +80,7 @@ fn an_envelope_of_a_motor_is_that_of_the_drive_link() {
     let motor = [[40.0, 0.8], [60.0, 0.4]];
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
     let link = Envelope::of_motor(motor, 0.6, gearbox, &model).unwrap();
-    // At 5 rad/s the motor turns at 50 and drives with 0.6, of which 0.9 arrives.
+    // At 5 rad/s the motor turns at 50 and drives with 0.6, which gives 0.9 at the link.
     let found = link.torques(5.0);
     assert_near("driving", found[1], 0.6 * 10.0 * 0.9, 1e-6);
     assert_near("braking", found[0], -0.6 * 10.0, 1e-6);
@@ -123,7 +123,7 @@ fn envelopes_that_cannot_be_are_refused() {
     assert!(Envelope::new([], 5.0, &model).is_err());
     let model = in_units::<Spline<Q31>>(Domain::Turn, scale_of(4.0, 10.0, 1.0));
     assert!(Envelope::new([[5.0, 4.5]], 3.0, &model).is_err());
-    // A curve that goes on beyond the speed base ends there.
+    // A curve that continues above the speed base ends there.
     let beyond = Envelope::new([[5.0, 3.6], [15.0, 1.6]], 3.0, &model).unwrap();
     let [least, most] = beyond
         .torques(quantity(0.9))
@@ -140,7 +140,7 @@ fn envelopes_that_cannot_be_are_refused() {
     assert!(Envelope::new([[5.0, 3.5]], 3.0, &model).is_ok());
 }
 
-/// In every state: the torque of the accelerations, and which limit binds, against the equation of motion.
+/// In every state: the torque of the accelerations, and the active limit, against the equation of motion.
 fn feasible<F: Format>(scale: Scale, error: f64) {
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
@@ -179,14 +179,14 @@ fn feasible<F: Format>(scale: Scale, error: f64) {
                     Limit::Speed => (2, of_speed[k]),
                     other => panic!("{other:?}"),
                 };
-                // What is said to bind is what is kept; where nothing can be, the other end of what the torque can.
+                // The limit reported as active is met; if none can be met, the other end of the torque range.
                 assert!(
                     (alpha - from).abs() < error || found.unkept.is_some(),
                     "{bound:?}"
                 );
                 seen[by] += 1;
             }
-            // The speed is beyond what the acceleration brings back in a tick, or the torque does not suffice.
+            // The acceleration limit cannot correct the speed within a tick, or the torque is insufficient.
             let close = of_speed.map(|alpha| alpha.clamp(-7.5, 7.5));
             let conflict = close[1] < of_torque[0]
                 || close[0] > of_torque[1]
@@ -240,7 +240,7 @@ fn friction_holds_a_machine_at_rest() {
         for (phi, peak, expected) in [
             (0.0, 0.4, [0.0, 0.0]),
             (0.0, 1.5, [-1.0 / 1.25, 1.0 / 1.25]),
-            // The load is stronger than friction and drive: the machine starts, and the drive can only hold back.
+            // The load exceeds friction and drive: the machine starts, and the drive can only hold back.
             (quarter, 1.0, [3.0 - 0.5 - 1.0, 3.0 - 0.5 + 1.0]),
             (quarter, 2.8, [0.0, 3.0 - 0.5 + 2.8]),
             (quarter, 4.0, [3.0 + 0.5 - 4.0, 3.0 - 0.5 + 4.0]),
@@ -290,16 +290,16 @@ fn what_is_lost_is_named() {
                 .feasible(&model, Phase::from_bits(phase), omega)
                 .unkept
         };
-        // Too fast: the brake takes 5.7 rad/s² off, 7.5 are allowed, and 20 are needed.
+        // Too fast: the brake reduces it by 5.7 rad/s², 7.5 are permitted, and 20 are needed.
         assert_eq!(unkept(6.0, 5.5, 7.5, 0, 6.5), Some(Limit::Speed));
         assert_eq!(unkept(6.0, 5.5, 75.0, 0, 6.5), Some(Limit::Speed));
-        // The load accelerates the machine with 1.5 rad/s² against the brake, 1 is allowed.
+        // The load accelerates the machine with 1.5 rad/s² against the brake; 1 is permitted.
         assert_eq!(
             unkept(1.0, 5.5, 1.0, 1 << 30, 0.0),
             Some(Limit::Acceleration)
         );
         assert_eq!(unkept(1.0, 5.5, 2.0, 1 << 30, 0.0), None);
-        // Beyond the last point of the torque curve there is no torque: the greatest speed is not beyond it.
+        // Beyond the last point of the torque curve there is no torque: the largest speed is not above it.
         assert_eq!(unkept(6.0, 20.0, 75.0, 0, 8.9), None);
         assert_eq!(unkept(6.0, 20.0, 75.0, 0, 9.5), Some(Limit::Speed));
     });

@@ -14,12 +14,12 @@ pub(super) const BRAKING: Braking = Braking {
     deceleration: f32::INFINITY,
     helped: true,
 };
-/// The wave, with nothing that a look-ahead leaves out.
+/// The wave without the terms that a look-ahead neglects.
 pub(super) const INVISCID: Wave = Wave {
     viscous: 0.0,
     ..WAVE
 };
-/// Fast, but from half to three quarters of the turn.
+/// Fast, except from half to three quarters of the turn.
 pub(super) const FAST: f32 = 10.0;
 const SLOW: f32 = 3.0;
 
@@ -49,7 +49,7 @@ pub(super) fn with_ahead<F: Format, const NODES: usize>(
     });
 }
 
-/// Steps of Runge and Kutta of f(φ, x) from `at` on.
+/// Runge-Kutta steps of f(φ, x) from `at` on.
 fn stepped(mut x: f64, at: f64, step: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
     let k1 = f(at, x);
     let k2 = f(at + step / 2.0, x + step / 2.0 * k1);
@@ -67,8 +67,8 @@ fn braked(phi: f64, square: f64) -> f64 {
 
 #[test]
 fn the_limit_is_what_the_brake_can_do() {
-    // From the slow part backwards in small steps: no speed from which the exact machine can be slowed down in time is higher. The machine
-    // is slow an interval before.
+    // Backwards from the slow part in small steps: the exact machine cannot slow down in time from any higher speed. The machine is slow an interval
+    // earlier.
     let steps = 100_000;
     let check = |direction, nodes: u32, speed_at: &dyn Fn(Phase) -> f32, slack: f64| {
         let start = TAU / 2.0 - TAU / f64::from(nodes);
@@ -84,7 +84,7 @@ fn the_limit_is_what_the_brake_can_do() {
             let exact = ideal[((phi - start) / step).round() as usize]
                 .sqrt()
                 .min(FAST.into());
-            // The wave is its own mirror image.
+            // The wave is symmetric.
             let found = match direction {
                 Direction::Forward => speed_at(phase),
                 Direction::Backward => speed_at(Phase::from_bits(!phase.to_bits())),
@@ -115,7 +115,7 @@ fn the_limit_is_what_the_brake_can_do() {
         with_ahead::<Cubic<f64>, 64>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
             check(direction, 64, &|phase| ahead.speed_at(phase, FAST), 0.01);
         });
-        // Four times as many nodes: a quarter of what is left, or less.
+        // Four times as many nodes: at most a quarter of the difference.
         with_ahead::<Cubic<f64>, 256>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
             check(
                 direction,
@@ -181,7 +181,7 @@ fn a_deceleration_is_kept() {
         ..BRAKING
     };
     with_ahead::<Cubic<f64>, 64>(Scale::SI, Direction::Forward, braking, limit, |_, ahead| {
-        // From an interval before half a turn backwards a straight line in the square: of the deceleration, less what a tick of 0.5 ms needs.
+        // Backwards from an interval before half a turn, linear in the square: the deceleration minus the margin for a tick of 0.5 ms.
         let slope = 2.0 * 2.0 * (1.0 - 2.0 * 2.0 * 0.000_5 / f64::from(FAST));
         for k in 16..31_u32 {
             let phi = f64::from(k) / 64.0 * TAU;
@@ -194,8 +194,8 @@ fn a_deceleration_is_kept() {
 
 #[test]
 fn a_weak_brake_keeps_what_is_possible_on_a_turn() {
-    // J from 0.32 at half a turn to 1.68 at its start. To have ω ≤ 10 all the way, the energy at the start must be less than ½·J·10² anywhere, and the brake's work up to
-    // there.
+    // J from 0.32 at half a turn to 1.68 at its start. For ω ≤ 10 throughout, the energy at the start must not exceed ½·J·10² plus the brake's work
+    // up to there, at any position.
     let wave = Wave {
         swing: 0.68,
         load: 0.0,
@@ -210,7 +210,7 @@ fn a_weak_brake_keeps_what_is_possible_on_a_turn() {
                 let ahead =
                     LookAhead::<f64, 64>::new(&model, direction, braking, |_| FAST, &period)
                         .unwrap();
-                // The place ahead that leaves the least: with a weak brake, half a turn away.
+                // The limiting position ahead: with a weak brake, half a turn away.
                 let least = (0..10_000)
                     .map(|k| TAU / 10_000.0 * f64::from(k))
                     .map(|phi| (1.0 + 0.68 * phi.cos()) * 100.0 + 2.0 * phi * f64::from(torque))
@@ -243,7 +243,7 @@ fn a_stroke_ends_at_rest() {
         let both = [Direction::Forward, Direction::Backward].map(|direction| {
             LookAhead::<f64, 65>::new(&model, direction, BRAKING, |_| 4.0, &period).unwrap()
         });
-        // α = −8: ω² = 16 until a metre before the end, then a straight line to 0.
+        // α = −8: ω² = 16 until a metre before the end, then linear to 0.
         for k in 0..=64 {
             let share = f64::from(k) / 64.0;
             let phase = Phase::from_bits((share * 4_294_967_296.0) as u32);
@@ -331,7 +331,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
         for limit in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e30, 1e-30, 200.0] {
             assert!(made(BRAKING, limit).is_err(), "{limit}");
         }
-        // At this speed an interval takes longer than a tick can count.
+        // At this speed an interval takes longer than ticks can be counted.
         let slow = Period::new(0.000_1, &model).unwrap();
         let crawl = LookAhead::<f32, 4>::new(&model, Direction::Forward, BRAKING, |_| 0.001, &slow);
         assert!(
@@ -341,7 +341,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
         let few = LookAhead::<f32, 3>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
         assert!(few.is_err());
     });
-    // J from 0.1 to 1.9 in half a turn: four nodes do not follow it.
+    // J from 0.1 to 1.9 in half a turn: four nodes do not resolve it.
     let uneven = Wave {
         swing: 0.9,
         ..INVISCID
@@ -353,7 +353,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
         let of = LookAhead::<f32, 64>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
         assert!(of.is_ok());
     });
-    // A speed beyond its base.
+    // A speed above its base.
     with_model_of::<Cubic<Q31>, SET>(&INVISCID, scale_of(250.0, 12.0, 1.5), |model| {
         let period = Period::new(0.000_5, &model).unwrap();
         let of = |limit: f32| {

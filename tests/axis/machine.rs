@@ -1,4 +1,4 @@
-//! A machine whose curves can be written down, as a model in any format.
+//! A machine with curves in closed form, as a model in any format.
 
 use jred::number::Number;
 use jred::table::{Format, MAX_CELLS};
@@ -40,13 +40,13 @@ pub(crate) fn with_model_of<F: Format, const SET: Set>(
     with(Model::new(rows.table()).unwrap());
 }
 
-/// A model with this range and these machine units, of a machine whose inertia does not vary: for what needs no more of it.
+/// A model with this range and these machine units, of a machine with constant inertia.
 pub(crate) fn in_units<F: Format>(
     domain: Domain,
     scale: Scale,
 ) -> Model<'static, F, { curves::INERTIA }> {
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
-    // Where the velocity torque must be a whole multiple of the slope a cell, so many cells that it is.
+    // If the velocity torque must be an integer multiple of the slope per cell: the number of cells that makes it one.
     let a_cell = 0.5 / domain.span() * inertia * speed * speed / torque;
     let is_whole = |cells: &u32| {
         let factor = a_cell * f64::from(*cells);

@@ -1,4 +1,4 @@
-//! What an error of the axis says: quantity, value, limit, cure.
+//! Messages of the axis's errors: quantity, value, limit, cure.
 
 use core::fmt::Display;
 
@@ -131,7 +131,7 @@ fn what_lies_ahead_says_how_many_nodes_and_which_speed() {
     );
 }
 
-/// Figures of any size are written with integers.
+/// Numbers of any magnitude are formatted with integers.
 #[test]
 fn figures_of_any_size_are_shown() {
     let shown = |value: f32| {

@@ -55,7 +55,7 @@ fn the_middle_of_a_tick_is_one_order_better() {
                 [middle, start].map(|motion| driven(torque(motion), [phi, from], time)[1] - to)
             };
             let [coarse, fine] = [missed(0.02), missed(0.01)];
-            // Order two of the start: a quarter. Order three of the middle: an eighth, where it is not zero by chance.
+            // Second order at the start: a quarter. Third order in the middle: an eighth, unless it is zero by chance.
             assert!(
                 coarse[0].abs() < 0.2 * coarse[1].abs() + 2e-4,
                 "{phi}: {coarse:?}"
@@ -68,7 +68,7 @@ fn the_middle_of_a_tick_is_one_order_better() {
     });
 }
 
-/// The middle of a period: the mean of the speeds, half of the way, the change of the speed over the time, in every number type.
+/// The middle of a period: mean of the speeds, half of the distance, change of speed over time, in every number type.
 #[test]
 fn the_middle_of_a_tick_is_the_mean() {
     let scale = scale_of(150.0, 10.0, 1.5);
@@ -111,7 +111,7 @@ fn the_middle_of_a_tick_is_the_mean() {
         let speeds = [from, to].map(|omega| si::<Q31>(&scale, [omega, 0.0]).0);
         let middle = long.between(Phase::default(), speeds[0], speeds[1]).value;
         let found = [value(middle.omega) * 10.0, value(middle.alpha) * 100.0];
-        // Single precision makes the speeds.
+        // The speeds have single precision.
         check("q31", middle.phase, found, 1e-7);
         let speeds = [from, to].map(|omega| si::<Q15>(&scale, [omega, 0.0]).0);
         let middle = short.between(Phase::default(), speeds[0], speeds[1]).value;
@@ -197,10 +197,10 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
             })
             .saturated
     );
-    // A quarter of a turn a period at the speed base is the most.
+    // At most a quarter of a turn per period at the speed base.
     assert!(Period::new(0.25 * TAU as f32 / 30.0 * 1.01, &model).is_err());
     assert!(Period::new(0.25 * TAU as f32 / 30.0 * 0.99, &model).is_ok());
-    // Up to half a turn, in floating point too.
+    // Up to half a turn, also in floating point.
     let lead = Period::new(0.006, &in_units::<Spline<f64>>(Domain::Turn, Scale::SI)).unwrap();
     let ahead = lead.later(Motion {
         phase: Phase::default(),
@@ -244,7 +244,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     }
 }
 
-/// Rounded down, a motion would fall by a unit in each tick in which it should hardly change.
+/// Rounded down, a motion would drop by a unit in each tick with almost no change.
 #[test]
 fn a_short_motion_gains_alike_both_ways() {
     let scale = scale_of(150.0, 10.0, 1.5);

@@ -19,16 +19,16 @@ use crate::support::images::VALIDITY;
 const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 type Press<'a> = Model<'a, Spline<f32>, SET>;
 
-/// What a function makes of a number that is none.
+/// Result of a function for NaN or infinity.
 #[derive(Debug, PartialEq)]
 enum Becomes {
     /// An error.
     Refused,
-    /// A flag, and numbers that are finite.
+    /// A flag, and finite numbers.
     Flagged,
-    /// A finite number or an end, as the documentation says; what follows has a flag of its own for the input.
+    /// A finite number or a limit, as documented; the next step flags the input.
     Finite,
-    /// NaN, or infinity, as it came: the status of what follows finds it.
+    /// NaN or infinity unchanged: the status of the next step detects it.
     Carried,
 }
 use Becomes::{Carried, Finite, Flagged, Refused};
@@ -97,7 +97,7 @@ fn governed(model: &Press<'_>, motion: Motion<f32>, commanded: f32) -> Becomes {
         (least..=greatest).contains(&governed.alpha),
         "{governed:?} {range:?}"
     );
-    // What is no finite number binds a limit, or is said to be none.
+    // A value that is not finite either makes a limit active or is flagged.
     flagged(
         governed.unkept.is_some() || governed.by.is_some(),
         &[governed.alpha],
@@ -172,7 +172,7 @@ fn status(omega: f32, alpha: f32) -> Becomes {
     flagged(!range.status(omega, alpha).is_valid(), &[])
 }
 
-/// A range that is not wider than what is known.
+/// A range no wider than the known one.
 fn ranged(omega: f32, alpha: f32) -> Becomes {
     let validity = Validity {
         omega,
@@ -184,7 +184,7 @@ fn ranged(omega: f32, alpha: f32) -> Becomes {
     carried(&[range.omega(), range.alpha()])
 }
 
-/// Each function with NaN in one of its arguments, or in all; what infinity becomes is what NaN does, or a limit.
+/// Each function with NaN in one of its arguments, or in all; infinity has the same result as NaN, or acts as a limit.
 const CASES: &[Case] = &[
     ("MotionRange::new", Finite, |_, x| ranged(x, 1.0)),
     ("MotionRange::new", Finite, |_, x| ranged(1.0, x)),
@@ -247,7 +247,7 @@ const CASES: &[Case] = &[
         measured(m, 1.0, motion(1.0, 1.0), Sliding::Against(x))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        // The ramp drops what the status finds in the set-point.
+        // The ramp drops the value that the status detects in the set-point.
         let ramp = Ramp::new(0.5, m).unwrap();
         measured(m, 1.0, motion(x, 1.0), ramp.at(x))
     }),
@@ -259,7 +259,7 @@ const CASES: &[Case] = &[
         }
     }),
     ("TorqueLimits::new", Refused, |_, x| {
-        // An infinite limit is none.
+        // An infinite limit means no limit.
         if x.is_nan() {
             refused(TorqueLimits::new(x, 1.0)).max(refused(TorqueLimits::new(-1.0, x)))
         } else {
@@ -439,7 +439,7 @@ const CASES: &[Case] = &[
         refused(made(m, x, 40.0, 9.0)).max(refused(made(m, 8.0, 40.0, x)))
     }),
     ("LookAhead::new", Refused, |m, x| {
-        // An infinite deceleration is one that only the torque limits.
+        // An infinite deceleration means that only the torque limits it.
         if x == f32::INFINITY {
             Refused
         } else {
@@ -463,7 +463,7 @@ const CASES: &[Case] = &[
     }),
     ("Follower::new", Refused, |m, x| followed(m, x, 0.1)),
     ("Follower::new", Refused, |m, x| followed(m, 0.001, x)),
-    // An infinite ramp has a meaning: none keeps the torque.
+    // An infinite ramp has a meaning: no ramp satisfies the torque limit.
     ("with_ramp", Refused, |_, x| {
         let end = Knot {
             t: 1.0,
@@ -516,7 +516,7 @@ const CASES: &[Case] = &[
 ];
 
 impl Becomes {
-    /// What is not refused counts.
+    /// The first result other than `Refused` counts.
     fn max(self, other: Self) -> Self {
         if self == Refused { other } else { self }
     }
@@ -533,10 +533,10 @@ fn no_function_takes_what_is_no_number_in_silence() {
     });
 }
 
-/// The functions of the axis are here, or take no number of floating point.
+/// Every function of the axis is listed above, or takes no floating-point number.
 #[test]
 fn every_function_of_the_axis_is_tried() {
-    // Bytes, counts, phases, and what was made of them.
+    // Bytes, counts, phases, and values made from them.
     const WITHOUT: &[&str] = &[
         "Status::is_valid",
         "MotionRange::omega",

@@ -1,4 +1,4 @@
-//! A plan against the motion that it was made of.
+//! A plan against the motion from which it was made.
 
 use core::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ pub(super) fn image(knots: &[Knot], domain: Domain) -> Vec<u32> {
     words
 }
 
-/// Hermite's basis of the fifth degree: values at s of the functions that belong to position, speed and acceleration at both ends, or of a derivative.
+/// Quintic Hermite basis at s: the functions for position, speed and acceleration at both ends, or a derivative of them.
 fn basis(s: f64, derivative: u32) -> [f64; 6] {
     let polynomials: [[f64; 6]; 6] = [
         [1.0, 0.0, 0.0, -10.0, 15.0, -6.0],
@@ -45,7 +45,7 @@ fn basis(s: f64, derivative: u32) -> [f64; 6] {
     })
 }
 
-/// What Hermite's basis is weighed with over the time h between two knots.
+/// Weights of the Hermite basis over the time h between two knots.
 fn ends(a: &Knot, b: &Knot, h: f64) -> [f64; 6] {
     [
         a.position,
@@ -92,7 +92,7 @@ pub(super) fn found<N: Number>(
 /// Times of knots are multiples of 2⁻²⁴ s, and so of the units of a plan of up to 64 s.
 const GRID: f64 = 16_777_216.0;
 
-/// Any knots: some 0.1 ms to a second apart, over many turns, with jumps of the acceleration at each.
+/// Random knots, 0.1 ms to a second apart, over many turns, with a jump of the acceleration at each.
 fn any_knots() -> impl Strategy<Value = Vec<Knot>> {
     let step = (
         -4.0..0.0,
@@ -112,7 +112,7 @@ fn any_knots() -> impl Strategy<Value = Vec<Knot>> {
                 (10f64.powf(length) * GRID).ceil() / GRID
             };
             t += length;
-            // Consistent with the speeds to some degree, as a motion is.
+            // Roughly consistent with the speeds, as a motion is.
             position += if k == 0 {
                 start
             } else {
@@ -130,8 +130,8 @@ fn any_knots() -> impl Strategy<Value = Vec<Knot>> {
     })
 }
 
-/// The sum of the terms of the acceleration of a row at the end of its window, the power of two of seconds that is longer than it; and as a speed and a way over
-/// the window.
+/// The sum of a row's acceleration terms at the end of its window (the next power of two of its duration in seconds); and the same as a speed and a
+/// distance over the window.
 fn terms(a: &Knot, b: &Knot) -> [f64; 3] {
     let h = b.t - a.t;
     let window = 2f64.powf(h.log2().floor() + 1.0);
@@ -152,7 +152,7 @@ fn terms(a: &Knot, b: &Knot) -> [f64; 3] {
     [way / (window * window), way / window, way]
 }
 
-/// The polynomials of the rows are those through the knots, to 2⁻²⁶ of the sums of their terms, and what rounding of positions to 2⁻³² of the range is in them.
+/// The rows' polynomials are those through the knots, to 2⁻²⁶ of the sums of their terms, plus the effect of rounding positions to 2⁻³² of the range.
 #[test]
 fn a_plan_follows_its_polynomials() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -190,13 +190,13 @@ fn a_plan_follows_its_polynomials() {
             }
         }
     }
-    // No slack: a fifth would be too little.
+    // The bound is tight: a fifth would be exceeded.
     for (j, worst) in worst.into_iter().enumerate() {
         assert!(worst > 0.2, "{j}: {worst}");
     }
 }
 
-/// From rest to rest by a trapezoid of the speed: 1 s of 2 rad/s², 3 s of 2 rad/s, 0.5 s of −4 rad/s², then a second of rest.
+/// From rest to rest with a trapezoidal speed: 1 s of 2 rad/s², 3 s of 2 rad/s, 0.5 s of −4 rad/s², then a second of rest.
 pub(super) fn trapezoid() -> [Knot; 5] {
     let knot = |t, position, omega, before, after| Knot {
         t,
@@ -226,7 +226,7 @@ pub(super) fn exact(t: f64) -> [f64; 3] {
     }
 }
 
-/// Every number type, up to its own rounding; corners of the acceleration where they are, behind the end rest.
+/// Every number type, up to its own rounding; corners of the acceleration in place, rest after the end.
 #[test]
 fn corners_of_the_acceleration_are_kept() {
     fn check<N: Number>(model: &impl MachineUnits<Number = N>, unit: f64) {
@@ -259,7 +259,7 @@ fn corners_of_the_acceleration_are_kept() {
                 "{t}: {alpha} {a}"
             );
         }
-        // Behind its end it is where it ends.
+        // After its end it stays at the end.
         assert_eq!(plan.at(u64::MAX), plan.at(plan.end()));
     }
     let scale = scale_of(100.0, 10.0, 10.0);
@@ -269,7 +269,7 @@ fn corners_of_the_acceleration_are_kept() {
     check(&in_units::<Rows16>(Domain::Turn, scale), 3.1e-5);
 }
 
-/// On a stroke positions are those of the stroke, also where a rounding would leave it.
+/// On a stroke positions stay within the stroke, even where rounding would exceed it.
 #[test]
 fn a_stroke_is_not_left() {
     let domain = Domain::stroke(0.1, 0.6).unwrap();
@@ -297,14 +297,14 @@ fn a_stroke_is_not_left() {
         before = phase;
     }
     assert_eq!(before, u32::MAX);
-    // Another stroke is another machine; so is a turn.
+    // A model with another stroke is another machine; so is one with a turn.
     for other in [Domain::stroke(0.1, 0.5).unwrap(), Domain::Turn] {
         let model = in_units::<Spline<f32>>(other, Scale::SI);
         assert_eq!(Plan::new(&words, &model), Err(PlanError::Range));
     }
 }
 
-/// At 2 rad/s for so many seconds.
+/// A plan at 2 rad/s for this many seconds.
 pub(super) fn evenly(length: f64) -> Vec<u32> {
     let knot = |t| Knot {
         t,
@@ -315,7 +315,7 @@ pub(super) fn evenly(length: f64) -> Vec<u32> {
     image(&[knot(0.0), knot(length)], Domain::Turn)
 }
 
-/// A row at constant speed is one row however long it is, and as exact as its time is known: to 2⁻³² of the window.
+/// A stretch of constant speed is one row of any length, as exact as its time: to 2⁻³² of the window.
 #[test]
 fn a_long_row_is_exact() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -338,7 +338,7 @@ fn a_long_row_is_exact() {
     }
 }
 
-/// The greatest speed and acceleration of the header are those of the polynomials: not less than any of 10,000 places of each row, and as much as one of them.
+/// The greatest speed and acceleration in the header are those of the polynomials: at least the largest of 10,000 samples of each row, and no more.
 #[test]
 fn the_greatest_rates_are_those_of_the_polynomials() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
@@ -346,7 +346,7 @@ fn the_greatest_rates_are_those_of_the_polynomials() {
         let words = image(knots, Domain::Turn);
         let most = Plan::new(&words, &model).unwrap().most().map(f64::from);
         let mut sampled = [0.0_f64; 2];
-        // The shortest row tells of the rounding of positions by half a unit at both ends.
+        // In the shortest row the rounding of positions by half a unit at both ends is largest.
         let mut rounded = [0.0_f64; 2];
         for pair in knots.windows(2) {
             let h = pair[1].t - pair[0].t;
@@ -374,7 +374,7 @@ fn the_greatest_rates_are_those_of_the_polynomials() {
     for knots in samples(20, 0xff62, &any_knots()) {
         check(&knots);
     }
-    // From rest to rest by the polynomial 3-4-5: 15/8 of the mean speed, 10/√3 of the way over the time squared.
+    // From rest to rest by the polynomial 3-4-5: 15/8 of the mean speed, 10/√3 of the distance over the time squared.
     let knot = |t, position| Knot {
         t,
         position,
@@ -383,6 +383,6 @@ fn the_greatest_rates_are_those_of_the_polynomials() {
     let [speed, acceleration] = check(&[knot(0.0, 0.0), knot(1.0, 1.0)]);
     assert!((speed / 1.875 - 1.0).abs() < 1e-7, "{speed}");
     assert!((acceleration * 3f64.sqrt() / 10.0 - 1.0).abs() < 1e-7);
-    // At constant jerk, where the derivative of the acceleration has no roots, or at constant acceleration, none that are finite.
+    // With constant jerk the derivative of the acceleration has no roots; with constant acceleration it has none that are finite.
     check(&trapezoid());
 }

@@ -1,4 +1,4 @@
-//! Images that are no plan, and knots that make none.
+//! Images and knots that do not give a plan.
 
 use jred::axis::Plan;
 use jred::axis::plan::{Errors, HEADER_WORDS, Knot, PlanError, VERSION, encode, image_len};
@@ -39,7 +39,7 @@ fn every_flipped_bit_of_a_plan_is_refused() {
     }
 }
 
-/// With a CRC that fits: what is wrong is said, and nothing panics.
+/// With a correct CRC: the fault is reported, and nothing panics.
 #[test]
 fn a_plan_that_is_not_sound_is_refused() {
     let words = image(&trapezoid(), Domain::Turn);
@@ -152,13 +152,13 @@ fn on_a_stroke(knots: &[(f64, f64, f64, f64)]) -> Result<Vec<u32>, PlanError> {
     encode(&knots, domain, 0, Errors::default(), &mut words).map(<[u32]>::to_vec)
 }
 
-/// A knot beyond an end, or a polynomial that is beyond it between two knots: refused, if by more than the rounding of its coefficients;
-/// one that turns at the end is not.
+/// A knot beyond an end, or a polynomial beyond it between two knots, is refused if it exceeds the rounding of its coefficients; one that reverses at
+/// the end is not.
 #[test]
 fn a_row_that_leaves_the_stroke_is_refused() {
     let outside = on_a_stroke(&[(0.0, 0.1, 0.0, 0.0), (2.0, 0.6001, 0.0, 0.0)]);
     assert_eq!(outside, Err(PlanError::Number(1)));
-    // Up to the end with 1 m/s and down again: x = 0.6 − (t − 1)²/2.
+    // Up to the end with 1 m/s and back: x = 0.6 − (t − 1)²/2.
     for (length, end) in [(2.0, 0.1), (1.7, 0.355)] {
         let turning = |more: f64| {
             let knot = |t: f64, position| (t, position + more, 1.0 - t, -1.0);
@@ -168,7 +168,7 @@ fn a_row_that_leaves_the_stroke_is_refused() {
         assert!(turning(0.0).is_ok());
         assert_eq!(turning(2.5e-7), Err(PlanError::Stroke(0)));
     }
-    // And of an image: K·u³·(½ − u)² on top of a row that takes half of its window changes nothing at its ends.
+    // The same for an image: K·u³·(½ − u)² added to a row of half its window changes nothing at its ends.
     let words = on_a_stroke(&[(0.0, 0.59, 0.0, 0.0), (1.0, 0.6, 0.0, 0.0)]).unwrap();
     let domain = Domain::stroke(0.1, 0.6).unwrap();
     let model = in_units::<Spline<f32>>(domain, Scale::SI);
@@ -186,7 +186,7 @@ fn a_row_that_leaves_the_stroke_is_refused() {
     }
 }
 
-/// Two knots anywhere on a stroke, with any speeds and accelerations: what is written stays on it, what is refused does not. Looked at in Hermite's polynomial itself.
+/// Random knots on a stroke, with any speeds and accelerations: accepted plans stay on it, refused ones do not, by the Hermite polynomial itself.
 #[test]
 fn the_stroke_is_kept_between_the_knots() {
     let end = || (0.1..0.6, -1.0..1.0, -3.0..3.0);
@@ -213,7 +213,7 @@ fn the_stroke_is_kept_between_the_knots() {
             Err(error) => {
                 counts[1] += 1;
                 assert_eq!(error, PlanError::Stroke(0));
-                // Between two of the looks it may be beyond: by an eighth of some 20 m/s² times 1.5 ms squared.
+                // Between two samples it may exceed the stroke: by an eighth of some 20 m/s² times 1.5 ms squared.
                 assert!(beyond > -1e-5, "{from:?} {to:?} {beyond}");
             }
         }

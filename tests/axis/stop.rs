@@ -10,10 +10,10 @@ use super::machine::{si, with_model_of};
 use crate::support::machines::Wave;
 use crate::support::{assert_near, samples, scale_of, value};
 
-/// Angle until the exact machine rests under the brake.
+/// Angle until the exact machine stops under the brake.
 fn stopped(phi: f64, omega: f64, load: f64, coulomb: f64, viscous: f64) -> f64 {
     let steps = 20_000;
-    // In time, because friction of the speed has no integral of the angle.
+    // In time, because speed-dependent friction has no integral over the angle.
     let step = omega.abs() / 2.0 / f64::from(steps);
     let alpha = |phi: f64, omega: f64| {
         let drag =
@@ -25,7 +25,7 @@ fn stopped(phi: f64, omega: f64, load: f64, coulomb: f64, viscous: f64) -> f64 {
         let mid = omega + step / 2.0 * alpha(at, omega);
         let after = omega + step * alpha(at + step / 2.0 * omega, mid);
         if after <= 0.0 {
-            // The rest of the way at constant deceleration.
+            // The remainder at constant deceleration.
             return at - phi + omega * omega / (2.0 * -alpha(at, omega));
         }
         at += step * mid;
@@ -63,7 +63,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
                     // Viscous friction only helps; without the help of load and friction it takes longer.
                     assert!(stopped(phi, omega, 3.0, 0.5, 0.1) <= exact);
                 }
-                // At rest it is where it is.
+                // At rest the stopping position is the current one.
                 for bits in [0, 1, 0x1234_5678, u32::MAX - 1] {
                     let found = ahead.stop(Phase::from_bits(bits), Default::default());
                     let off = found.phase.to_bits().wrapping_sub(bits).cast_signed();
@@ -99,7 +99,7 @@ fn a_weak_brake_takes_turns_and_help_is_not_counted() {
         weak,
         |_| 30.0,
         |_, ahead| {
-            // The load drives in the first half of the turn: 6 N·m·rad of 3.5·2π a turn. From the dead centre, where J is 1.25.
+            // The load drives in the first half of the turn: 6 N·m·rad of 3.5·2π per turn. From the dead centre, where J is 1.25.
             let a_turn = 3.5 * TAU - 6.0;
             for n in [1, 3, 20] {
                 let energy = f64::from(n) * a_turn;
@@ -153,7 +153,8 @@ fn it_does_not_stop_later_where_brake_and_inertia_change() {
             let said = f64::from(found.turns)
                 + f64::from(found.phase.to_bits().wrapping_sub(bits)) / 4_294_967_296.0;
             let late = low - said * TAU;
-            // An eighth of an interval at each end, times the share by which the braking torque changes in the interval; the chords' own curvature is less.
+            // An eighth of an interval at each end, times the relative change of the braking torque in the interval; the curvature of the chords is
+            // smaller.
             let step = TAU / 64.0;
             let bound: f64 = [phi, phi + low]
                 .iter()
@@ -163,7 +164,7 @@ fn it_does_not_stop_later_where_brake_and_inertia_change() {
                 late < bound + 1e-4,
                 "from {phi} at {omega}: {late} later, {bound}"
             );
-            // Nor much too early: what J bulges between two nodes, half of a percent, and the same again.
+            // Nor much too early: the bulge of J between two nodes, half a per cent, twice.
             assert!(
                 late > -0.02 * (1.0 + low) - bound,
                 "from {phi} at {omega}: {late}"

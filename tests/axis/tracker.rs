@@ -33,7 +33,7 @@ fn acceleration(tracked: Tracked) -> f64 {
 fn a_constant_acceleration_is_followed_without_a_lag() {
     for memory in [0.0, 0.5, 0.9, 0.99] {
         for (omega, alpha) in [(0.7, 0.3), (-0.95, 0.5), (0.95, -0.9), (0.0, 0.0)] {
-            // What the filter still follows from rest.
+            // Residual of the filter's transient from rest.
             let rest = 1.0 - f64::from(memory);
             let most = (1.3 * rest).min(1.0 / 6.0);
             let (omega, alpha) = (omega * most, alpha * 1e-3 * rest * rest);
@@ -46,7 +46,7 @@ fn a_constant_acceleration_is_followed_without_a_lag() {
             let k = f64::from(periods);
             let phase = f64::from(last.phase.to_bits()) * UNIT;
             let off = (phase - turns(k) + 0.5).rem_euclid(1.0) - 0.5;
-            // The phases are floored to a unit; without memory three of them make the acceleration.
+            // Phases are floored to a unit; without memory three of them give the acceleration.
             assert!(off.abs() < 3.0 * UNIT, "{memory} {omega}: phase {off:e}");
             assert_near("speed", speed(last), omega + alpha * k, 4.0 * UNIT);
             assert_near("acceleration", acceleration(last), alpha, 5.0 * UNIT);
@@ -71,7 +71,7 @@ fn the_filter_settles_and_smooths_as_stated() {
         }
         assert!(at[0] > 0.01 && at[1] < 0.01, "{memory}: {at:?}");
 
-        // White noise of a quantisation, against the closed forms of Morrison (1969), chapter 13.
+        // White quantisation noise, against the closed forms of Morrison (1969), chapter 13.
         let per = (1.0 + theta).powi(5);
         let of_speed = rest.powi(3) / per * (49.0 + 50.0 * theta + 13.0 * theta * theta) / 2.0;
         let of_acceleration = 6.0 * rest.powi(5) / per;
@@ -84,7 +84,7 @@ fn the_filter_settles_and_smooths_as_stated() {
             let turn = (0.5 + noise * count) / UNIT;
             let last = tracker.update(Phase::from_bits(turn as u32));
             if k > 1000 {
-                // That of the next period: the closed form is of the prediction.
+                // At the next period: the closed form is for the prediction.
                 sums[0] += (speed(last) + acceleration(last)).powi(2);
                 sums[1] += acceleration(last).powi(2);
                 number += 1.0;
@@ -102,7 +102,7 @@ fn the_filter_settles_and_smooths_as_stated() {
     }
 }
 
-/// Speed, acceleration, and the counts of that speed, by a period.
+/// Speed, acceleration, and counts of that speed, per period.
 fn found<F: Format>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
     let rates = Period::new(period, &in_units::<F>(Domain::Turn, scale)).unwrap();
     let (omega, alpha) = (rates.omega(tracked), rates.alpha(tracked));
@@ -156,7 +156,7 @@ fn rates_give_the_motion_in_every_number() {
         1.0 / 32_768.0,
     );
 
-    // Beyond the machine units: limited and flagged, both ways.
+    // Beyond the machine units: limited and flagged, in both directions.
     let short = Period::new(period, &in_units::<Rows16>(Domain::Turn, scale)).unwrap();
     let fast = Tracked {
         speed: 2 * tracked.speed,
@@ -212,7 +212,7 @@ fn a_stroke_does_not_wrap() {
     for memory in [0.0, 0.8, 0.95] {
         let turns = |k: f64| 0.5 - 0.5 * (k * TAU / 400.0).cos();
         let mut tracker = Tracker::new(memory).unwrap();
-        // What a change of the acceleration leaves.
+        // Residual of a change of the acceleration.
         let lag = 0.5 * (TAU / 400.0 / (1.0 - f64::from(memory))).powi(3);
         for k in 1..=2000 {
             let turn = turns(k.into());
@@ -224,7 +224,7 @@ fn a_stroke_does_not_wrap() {
     }
 }
 
-/// A jump to the other end of a stroke: half of the stroke is taken in, either way the same.
+/// A jump to the other end of a stroke: half of the stroke is used as residual, in either direction.
 #[test]
 fn a_jump_over_the_stroke_is_half_a_stroke() {
     for memory in [0.0f32, 0.5, 0.9] {
@@ -255,7 +255,7 @@ fn an_acceleration_beyond_its_range_is_limited() {
     );
 }
 
-/// A count beyond the end of the stroke has the phase of the end, for ever: the machine runs into a stop, or the encoder is wrong.
+/// A count beyond the end of the stroke keeps the phase of the end: the machine runs into a stop, or the encoder is wrong.
 #[test]
 fn at_the_end_of_a_stroke_the_speed_comes_to_rest() {
     let from_end = |way: f64, end: u32| {
@@ -290,7 +290,7 @@ fn at_the_end_of_a_stroke_the_speed_comes_to_rest() {
 proptest! {
     #![proptest_config(config(4096, 0x7ac0))]
 
-    /// After any number of them the filter follows the machine again: it finds no other motion with the same phases.
+    /// After any number of wrong counts the filter follows the machine again: no other motion has the same phases.
     #[test]
     fn wrong_counts_are_forgotten(
         memory in prop_oneof![Just(0.0_f32), 0.0..=0.99_f32],
@@ -322,8 +322,8 @@ proptest! {
     }
 }
 
-/// A sudden change of the acceleration leaves a residual of at most 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on, which is no jump. The response of the
-/// error (1 − z)³/(1 − θ·z)³ to Δα·k²/2 is ½·(c(n − 1) + c(n − 2)) with c(k) = (k + 1)·(k + 2)/2·θᵏ.
+/// A sudden change of the acceleration leaves a residual of at most 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on, which is not a jump. The response of
+/// the error (1 − z)³/(1 − θ·z)³ to Δα·k²/2 is ½·(c(n − 1) + c(n − 2)) with c(k) = (k + 1)·(k + 2)/2·θᵏ.
 #[test]
 fn a_change_of_the_acceleration_is_no_jump() {
     for memory in [0.0_f64, 0.12, 0.5, 0.9, 0.97] {
@@ -365,7 +365,7 @@ fn a_change_of_the_acceleration_is_no_jump() {
 #[test]
 fn a_count_that_jumps_is_flagged_and_forgotten() {
     for stroke in [false, true] {
-        // 0.001 of the range a period; at most 0.002, either way.
+        // 0.001 of the range per period; at most 0.002, in either direction.
         let speed = 4_294_967_u32;
         for largest in [2 * speed, (2 * speed).wrapping_neg()] {
             let start = Phase::from_bits(1 << 30);
@@ -392,13 +392,14 @@ fn a_count_that_jumps_is_flagged_and_forgotten() {
                     flags.push(k);
                 }
             }
-            // The jump, and perhaps the readings behind it that are off the prediction that it has moved; not the start from rest, nor the steady motion.
+            // The jump is flagged, and possibly readings after it that differ from the disturbed prediction; neither the start from rest nor the
+            // steady motion is.
             assert!(
                 flags.first() == Some(&200) && flags.iter().all(|k| (200..215).contains(k)),
                 "{flags:?}"
             );
         }
-        // Without a largest step it is a quarter of the range.
+        // The default largest step is a quarter of the range.
         let mut tracker = Tracker::new(0.8).unwrap();
         let jump = |bits: u32, tracker: &mut Tracker| {
             let phase = Phase::from_bits(bits);
@@ -413,7 +414,7 @@ fn a_count_that_jumps_is_flagged_and_forgotten() {
     }
 }
 
-/// An acceleration beyond 32 bits is limited in what the tracker gives, and flagged in machine units, whatever their base.
+/// An acceleration beyond 32 bits is limited by the tracker, and flagged in machine units with any base.
 #[test]
 fn an_acceleration_that_was_limited_is_flagged() {
     let period = Period::new(0.001, &in_units::<Spline<f32>>(Domain::Turn, Scale::SI)).unwrap();

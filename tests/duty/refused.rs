@@ -45,7 +45,7 @@ fn limits_that_cannot_be_meant_are_refused() {
         meter(negative, 1.0, Window::SinceStart),
         Err(Error::Negative(_))
     ));
-    // A drive that must not feed back anything has a limit of zero.
+    // A drive that must not regenerate has a limit of zero.
     let mut zero = none();
     zero.regenerative_power = Some(0.0);
     assert!(meter(zero, 1.0, Window::SinceStart).is_ok());

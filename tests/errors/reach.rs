@@ -42,7 +42,7 @@ fn short_rod_names_its_angle() {
             error.to_string().contains(&degrees),
             "{error} does not say {degrees}"
         );
-        // Walk: the rod reaches until φ, and no longer just after (at its very end when l = r + |e|).
+        // Scan: the rod reaches up to φ, and not just after (exactly at the end if l = r + |e|).
         let reaches = |phi: f64| (e - r * phi.sin()).abs() <= l * (1.0 + budget::IDENTITY);
         let steps = 10_000;
         assert!(
@@ -60,7 +60,7 @@ fn short_rod_names_its_angle() {
             "goes on after {phi}"
         );
     }
-    // A guide further away than the rod is long is not reached at φ = 0.
+    // A guide farther away than the rod's length is not reached at φ = 0.
     let error = says(slider_crank(0.1, 0.3, -0.4), &["φ = 0.00°", "0.500000 m"]);
     let blocked = Blocked::TooShort {
         link: "rod",
@@ -71,7 +71,7 @@ fn short_rod_names_its_angle() {
     assert_eq!(error, Error::Build(BuildError::Blocked(blocked)));
 }
 
-/// l = r + |e| exactly, but for a rounding: the angle is 270°, not a full turn.
+/// l = r + |e| exactly, up to rounding: the angle is 270°, not a full turn.
 #[test]
 fn rod_of_the_limit_length_names_its_angle() {
     let (r, e) = (0.1, 0.2);
@@ -82,10 +82,10 @@ fn rod_of_the_limit_length_names_its_angle() {
     assert_near("φ", phi, 1.5 * PI, budget::LIMIT_ANGLE);
 }
 
-/// The constructor refuses what roundings could make a dead point of: what it accepts has a position at every angle.
+/// The constructor refuses lengths that roundings could turn into a dead point: an accepted rod has a position at every angle.
 #[test]
 fn a_rod_of_a_hair_more_than_the_limit_turns_fully_or_is_refused() {
-    let r = 0.807_812_5; // one for which l·(1/l) rounds to r/l = 1
+    let r = 0.807_812_5; // chosen so that l·(1/l) rounds to r/l = 1
     let refused = slider_crank(r, f64::next_up(r), 0.0).unwrap_err();
     assert!(
         matches!(refused, BuildError::Blocked(Blocked::TooShort { .. })),

@@ -1,4 +1,4 @@
-//! Machines of which no table can be made, and words that are no table.
+//! Machines without a table, and words that are not a table.
 
 use jred::machine::{
     Action, Element, Frame, Frames, Load, Marker, MassProperties, Mechanism, PoseError, Window,
@@ -14,7 +14,7 @@ use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::scale_of;
 
-/// The table of a machine, or why there is none.
+/// The table of a machine, or the reason for its absence.
 fn rows<S: jred::number::Scalar>(
     machine: &impl Reducible,
     set: Set,
@@ -43,7 +43,7 @@ fn tables_that_cannot_be_made_say_why() {
     );
     let wave = Wave::bare(1.0, 0.5);
     let small = scale_of(1.0, 1.0, 1.0);
-    // The middle of J is stored by itself; J is up to 3.7 with a middle that fits.
+    // The middle of J is stored separately; J is up to 3.7 with a middle that fits.
     for heavy in [Wave::bare(3.0, 0.5), Wave::bare(1.9, 1.8)] {
         let error = says(
             rows::<Q31>(&heavy, 0, 16, &small),
@@ -117,7 +117,7 @@ fn tables_that_cannot_be_made_say_why() {
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
 }
 
-/// What the user can do is said, by the name of what is to be changed; where words are simply damaged, nothing.
+/// A possible cure names the part to change; damaged words have no cure.
 #[test]
 fn tables_and_models_that_can_be_cured_say_how() {
     let (cell, phase) = (3, jred::Phase::default());
@@ -185,7 +185,7 @@ fn a_load_that_does_not_repeat_is_not_tabulated() {
     );
 }
 
-/// A slider that a spiral pushes out: no load at all, but its reduced mass (0.02·φ)²·m grows from turn to turn.
+/// A slider that a spiral pushes out: no load, but its reduced mass (0.02·φ)²·m grows from turn to turn.
 struct Spiral([Link; 1]);
 
 impl Mechanism for Spiral {
@@ -210,7 +210,7 @@ fn an_inertia_that_does_not_repeat_is_not_tabulated() {
     assert_eq!(refused, Error::Pose(PoseError::NotPeriodic { phi: 0.4 }));
 }
 
-/// A wheel that turns half as fast as the drive link.
+/// A wheel at half the speed of the drive link.
 struct Half([Link; 1]);
 
 impl Mechanism for Half {
@@ -226,7 +226,7 @@ impl Mechanism for Half {
     }
 }
 
-/// Heavier on one side, a turn of the drive link later its weight acts at the other side.
+/// Eccentric: a turn of the drive link later its weight acts on the other side.
 #[test]
 fn a_weight_that_does_not_come_back_is_not_tabulated() {
     let tabulated = |com: f64, gravity: f64| {
@@ -245,8 +245,8 @@ fn a_weight_that_does_not_come_back_is_not_tabulated() {
     assert_eq!(tabulated(0.01, 9.81), refused);
 }
 
-/// Geneva wheel: a force of fixed direction on it turns with the stations, even if it acts in a part of the turn only, where
-/// none of a few samples would see it. A spring whose ends meet has no direction.
+/// Geneva wheel: a force of fixed direction on it turns with the stations, even if it acts in a small part of the turn that a few samples would miss.
+/// A spring whose ends coincide has no direction.
 #[test]
 fn loads_are_judged_where_they_do_not_act() {
     let crank = Link::rotor(0.02).unwrap();

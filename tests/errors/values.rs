@@ -155,7 +155,7 @@ fn trapezoid_law() -> Law {
     }
 }
 
-/// The text names the value given.
+/// The message names the given value.
 #[test]
 fn negative_duration_is_named() {
     says(
@@ -164,7 +164,7 @@ fn negative_duration_is_named() {
     );
 }
 
-/// A negative inertia is refused, whatever the belt adds to it.
+/// A negative inertia is refused, even if the belt's inertia outweighs it.
 #[test]
 fn negative_pulley_is_refused_beside_a_heavy_belt() {
     says(
@@ -177,7 +177,7 @@ fn negative_pulley_is_refused_beside_a_heavy_belt() {
     );
 }
 
-/// The number and its limit agree: four samples over a stroke are too few, five are enough.
+/// The number and its limit are consistent: four samples over a stroke are too few, five are enough.
 #[test]
 fn too_few_samples_are_counted() {
     says(
@@ -217,7 +217,7 @@ fn capacities_and_indices_are_named() {
     );
 }
 
-/// What was wrong is cured by what the error asks for: each kind has its own cure, with the limit in it.
+/// The cure of each error works: each kind has its own cure, with the limit in it.
 #[test]
 fn every_quantity_out_of_range_has_its_cure() {
     let range = |min, max| RangeError::OutOfRange {
@@ -253,7 +253,7 @@ fn every_quantity_out_of_range_has_its_cure() {
     }
 }
 
-/// Three coordinates a link, one degree of freedom wanted: with more left the links must be held, with fewer they are held twice.
+/// Three coordinates per link, one degree of freedom required: with more left the links must be held, with fewer they are held twice.
 #[test]
 fn a_mechanism_too_free_or_too_stiff_is_cured_the_other_way_round() {
     let of = |constraints: usize| {

@@ -1,5 +1,4 @@
-//! Four-bars that pass change points on their branch: parallelograms, antiparallelograms, kites, and linkages that come back after two
-//! turns.
+//! Four-bars that pass change points on their branch: parallelograms, antiparallelograms, kites, and linkages that return after two turns.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -29,7 +28,7 @@ pub(crate) fn kept(
     FourBar::through_change_points(dimensions, side, domain, links)
 }
 
-/// Kinds of linkage that lie flat, of two random lengths p < q and one r; whether they come back after a turn.
+/// Kinds of linkage that fold flat, from two random lengths p < q and a third r; and whether they return after one turn.
 pub(crate) fn lengths(kind: usize, p: f64, q: f64, r: f64) -> ([f64; 4], bool) {
     match kind {
         0 => ([p, q, p, q], true), // parallelogram and antiparallelogram
@@ -83,7 +82,7 @@ fn machine(four_bar: FourBar) -> Machine<FourBar> {
 proptest! {
     #![proptest_config(config(300, 0x04b2))]
 
-    /// At change points, a hair beside them, and anywhere.
+    /// At change points, 1e-12 to 1e-3 rad next to them, and anywhere.
     #[test]
     fn joints_close_through_change_points((four_bar, _) in linkage(), at in 0.0..1.0_f64, turn in 0..2) {
         let flat = four_bar.change_points();
@@ -100,8 +99,8 @@ proptest! {
         derivatives(&machine(four_bar), phi);
     }
 
-    /// d'Alembert's torque beside the change point, where the forces in the joints are still determined, is that of the reduced equation;
-    /// the forces grow as 1/distance, so the torque is known to rounding over its square.
+    /// Next to the change point, where joint forces are still determined, d'Alembert's torque equals that of the reduced equation. The forces grow
+    /// with 1/distance, so the torque is known to rounding over its square.
     #[test]
     fn forces_hold_beside_change_points((four_bar, _) in linkage(), near in 0.02..0.2_f64, omega in -5.0..5.0_f64, alpha in -20.0..20.0_f64) {
         let machine = machine(four_bar);
@@ -118,7 +117,7 @@ proptest! {
 proptest! {
     #![proptest_config(config(40, 0x04b3))]
 
-    /// Nothing jumps over the range, and at its end every pin is where it was.
+    /// No angle jumps over the range, and at its end every pin is back.
     #[test]
     fn it_comes_back((four_bar, _) in linkage()) {
         jointed::turns(&four_bar, 7200);
@@ -133,8 +132,8 @@ proptest! {
     }
 }
 
-/// Circular translation: the coupler does not turn, the rocker turns as the crank, and the reduced inertia is
-/// J₁ + J₃ + (m₁·r₁² + m₃·r₃²) + m₂·a², whatever the coupler's inertia.
+/// Circular translation: the coupler does not turn, the rocker turns with the crank, and the reduced inertia is J₁ + J₃ + (m₁·r₁² + m₃·r₃²) + m₂·a²,
+/// for any inertia of the coupler.
 #[test]
 fn a_parallelogram_translates_on_a_circle() {
     let links = [
@@ -171,8 +170,8 @@ fn a_parallelogram_translates_on_a_circle() {
     }
 }
 
-/// The antiparallelogram's rocker turns against the crank, as if ellipses rolled: tan(ψ/2)·tan(θ/2) = ∓(d − a)/(d + a), the rocker's
-/// speed ψ′ = −(d² − a²)/(d² + a² − 2·a·d·cos θ), at the change points −(d + a)/(d − a) and −(d − a)/(d + a).
+/// The antiparallelogram's rocker turns against the crank like rolling ellipses: tan(ψ/2)·tan(θ/2) = ∓(d − a)/(d + a), the rocker's speed ψ′ = −(d² −
+/// a²)/(d² + a² − 2·a·d·cos θ), at the change points −(d + a)/(d − a) and −(d − a)/(d + a).
 #[test]
 fn an_antiparallelogram_rolls_as_ellipses_do() {
     let (a, d) = (0.1, 0.3);
@@ -219,8 +218,8 @@ fn a_kite_mirrors_the_pivot() {
     }
 }
 
-/// Galloway's mechanism: a = d, b = c. The rocker turns once for two turns of the crank, at half its speed on the average, and its
-/// angle has the closed form ψ = θ/2 + asin(a/b·sin θ/2), but for a constant.
+/// Galloway's mechanism: a = d, b = c. The rocker turns once for two turns of the crank, at half its mean speed, and its angle has the closed form ψ
+/// = θ/2 + asin(a/b·sin θ/2) + constant.
 #[test]
 fn galloways_rocker_turns_once_for_two_turns() {
     let (a, b) = (0.1, 0.25);
@@ -244,7 +243,7 @@ fn galloways_rocker_turns_once_for_two_turns() {
                     / (1.0 - (a / b * (0.5 * theta).sin()).powi(2)).sqrt();
             assert_near("ψ′", psi(0.2 + theta).d1, bent, 1e-12);
         }
-        // μ at B is that of the triangle, and 0 where coupler and rocker lie on each other.
+        // μ at B is that of the triangle, and 0 where coupler and rocker coincide.
         assert_near(
             "μ",
             galloway.transmission_angle(0.2 + PI).unwrap().value,
@@ -260,7 +259,7 @@ fn galloways_rocker_turns_once_for_two_turns() {
     }
 }
 
-/// On the way to a change point it is the linkage that swings there without a guide.
+/// On the way to a change point it equals the plain linkage over a stroke.
 #[test]
 fn beside_change_points_it_is_the_plain_linkage() {
     let lengths = [0.1, 0.3, 0.1, 0.3];
@@ -275,7 +274,7 @@ fn beside_change_points_it_is_the_plain_linkage() {
         assert!(plain.change_points().is_empty());
         assert!(plain.determined(0.1));
     }
-    // And of a linkage that comes back after two turns both sides are used.
+    // A linkage that returns after two turns uses both sides.
     let once = [0.1, 0.2, 0.3, 0.4];
     let two = Domain::stroke(0.0, 2.0 * TAU).unwrap();
     let guided = kept(once, 0.0, Side::Left, two, links()).unwrap();

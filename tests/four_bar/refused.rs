@@ -1,4 +1,4 @@
-//! Four-bars that cannot turn: the reason, and the stroke that they can make.
+//! Four-bars that cannot turn: the reason, and their possible stroke.
 
 use jred::Domain;
 use jred::machine::{Jointed, Mechanism, PoseError};
@@ -81,7 +81,7 @@ fn what_cannot_turn_is_refused_with_its_reason() {
     );
 }
 
-/// A parallelogram moves as one as long as it keeps clear of the flat positions.
+/// A parallelogram moves as one while it stays clear of the flat positions.
 #[test]
 fn a_parallelogram_swings_in_parallel() {
     let lengths = [0.1, 0.3, 0.1];

@@ -1,4 +1,4 @@
-//! What cannot be is refused, with the quantity, its value and its limit.
+//! Impossible input is refused, with the quantity, its value and its limit.
 
 use crate::support::spoken;
 use jred::Error;
@@ -45,7 +45,7 @@ fn stages_and_courses() {
         phase: 0.0,
     };
     assert!(Sine::new(Variable::Time, endless).is_err());
-    // A ratio that passes through zero is refused where it does, not before.
+    // A ratio that passes through zero is refused at that point, not before.
     let through = Ramp::linear(Variable::Time, shape(1.0, -1.0)).unwrap();
     let stage = Stage::new(&through).unwrap();
     assert!(stage.at(OperatingPoint::at_time(0.4)).is_ok());
@@ -130,7 +130,7 @@ fn drives() {
     );
 }
 
-/// Slip that grows so fast with the load that load and slip chase each other.
+/// Slip that grows so fast with the load that load and slip do not converge.
 #[test]
 fn load_and_slip_that_do_not_settle() {
     let steep = |p: OperatingPoint| (p.load * 40.0).sin_cos().0 * 0.9;

@@ -1,4 +1,4 @@
-//! Numbers only: a gear train by another name.
+//! Constant ratios: equivalent to a gear train.
 
 use jred::friction::{Arrangement, Contact, Drive, Flow, FrictionDrive, Shaft, Stage, State};
 use jred::machine::{Jointed, Load, Mechanism};
@@ -94,7 +94,7 @@ impl Case {
         let found = machine.reduction(phi).unwrap().inertia;
         assert_near("J", found, inertia, budget::CLOSED_FORM * inertia);
 
-        // The equation of motion of the drive is that of the mechanism.
+        // The equation of motion of the drive equals that of the mechanism.
         let drive = Drive::new(arrangement, Contact::Ideal, &stages).unwrap();
         let mut shafts = self.inertias.map(|inertia| Shaft::new(inertia, 0.0));
         shafts[2].torque = MOMENT;
@@ -116,7 +116,7 @@ impl Case {
         }
     }
 
-    /// A train counts its ratios the other way round; an inertia lies on either side of a stage.
+    /// A train counts its ratios the other way round; an inertia is on either side of a stage.
     fn against_train(&self, mechanism: &FrictionDrive, inertia: f64) {
         let j = self.speeds();
         let first = |k: usize| if k == 0 { self.inertias[0] } else { 0.0 };
@@ -140,7 +140,7 @@ impl Case {
     }
 }
 
-/// Dry friction has no direction at standstill (sgn 0 = 0), and viscous friction no size: α = Σ j·T/Σ j²·J.
+/// Dry friction has no direction at standstill (sgn 0 = 0), and viscous friction is zero: α = Σ j·T/Σ j²·J.
 #[test]
 fn at_standstill_friction_makes_no_torque() {
     let (ratio, inertias, torques) = (-2.5, [0.3, 0.04], [7.0, -1.5]);
@@ -165,7 +165,7 @@ fn at_standstill_friction_makes_no_torque() {
         torque / inertia,
         budget::CLOSED_FORM * torque / inertia,
     );
-    // Turning, shaft 2 the other way round: each takes its share of what moves it.
+    // In motion, with shaft 2 in the other direction: each friction reduces the driving torque.
     let omega = 4.0;
     let friction = |speed: f64| 0.2 * speed + 3.0 * speed.signum();
     let braking = friction(omega) + ratio * friction(ratio * omega);

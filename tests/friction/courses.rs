@@ -1,4 +1,4 @@
-//! Courses and the numbers that carry their gradients.
+//! Functions of time and position, and numbers with their gradients.
 
 use jred::friction::{
     Course, Creep, CreepLimit, Curve, Dual, OperatingPoint, Ramp, RampShape, Sine, SineShape,
@@ -83,7 +83,7 @@ fn courses_have_exact_slopes() {
         .unwrap(),
         at,
     );
-    // A formula of the user's own, over all three at once.
+    // A formula of the user's own, of all three variables.
     let own = |p: OperatingPoint| {
         let (sin, cos) = (p.t * p.phi - p.load * 0.1).sin_cos();
         (sin * 2.0 + cos * p.t + 3.0) / (p.load + 1.0).sqrt() - p.phi

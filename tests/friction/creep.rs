@@ -38,7 +38,7 @@ fn load_and_slip_agree() {
                     contact.loss > 0.0,
                     "a contact never gives power: {contact:?}"
                 );
-                // The driven side is the slower one, whatever the convention.
+                // The driven side is the slower one, in any convention.
                 let (first, second) = ((ratio * omega).abs(), motion.shafts[1].omega.abs());
                 let drives = contact.torque * ratio * omega > 0.0;
                 assert_eq!(drives, first > second);
@@ -47,7 +47,7 @@ fn load_and_slip_agree() {
     }
 }
 
-/// Loads on both shafts for a given speed: the power passes from shaft 1 to shaft 2.
+/// Loads on both shafts for a given speed: the power flows from shaft 1 to shaft 2.
 fn steady(creep: f64) -> (Drive<'static>, [Shaft; 2]) {
     let course: &'static Creep = Box::leak(Box::new(
         Creep::new(CreepLimit {
@@ -85,7 +85,7 @@ fn steady_load_is_the_creeping_contact() {
     assert_near("loss", found.loss, motion.loss, budget::SETTLED * 1e5);
 }
 
-/// The quasi-static form leaves out the rate of the load: halving the creep quarters the difference against two speeds.
+/// The quasi-static form neglects the rate of the load: halving the creep quarters the difference from the model with two speeds.
 #[test]
 fn quasi_static_creep_approaches_two_speeds() {
     let difference = |creep: f64| {
@@ -188,10 +188,10 @@ fn the_contact_covers_both_conventions() {
     ] {
         assert!(contact.traction(a, b).loss > 0.0);
     }
-    // Sliding: the limit, and no more.
+    // Sliding: exactly the limit.
     assert_near("limit", contact.traction(100.0, 20.0).torque, LIMIT, 0.0);
     assert_near("limit", contact.traction(20.0, 100.0).torque, -LIMIT, 0.0);
-    // At standstill nothing is divided by zero; below SLOW it is viscous.
+    // At standstill there is no division by zero; below SLOW it is viscous.
     assert_near("rest", contact.traction(0.0, 0.0).torque, 0.0, 0.0);
     let slow = 1e-3;
     let viscous = LIMIT / 0.05 / CreepContact::SLOW * slow;

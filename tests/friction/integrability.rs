@@ -69,7 +69,7 @@ fn stages_say_what_they_are() {
     let tau = std::f64::consts::TAU;
     let found = drive.integrability([0.0, 10.0], [0.0, tau]).unwrap();
     assert_eq!(found[0], StageConstraint::Proportional { speed: 1.0 });
-    // A shift of 10 ms within 10 s lies between the places of the grid: its change betrays it.
+    // A shift of 10 ms within 10 s is between the grid points; its change reveals it.
     assert!(
         matches!(found[1], StageConstraint::NonHolonomic { rate, t, .. } if rate > 1.0 && (t - 5.0).abs() < 0.1)
     );

@@ -85,7 +85,7 @@ fn free_run_keeps_the_energy() {
             energy,
             budget::FREE_RUN * energy,
         );
-        // Neither the momentum (factor 1) nor the speed (factor 0) is kept: both are far off.
+        // Neither the momentum (factor 1) nor the speed (factor 0) is conserved: both differ clearly.
         let [j0, j1] = [before.inertia, after.inertia];
         assert!(
             (end[3] * j1 / (40.0 * j0) - 1.0).abs() > 0.2,
@@ -184,12 +184,12 @@ fn slip_slows_the_driven_shaft() {
         budget::CLOSED_FORM * 20.0,
     );
     assert!(first.loss > 0.0);
-    // Power the other way is named by its sign, not hidden.
+    // Reverse power flow has a negative sign.
     assert!(at(Flow::SecondDrives, [12.0, -6.0]).loss < 0.0);
     assert!(at(Flow::FirstDrives, [-12.0, 6.0]).loss < 0.0);
 }
 
-/// A press behind a variator that is shifted while it runs freely: kinetic and potential energy together stay.
+/// A press with a variator that is shifted during free motion: kinetic plus potential energy is conserved.
 #[test]
 fn any_machine_behind_a_variator() {
     let links = [
@@ -239,7 +239,7 @@ fn any_machine_behind_a_variator() {
         before,
         budget::FREE_RUN * before.abs(),
     );
-    // The crank is not where a ratio of the moment would put it: α₂ is not j(t)·α₁.
+    // The crank is not at the position of the present ratio: α₂ is not j(t)·α₁.
     let drift = end[1] - (start[1] + 1.9 * end[0]);
     assert!(drift.abs() > 1.0, "{drift}");
 }

@@ -1,4 +1,4 @@
-//! Against two discs with the contact force as an unknown of its own.
+//! Against two discs with the contact force as an unknown.
 
 use jred::friction::{
     Arrangement, Contact, Drive, Flow, Ramp, RampShape, Shaft, Stage, State, Variable,
@@ -8,7 +8,7 @@ use jred::machine::motion::Law;
 use super::integrate;
 use crate::support::{assert_near, budget};
 
-/// A wheel of radius R, on shaft 2, touches the disc of shaft 1 at the distance ρ(t) from its axis.
+/// A wheel of radius R on shaft 2 touches the disc of shaft 1 at the distance ρ(t) from its axis.
 struct DiscAndWheel {
     rho: Ramp,
     wheel: f64,
@@ -125,7 +125,7 @@ fn two_discs_with_a_contact_force() {
         let [_, a2, force] = discs.accelerations(1.0, two[2]);
         close("ω̇₂", end.shafts[1].alpha, a2);
         close("contact force", end.contacts[0].torque / wheel, force);
-        // The energy of the two discs: the drive's power less the slip.
+        // The energy of the two discs: the drive's power minus the slip.
         let kinetic = |a: f64, b: f64| 0.5 * (j[0] * a * a + j[1] * b * b);
         let work = m[0] * two[0] + m[1] * two[1] - two[4];
         close(

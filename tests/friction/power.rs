@@ -1,4 +1,4 @@
-//! Power and energy of drives in motion, with courses over time and angle.
+//! Power and energy of drives in motion, with ratios over time and angle.
 
 use jred::friction::{
     Arrangement, Contact, Drive, Flow, Motion, Ramp, RampShape, Shaft, Sine, SineShape, Stage,
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use crate::support::{assert_near, budget, config, derivative};
 
-/// A chain or a fan of two stages with courses over time and angle, in motion.
+/// A chain or a fan of two stages with ratios over time and angle, in motion.
 #[derive(Clone, Debug)]
 struct Case {
     fan: bool,
@@ -137,7 +137,7 @@ impl Case {
     }
 }
 
-/// Size of the powers.
+/// Magnitude of the powers.
 fn terms(motion: &Motion) -> f64 {
     let (j, rate) = (motion.inertia, motion.inertia_rate);
     let omega = motion.shafts[0].omega;
@@ -176,7 +176,7 @@ fn energy_balance(motion: &Motion, contact: Contact) {
     }
 }
 
-/// The rate of each coefficient is that along the motion.
+/// The rate of each coefficient is its derivative along the motion.
 fn rates_of_coefficients(drive: &Drive, shafts: &[Shaft; 3], state: &State, motion: &Motion) {
     let along = |dt: f64| -> [f64; 3] {
         let moved: [f64; 3] =

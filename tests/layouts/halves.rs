@@ -1,4 +1,4 @@
-//! Splines of 16 bits a point, against those of 32 bits.
+//! Splines of 16 bits per point, against those of 32 bits.
 
 use crate::support::rows::{Meaning, Rows};
 use crate::support::{assert_near, budget, grid, scale_of};
@@ -96,7 +96,7 @@ fn points_use_their_bits_and_are_rounded() {
     }
 }
 
-/// The value is c₀ + 4c₁ + c₂ of points that are off by half a unit; no slope has weights above 9 in all.
+/// The value is c₀ + 4c₁ + c₂ of points with an error of half a unit; no slope has weights above 9 in total.
 #[test]
 fn curves_are_off_by_what_their_points_are() {
     for (domain, set) in domains().into_iter().flat_map(|d| SETS.map(|s| (d, s))) {
@@ -129,7 +129,7 @@ fn curves_are_off_by_what_their_points_are() {
 
 /// ∫ Bᵢ′·Bⱼ′ du of the cubic B-splines at i and j, by |i − j|.
 fn products() -> [f64; 4] {
-    // The slopes of the four pieces; three points of Gauss are exact for products of parabolas.
+    // The slopes of the four pieces; three Gauss points are exact for products of parabolas.
     let slopes = |u: f64| {
         [
             0.5 * u * u,
@@ -149,7 +149,7 @@ fn products() -> [f64; 4] {
     })
 }
 
-/// No point of J moved by a unit makes the mean square of the slope's error smaller, but for the little weight of the value.
+/// Moving a point of J by a unit never reduces the mean square error of the slope, up to the small weight of the value.
 #[test]
 fn no_other_rounding_of_a_point_has_a_better_slope() {
     let products = products();

@@ -1,4 +1,4 @@
-//! A cam as the first of a chain of links, and its follower as the drive.
+//! A cam as the first element of a chain of links, and its follower as the drive.
 
 use std::f64::consts::TAU;
 
@@ -32,8 +32,8 @@ fn lever() -> DiscCam {
     cams::build(0.3, 0.035, follower).unwrap()
 }
 
-/// The chain behind a pair of gears: pinion 0 drives the cam 1, which moves the bell crank 2, rod 3 and slider 4. The
-/// slider runs along +x through the crank's pivot.
+/// The chain with a pair of gears: pinion 0 drives the cam 1, which moves the bell crank 2, rod 3 and slider 4. The slider runs along +x through the
+/// crank's pivot.
 fn chain(domain: Domain) -> Assembly<5, 8, 256, 1> {
     let cam = lever();
     let (pivot, _) = cam.follower().pivot().unwrap();
@@ -122,11 +122,11 @@ fn cam_lever_rod_and_slider() {
             .unwrap();
         forces::dalembert(&machine, phi, 40.0, 300.0);
     }
-    // Everything follows from the one before; rod and slider make the one group of two angles or less.
+    // Every link follows from the one before; rod and slider form the only group, with at most two angles.
     assert!(assembly.linkage().group_sizes().all(|size| size <= 2));
 }
 
-/// The follower pushed by a cylinder turns the cam, as long as the program rises.
+/// The follower, pushed by a cylinder, turns the cam while the program rises.
 #[test]
 fn the_follower_may_be_the_drive() {
     let roller = Roller::new(RollerDimensions {
@@ -184,7 +184,7 @@ fn the_follower_may_be_the_drive() {
             .unwrap();
         forces::dalembert(&machine, phi, 0.2, 1.0);
     }
-    // Where the program dwells the cam does not move on.
+    // Where the program dwells the cam does not move.
     let beyond = Domain::stroke(rest + 0.001, rest + 0.013).unwrap();
     let refused = linkage.assemble::<65>(beyond, rest + 0.006, &drawing);
     let Err(LinkageError::Pose(

@@ -1,4 +1,4 @@
-//! Single precision: random words of one cell, of each format with cells, none larger than the proof assumes.
+//! Single precision: random words of one cell, of each format with cells, within the ranges of the proof.
 
 use super::holds;
 use crate::support::budget::{self, Proven};
@@ -17,7 +17,7 @@ fn one(gene: u32) -> f32 {
     f64::from(gene.cast_signed()) as f32 / 2_147_483_648.0
 }
 
-/// Tick less exact, in units of 2⁻²⁴.
+/// Tick minus exact, in units of 2⁻²⁴.
 fn error<F>(genes: &[u32]) -> Option<f64>
 where
     F: Format<Number = f32, Word = f32, Constants = Constants<f32>>,
@@ -45,7 +45,7 @@ where
     }
     rows.scale = scale_of(1.0, 1.0, factor);
     let model = rows.try_model::<ALL>(&rows.scale).ok()?;
-    // A place in the first cell that has 24 bits.
+    // A position of 24 bits in the first cell.
     let phase = Phase::from_bits((state[0] & !0xff) / CELLS);
     let [omega, alpha] = [state[1], state[2]].map(one);
     let found = model.torque(phase, omega, alpha);

@@ -18,7 +18,7 @@ const GENES: usize = 7;
 /// Units of the time of the row, whose window is a second.
 const LENGTH: u32 = (1 << 30) - 1;
 
-/// What is off: position, speed and acceleration in units of the coefficients, with 2⁻ᵉ of them to an acceleration, and the shares of a follower.
+/// Errors: position, speed and acceleration in units of the coefficients, with 2⁻ᵉ of them for an acceleration, and the shares of a follower.
 fn errors<M: MachineUnits<Number = f64>>(
     genes: &[u32],
     finer: u32,
@@ -60,10 +60,10 @@ fn errors<M: MachineUnits<Number = f64>>(
     let words = sealed(words);
 
     let plan = Plan::new(&words, model).ok()?;
-    // Factors from units of the plan are single numbers: whole numbers come back.
+    // Factors from units of the plan are single-precision numbers: integers are recovered.
     let unit = f64::from(TAU as f32) / 2f64.powi(32);
     let counts = |x: f64, e: u32| (x / (unit * f64::from(1_u32 << e))).round();
-    // 31 bits of the place.
+    // 31 bits of the position.
     let u = instant.min(u32::MAX - 7) & !1;
     let here = plan.at(u64::from(u) << 8).value;
     let u = f64::from(u) / 2f64.powi(32);
@@ -85,7 +85,7 @@ fn errors<M: MachineUnits<Number = f64>>(
     ])
 }
 
-/// Two rows of a plan with these units: positions, speeds and coefficients are in those of the range over powers of a second.
+/// Two rows of a plan with these units: positions, speeds and coefficients are in units of the range over powers of a second.
 fn frame(finer: u32) -> Vec<u32> {
     let knot = |t| Knot {
         t,
@@ -100,7 +100,7 @@ fn frame(finer: u32) -> Vec<u32> {
     words
 }
 
-/// No instant of a row exceeds what the script claims, and some come near it.
+/// No instant of a row exceeds the claims of the script, and some come near.
 #[test]
 fn a_plan_keeps_the_proven_bounds() {
     let names = ["position", "speed", "acceleration", "share", "twice"];

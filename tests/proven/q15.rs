@@ -23,7 +23,7 @@ fn line(word: u32) -> [f64; 2] {
     [start, f64::from(word as i16)]
 }
 
-/// Tick less exact, in units of 2⁻¹⁵ of the torque base.
+/// Tick minus exact, in units of 2⁻¹⁵ of the torque base.
 fn error(genes: &[u32]) -> Option<f64> {
     let (state, genes) = genes.split_at(3);
     let word = |index: usize, bits: [u32; 2]| {
@@ -31,7 +31,7 @@ fn error(genes: &[u32]) -> Option<f64> {
         u32::from(upper) << 16 | u32::from(lower)
     };
     let [load, j] = [word(0, [11, 10]), word(1, [12, 11])];
-    // V is half of the slope, as far as it may be off.
+    // V is half of the slope, up to its permitted error.
     let [slope, rise] = line(j).map(|x| 0.5 * x);
     let near = |x: f64, gene: u32| (x as i16).wrapping_add((gene % 7) as i16 - 3) as u16;
     let v = u32::from(near(slope, genes[4])) << 16 | u32::from(near(2.0 * rise, genes[5]));
@@ -53,7 +53,7 @@ fn error(genes: &[u32]) -> Option<f64> {
         let [start, rise] = line(word);
         start + rise * u
     };
-    // J in units of 2⁻¹⁶; half a unit for the last floor is part of the load as it is stored.
+    // J in units of 2⁻¹⁶; half a unit for the last floor is part of the stored load.
     let inertia = f64::from(start) / 65_536.0 + at(j) * u;
     let minus_load = f64::from(start as i16) + at(load) * u - 0.5;
     let torque = inertia * a / 2.0

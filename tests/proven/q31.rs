@@ -17,7 +17,7 @@ fn word(gene: u32, bits: u32) -> i32 {
     gene.cast_signed() >> (31 - bits)
 }
 
-/// The first cell's words; the other cells are sound.
+/// The first cell's words; the other cells are valid.
 fn words<L: Fixed>(genes: &[u32]) -> Vec<i32> {
     let part = |curve: usize, k: usize| genes[4 * curve + k];
     match L::NAME {
@@ -36,7 +36,7 @@ fn words<L: Fixed>(genes: &[u32]) -> Vec<i32> {
     }
 }
 
-/// Tick less exact, in units of 2⁻³¹ of the torque base.
+/// Tick minus exact, in units of 2⁻³¹ of the torque base.
 fn error<L: Fixed>(genes: &[u32], whole: f64) -> Option<f64> {
     let domain = Domain::stroke(0.0, 2.0).unwrap();
     let (state, genes) = genes.split_at(3);

@@ -1,4 +1,4 @@
-//! Images of tables of 16-bit rows: word by word, back again, and refused.
+//! Images of tables of 16-bit rows: word by word, round trip, and refusals.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
 use jred::{Domain, Image, ImageError, Phase, Rows16, Set, Spline, TableError, curves};
@@ -53,7 +53,7 @@ fn words_are_where_the_document_says() {
     assert_eq!(image[16..HEADER_WORDS], [0; HEADER_WORDS - 16]);
     assert_eq!(image[HEADER_WORDS..image.len() - 1], rows.words);
     assert_eq!(image, sealed(image.clone()));
-    // Not the constants of nothing.
+    // Constants other than zero.
     assert!(constants.iter().all(|word| *word != 0), "{constants:?}");
 }
 
@@ -126,7 +126,7 @@ fn other_images_are_refused() {
             given: 40 * 5
         })
     );
-    // Another speed base: V is not the slope of J then.
+    // With another speed base V is not the slope of J.
     assert!(matches!(
         with(8, 20f32.to_bits()),
         ImageError::Table(TableError::Slope { .. })

@@ -1,4 +1,4 @@
-//! The tick against the formulas in wide integers, where nothing wraps: random rows, not only those of machines.
+//! The tick against its formulas in wide integers, which cannot wrap: random rows, not only those of machines.
 
 use jred::table::RowConstants;
 use jred::{Domain, Phase, Set, curves};
@@ -57,7 +57,7 @@ fn sums<const SET: Set>(
     [resisting + inertia * alpha, resisting]
 }
 
-/// (torque − resisting)/J of the same cell, before it is limited; and whether it has to be.
+/// (torque − resisting)/J of the same cell before limiting; and whether it must be limited.
 fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i128 {
     if SET & curves::RECIPROCAL != 0 {
         return floor(line(words[row_words(SET) - 1], u) * net, shift);
@@ -69,7 +69,7 @@ fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i1
 
 fn check<const SET: Set>(random: &Random) -> bool {
     let mut words: Vec<u32> = random.words[..row_words(SET)].to_vec();
-    // V that belongs to J, or no model is made: per unit, a slope a cell counts eight times.
+    // V must match J, otherwise no model is built: per unit, a slope per cell counts eight times.
     let scale = scale_of(1.0, 1.0, 1.0);
     let load = usize::from(SET & curves::LOAD != 0);
     let slope = f64::from(words[load] as i32 >> 16) / 65_536.0;
@@ -141,7 +141,7 @@ struct Random {
 }
 
 impl Random {
-    /// With those at the ends of the range.
+    /// Includes the ends of the range.
     fn numbers(&self) -> [i16; 7] {
         let [a, b] = self.numbers;
         [i16::MIN, i16::MAX, 0, 1, -1, a, b]
@@ -149,7 +149,7 @@ impl Random {
 }
 
 prop_compose! {
-    /// Halves small enough that many a table is sound, some of them close to the limit.
+    /// Halves small enough that many tables are valid, some close to the limit.
     fn random()(
         starts in prop::array::uniform7(-9000i32..9000),
         rises in prop::array::uniform7(-4000i32..4000),
@@ -165,7 +165,7 @@ prop_compose! {
         for (word, (start, rise)) in words.iter_mut().zip(starts.iter().zip(rises)) {
             *word = ((*start >> shrink) as u32) << 16 | (rise >> shrink) as u32 & 0xffff;
         }
-        // The start of J is at another place with a load than without.
+        // The start of J is at another position with a load than without.
         words[if load { 3 } else { 2 }] = start << 16 | (starts[0] >> shrink) as u32 & 0xffff;
         Random { words, constants: [viscous, coulomb], u, numbers }
     }
@@ -176,7 +176,7 @@ proptest! {
 
     #[test]
     fn no_bit_differs(random in random()) {
-        // Half of the cases are for sets with a load, and fail to be tables of the others.
+        // Half of the cases are for sets with a load, and give no table for the others.
         check::<{ curves::INERTIA }>(&random);
         check::<{ curves::LOAD }>(&random);
         check::<{ ALL }>(&random);
@@ -189,7 +189,7 @@ proptest! {
     }
 }
 
-/// That what is compared above is not nothing.
+/// The comparison above is not vacuous.
 #[test]
 fn many_random_rows_are_tables() {
     let cases = crate::support::samples(3000, 0x5141, &random());

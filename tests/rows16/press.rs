@@ -1,4 +1,4 @@
-//! The example press: what 16 bits reach, and what the tabulator says of it.
+//! The example press: the accuracy of 16 bits, and the tabulator's report.
 
 use std::f64::consts::TAU;
 
@@ -54,7 +54,7 @@ fn sizes_are_the_stated_ones() {
         let error = found.torque_error / peak();
         assert!(error <= share && error > 0.9 * share, "{share}: {error}");
         assert_eq!(found.scale, scale());
-        // One cell less misses.
+        // One cell less is not sufficient.
         let less = Short::of(&press(), SET, cells - 1, &scale()).unwrap();
         let request = request(share * peak());
         let missed = measure(&press(), &less.table(), &request).unwrap();
@@ -64,7 +64,7 @@ fn sizes_are_the_stated_ones() {
     }
 }
 
-/// 16 bits go no further, with however many cells.
+/// 16 bits reach no further, with any number of cells.
 #[test]
 fn the_floor_is_the_stated_one() {
     let [least, most] = budget::ROWS16_FLOOR;
@@ -86,7 +86,7 @@ fn the_floor_is_the_stated_one() {
     assert!(reached > asked && reached < 1.1 * best, "{reached} {best}");
 }
 
-/// No tick is off by more than the error stated, whatever speed and acceleration within the range; some are nearly.
+/// No tick exceeds the stated error at any speed and acceleration within the range; some come near.
 #[test]
 fn no_tick_errs_more_than_stated() {
     let (machine, scale) = (press(), scale());

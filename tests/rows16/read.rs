@@ -1,4 +1,4 @@
-//! What a table reads, against the machine, for every set, on a turn and on a stroke.
+//! Values read from a table against the machine, for every set, on a turn and on a stroke.
 
 use jred::table::Usage;
 use jred::{Domain, Phase, Reducible, Reduction, Set, curves};

@@ -1,4 +1,4 @@
-//! What is not a table, and not a machine that 16 bits can hold.
+//! Invalid tables, and machines beyond 16 bits.
 
 use jred::machine::PoseError;
 use jred::number::RangeError;
@@ -67,7 +67,7 @@ fn lines_that_leave_their_range() {
     for index in [0, 1, 2, 4, 5] {
         let curve = index as u8;
         let expected = TableError::Range { curve, cell: 2 };
-        // Over the end of the range by the rise, and below the other end.
+        // Above the end of the range by the rise, and below the other end.
         assert_eq!(with(index, 0x7fff_0001), expected);
         assert_eq!(with(index, 0x8000_8000), expected);
     }
@@ -83,7 +83,7 @@ fn lines_that_leave_their_range() {
 fn no_inertia() {
     assert_eq!(with(3, 0), TableError::NoInertia { cell: 2 });
     assert_eq!(with(3, 1 << 16), TableError::NoInertia { cell: 2 });
-    // Down to zero at the end of the cell, and below it in its middle only.
+    // Down to zero at the end of the cell, and below it only in its middle.
     assert_eq!(with(1, 0x8000_0000), TableError::NoInertia { cell: 2 });
     let dips = refused(|rows| {
         rows.words[14 + 1] = 0x8300_7d00;
@@ -92,7 +92,7 @@ fn no_inertia() {
     assert_eq!(dips, TableError::NoInertia { cell: 2 });
 }
 
-/// ½ of J is taken; what is left is exactly enough, or one unit too little.
+/// J takes ½; the remainder is exactly sufficient, or one unit too small.
 #[test]
 fn torque_beyond_the_range() {
     let beyond = TableError::TorqueRange { cell: 2 };
@@ -124,7 +124,7 @@ fn torque_beyond_the_range() {
     assert_eq!(constant(|constants| constants.viscous = i32::MIN), first);
     assert_eq!(constant(|constants| constants.coulomb = 1 << 30), first);
     assert_eq!(constant(|constants| constants.coulomb = i32::MIN), first);
-    // Constants that the set does not have do not count.
+    // Constants outside the set do not count.
     let mut rows = good();
     rows.constants.viscous = i32::MIN;
     rows.constants.coulomb = i32::MIN;
@@ -223,7 +223,7 @@ fn machines_out_of_range() {
         ..wave
     };
     assert_eq!(base(&coulomb, curves::CONSTANT_COULOMB), "torque");
-    // Each fits, all together do not.
+    // Each fits, but not all together.
     let loaded = Wave { load: 40.0, ..wave };
     assert!(matches!(
         filled(&loaded, curves::LOAD, 40, &scale),
@@ -275,7 +275,7 @@ fn buffers_and_requests() {
         error.unwrap_err(),
         Error::Range(RangeError::NotPositive("torque error", 0.0))
     );
-    // Of the checks of a table, for a table of its own.
+    // Checks of a table, for a table of its own.
     assert!(
         Short::plain(vec![0; 12], 0, 4, Domain::Turn)
             .try_table()
@@ -283,7 +283,7 @@ fn buffers_and_requests() {
     );
 }
 
-/// Where 1/J is largest at the end of a stroke, the last cell is named.
+/// If 1/J is largest at the end of a stroke, the last cell is named.
 #[test]
 fn too_small_an_inertia_is_placed() {
     let scale = scale_of(60.0, 11.0, 2.0);

@@ -1,4 +1,4 @@
-//! The tick against the curves that its table reads, and against itself the other way.
+//! The tick against the curves of its table, and against its own inverse.
 
 use jred::{Phase, Q15, Scale, Set, Torque, curves};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn scale(spec: &Spec) -> Scale {
     Scale::limited_to(&spec.machine(), 60.0, 900.0, 256).unwrap()
 }
 
-/// Over it, machines whose curves overshoot in so few cells are left out.
+/// The table of the set; without machines whose curves overshoot in so few cells.
 fn table(spec: &Spec, set: Set) -> Option<Short> {
     Short::of(&spec.machine(), set, 200, &scale(spec)).ok()
 }
@@ -28,7 +28,7 @@ fn resisting(read: &CurveValues, scale: &Scale, omega: f64) -> f64 {
     (velocity(read, scale) * omega + read.viscous) * omega - read.load + read.coulomb * sgn(omega)
 }
 
-/// Torque less that of the curves, in units of 2⁻¹⁵.
+/// Torque minus that of the curves, in units of 2⁻¹⁵.
 fn torque_error<const SET: Set>(rows: &Short, phase: Phase, omega: i16, alpha: i16) -> f64 {
     let read = rows.table().at(phase);
     let (omega, alpha) = (q15(omega), q15(alpha));
@@ -85,8 +85,8 @@ fn torque_is_that_of_the_curves() {
     torque_of_set::<CONSTANT>();
 }
 
-/// Acceleration of the torque that an acceleration needs, less that acceleration, over what it may be: a part of it, and units
-/// of the torque over J.
+/// Acceleration from the torque for an acceleration, minus that acceleration, over its permitted error: a share of it, and units of the torque over
+/// J.
 fn there_and_back<const SET: Set>() {
     let mut worst = 0.0f64;
     let mut compared = 0;
@@ -129,7 +129,7 @@ fn forward_undoes_inverse() {
     there_and_back::<EVERY>();
 }
 
-/// Where the exact acceleration is well out of range or well within it, the flag says so, and the value is the nearest.
+/// If the exact acceleration is clearly out of range or clearly within it, the flag agrees, and the value is the nearest.
 fn saturation<const SET: Set>(rows: &Short, phase: Phase, omega: i16, torque: i16) {
     let (omega, torque) = (q15(omega), q15(torque));
     let model = model::<SET>(rows);
@@ -194,7 +194,7 @@ fn many_samples_are_single_ones() {
     assert_eq!(torques[3], Torque::default());
 }
 
-/// The bound on 1/J holds everywhere, and is not far above what is found.
+/// The bound on 1/J is valid everywhere, and close to the observed error.
 #[test]
 fn reciprocal_error_is_a_bound() {
     let mut nearest = 0.0f64;

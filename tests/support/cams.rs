@@ -1,4 +1,4 @@
-//! Disc cams to test with.
+//! Disc cams for tests.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
 use proptest::prelude::*;
 
-/// Cam and follower, their centres of mass off the axes.
+/// Cam and follower with eccentric centres of mass.
 pub(crate) fn links() -> [Link; 2] {
     [
         link_of(2.0, 0.003, [0.004, -0.002]),
@@ -47,8 +47,8 @@ fn program(up: Law, down: Law, lift: f64, degrees: [f64; 4]) -> Program {
     .unwrap()
 }
 
-/// A follower of each kind (0 to 5: rollers first, both swings), and a rise that suits it. The pivot is at `pivot` from
-/// the cam's, the arm 0.9 times as long.
+/// A follower of each kind (0 to 5: rollers first, both swinging directions), and a suitable rise. The pivot is at `pivot` from the cam's, the arm
+/// 0.9 times as long.
 pub(crate) fn follower(kind: u32, radius: f64, pivot: [f64; 2], offset: f64) -> (Follower, f64) {
     let roller = Roller::new(RollerDimensions {
         radius,
@@ -81,7 +81,7 @@ pub(crate) fn follower(kind: u32, radius: f64, pivot: [f64; 2], offset: f64) -> 
     }
 }
 
-/// The cam, its base circle enlarged to what it must be.
+/// The cam, with its base circle enlarged as required.
 pub(crate) fn build(lift: f64, base_radius: f64, follower: Follower) -> Result<DiscCam, CamError> {
     enlarged(&four(lift), base_radius, follower)
 }
@@ -105,7 +105,7 @@ const LAWS: [Law; 6] = [
     Law::SimpleSine,
 ];
 
-/// Random cams with every kind of follower that can be made.
+/// Random valid cams with every kind of follower.
 pub(crate) fn cam() -> impl Strategy<Value = DiscCam> {
     let parts = (
         (0u32..6, 0usize..6, 0usize..6),

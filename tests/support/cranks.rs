@@ -1,4 +1,4 @@
-//! Random slider-cranks with everything that their closed form can hold.
+//! Random slider-cranks with every load that their closed form supports.
 
 use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
@@ -19,7 +19,7 @@ pub(crate) struct Given {
     pub(crate) rod: f64,
     /// (r + |e|)/l
     pub(crate) steepness: f64,
-    /// Which part of it is r; the rest is e.
+    /// Share of r in it; the rest is e.
     share: f64,
     offset: f64,
     left: bool,
@@ -56,7 +56,7 @@ impl Given {
         }
     }
 
-    /// Centres of mass beside the links' lines, a weight in any direction.
+    /// Centres of mass off the links' lines, a weight in any direction.
     pub(crate) fn machine(&self) -> Machine<SliderCrank> {
         let lengths = self.dimensions();
         let link = |k: usize, length: f64| {
@@ -78,7 +78,7 @@ impl Given {
             Branch::Right
         };
         let mechanism = SliderCrank::new(lengths, branch, links).unwrap();
-        // A tenth of the slider's and the rod's J at least: what is lighter is another test's.
+        // At least a tenth of the slider's and the rod's J; lighter ones are covered by another test.
         let least = 0.1 * (5.0 * lengths.crank * lengths.crank);
         let mut machine = Machine::new(mechanism)
             .with_gravity(self.gravity)
@@ -93,7 +93,7 @@ impl Given {
                 3 => Action::ViscousForce(20.0 * a.abs()),
                 4 => Action::ViscousMoment(0.1 * a.abs()),
                 _ => {
-                    // Of the rod only its pin on the crank.
+                    // On the rod only its crank pin.
                     if *link == SliderCrank::ROD {
                         at = [0.0, 0.0];
                     }

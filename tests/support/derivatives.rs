@@ -9,8 +9,8 @@ use super::{assert_near, budget, derivative, largest};
 /// Largest step of the differences (rad).
 const STEP: f64 = 1.0 / 128.0;
 
-/// Every entry of `curve` is the derivative of the one before it. What the differences do not tell themselves is allowed: how much
-/// they change with half the step, and how much the derivative bends where the motion has an edge.
+/// Every entry of `curve` is the derivative of the one before it. The tolerance includes the differences' own error: their change with half the step,
+/// and the bend of the derivative where the motion has an edge.
 #[track_caller]
 fn chain<const N: usize>(name: &str, phi: f64, curve: impl Fn(f64) -> [f64; N]) {
     let places = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|k| curve(phi + k * STEP));
@@ -40,7 +40,7 @@ pub(crate) fn derivatives<M: Mechanism>(machine: &Machine<M>, phi: f64) {
             chain(&format!("{what} of link {link}"), phi, |x| {
                 let frame = frames(x)[link];
                 let t = [frame.x, frame.y, frame.psi][which];
-                // From the angle here on: ψ may cross ±π, and turns add up.
+                // From this angle on: ψ may cross ±π, and turns add up.
                 let value = match which {
                     2 => (t.value - start + PI).rem_euclid(TAU) - PI,
                     _ => t.value,

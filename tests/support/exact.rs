@@ -1,5 +1,4 @@
-//! What a table's words mean, in double precision and by other formulas than the library's: basis functions instead of the
-//! power form, no floors.
+//! The meaning of a table's words in double precision, by other formulas than the library's: basis functions instead of the power form, no floors.
 
 use jred::number::Role;
 use jred::table::Format;
@@ -7,7 +6,7 @@ use jred::{Phase, curves};
 
 use super::rows::{Meaning, Plain, Rows};
 
-/// Curves at one phase in machine units, the slope a cell.
+/// Curves at one phase in machine units, with slopes per cell.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Exact {
     pub(crate) inertia: f64,
@@ -18,7 +17,7 @@ pub(crate) struct Exact {
     pub(crate) reciprocal: f64,
 }
 
-/// The bits of a place in a cell that the fixed-point tick looks at.
+/// The bits of the position in a cell that the fixed-point tick uses.
 pub(crate) fn place_bits<F: Format>() -> u32 {
     match F::NAME {
         "spline" => !1,
@@ -29,7 +28,7 @@ pub(crate) fn place_bits<F: Format>() -> u32 {
 }
 
 impl<F: Plain> Rows<F> {
-    /// All curves at `phase`, of the place rounded down to these bits.
+    /// All curves at `phase`, with the position rounded down to these bits.
     pub(crate) fn exact(&self, phase: Phase, bits: u32) -> Exact {
         let (cell, fraction) = phase.cell(self.cells);
         let u = f64::from(fraction & bits) / 4_294_967_296.0;
@@ -69,7 +68,7 @@ impl<F: Plain> Rows<F> {
         (self.set & bits[index] != 0).then_some(1 + before.count())
     }
 
-    /// Value and slope a cell.
+    /// Value and slope per cell.
     fn curve(&self, role: Role, cell: usize, column: usize, u: f64) -> [f64; 2] {
         let curves = 1 + (self.set & (curves::ALL | curves::RECIPROCAL)).count_ones() as usize;
         let word = |index: usize| self.words[index].value(role);

@@ -7,12 +7,12 @@ use super::golden::Table;
 use super::jointed::size;
 use super::{assert_near, budget, largest};
 
-/// The drive torque by d'Alembert is that of the reduced equation, and the forces on the whole mechanism balance.
+/// The drive torque by d'Alembert equals that of the reduced equation, and the forces on the whole mechanism balance.
 #[track_caller]
 pub(crate) fn dalembert<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
     let forces = machine.forces(phi, omega, alpha).unwrap();
     let terms = machine.bare_reduction(phi).unwrap().torque(omega, alpha);
-    // Where terms cancel, the roundings are those of the largest force at the size of the mechanism.
+    // Where terms cancel, the roundings are relative to the largest force at the size of the mechanism.
     let frames = machine.mechanism().frames(phi).unwrap();
     let length = size(machine.mechanism(), phi, &frames);
     let joint_torques = forces
@@ -55,7 +55,7 @@ pub(crate) fn balance<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, al
             _ => on_second.times(-1.0).acting_on(first),
         };
         wrenches.extend([on_first, on_second]);
-        // Pins, sliders and teeth are where the joint is.
+        // Pins, sliders and teeth are at the joint.
         if let Joint::Revolute([_, at]) | Joint::Fixed([_, at]) | Joint::Prismatic([_, at]) = joint
         {
             assert_eq!(reaction.point, at.position(&frames).map(|c| c.value));

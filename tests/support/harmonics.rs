@@ -1,4 +1,4 @@
-//! What the tests of harmonics share: machines that are short Fourier series, the example press, and ways to fit them.
+//! Shared by the tests of harmonics: machines that are short Fourier series, the example press, and ways to fit them.
 
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
@@ -147,7 +147,7 @@ where
     Ok((found, words))
 }
 
-/// The model of as many harmonics as there are words for.
+/// The model with as many harmonics as there are words for.
 pub(crate) fn model<T, const SET: Set>(
     words: &[T],
 ) -> Result<Model<'_, Harmonic<T>, SET>, TableError>

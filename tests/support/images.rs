@@ -1,4 +1,4 @@
-//! Images to test with, and an independent CRC.
+//! Images for tests, and an independent CRC.
 
 use jred::image::{ImageCheck, encode, image_len};
 use jred::table::Format;
@@ -8,7 +8,7 @@ use super::machines::Wave;
 use super::rows::Rows;
 use super::scale_of;
 
-/// CRC-32 as IEEE 802.3 defines it, bit by bit: polynomial 0x04C11DB7 reflected, start and end inverted.
+/// CRC-32 as in IEEE 802.3, bit by bit: polynomial 0x04C11DB7 reflected, start and end inverted.
 pub(crate) fn crc32(words: &[u32]) -> u32 {
     !words
         .iter()
@@ -20,7 +20,7 @@ pub(crate) fn crc32(words: &[u32]) -> u32 {
         })
 }
 
-/// Makes the CRC right again.
+/// Corrects the CRC.
 pub(crate) fn sealed(mut image: Vec<u32>) -> Vec<u32> {
     let last = image.len() - 1;
     image[last] = crc32(&image[..last]);
@@ -41,7 +41,7 @@ pub(crate) fn encoded<F: Format>(machine: &Wave, set: Set, cells: u32, scale: &S
         .to_vec()
 }
 
-/// The smallest image there is: four cells, inertia only.
+/// The smallest possible image: four cells, inertia only.
 pub(crate) fn small() -> Vec<u32> {
     encoded::<Spline<f32>>(&Wave::bare(1.0, 0.25), curves::INERTIA, 4, &Scale::SI)
 }
@@ -65,7 +65,7 @@ pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
     encoded::<F>(&wave, set, 12, &scale.for_cells(12, domain.span()))
 }
 
-/// The verdict on an image that is checked so many words at a time.
+/// The verdict on an image checked in slices of this many words.
 pub(crate) fn in_slices(image: &[u32], words: usize) -> Result<Image<'_>, ImageError> {
     let mut check = ImageCheck::new(image);
     for _ in 0..=image.len() {
@@ -76,7 +76,7 @@ pub(crate) fn in_slices(image: &[u32], words: usize) -> Result<Image<'_>, ImageE
     panic!("the check of {} words does not end", image.len());
 }
 
-/// Why it is refused: at once, and in slices.
+/// The reason for its refusal, checked at once and in slices.
 pub(crate) fn refused(image: &[u32]) -> ImageError {
     let error = Image::new(image).map(|_| ()).unwrap_err();
     for words in [1, 7, 64] {

@@ -1,4 +1,4 @@
-//! What must hold for every mechanism that knows its joints.
+//! Properties of every mechanism with joints.
 
 use jred::machine::{Frames, Joint, Jointed, Mechanism, Wrench};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
@@ -7,7 +7,7 @@ use jred::{Domain, Machine, Reducible};
 
 use super::{assert_near, budget, forces, largest};
 
-/// Largest distance from the origin of anything in the mechanism, at least 1 mm: what lengths are measured by.
+/// Largest distance of any point from the origin of the mechanism, at least 1 mm: the scale of lengths.
 pub(crate) fn size(mechanism: &impl Jointed, phi: f64, frames: &Frames) -> f64 {
     let joints = mechanism.joints(phi, frames).unwrap();
     let of = |joint: &Joint| match joint {
@@ -20,7 +20,7 @@ pub(crate) fn size(mechanism: &impl Jointed, phi: f64, frames: &Frames) -> f64 {
     largest(joints.iter().flat_map(of)).max(1e-3)
 }
 
-/// Both markers of every joint meet, in place and in every transfer function; and no joint does work.
+/// Both markers of every joint coincide, in position and in every transfer function; no joint does work.
 #[track_caller]
 pub(crate) fn joints_close(mechanism: &impl Jointed, phi: f64) {
     let frames = mechanism.frames(phi).unwrap();
@@ -55,7 +55,7 @@ pub(crate) fn joints_close(mechanism: &impl Jointed, phi: f64) {
     assert_near("drive coordinate″", drive.d2, 0.0, budget::JOINT_CLOSURE);
 }
 
-/// How large the derivatives of each order are anywhere in the mechanism, times `scale`.
+/// Magnitude of the derivatives of each order anywhere in the mechanism, times `scale`.
 fn order_sizes(frames: &Frames, scale: f64) -> [f64; 4] {
     let most = |f: fn(&Transfer) -> f64| {
         let of = |frame: &jred::machine::Frame| {
@@ -71,7 +71,7 @@ fn order_sizes(frames: &Frames, scale: f64) -> [f64; 4] {
     [1.0, d1, second, d3.max(second * d1)].map(|size| size * scale)
 }
 
-/// Names, sizes and scales of the gaps of a joint, all of which must be zero.
+/// Names, values and scales of the gaps of a joint, all of which must be zero.
 fn gaps(joint: &Joint, frames: &Frames, length: f64) -> Vec<(&'static str, Transfer, f64)> {
     let apart = |[a, b]: &[jred::machine::Marker; 2]| {
         let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
@@ -134,8 +134,7 @@ fn speeds(wrench: &Wrench, frames: &Frames) -> (f64, f64, f64) {
     (frame.x.d1 - turn * arm[1], frame.y.d1 + turn * arm[0], turn)
 }
 
-/// Every link moves continuously over the drive's range, and a turn ends where it began (angles but for whole turns of a
-/// link whose motion repeats).
+/// Every link moves continuously over the drive's range, and a turn ends where it began (angles up to whole turns of a link whose motion repeats).
 #[track_caller]
 pub(crate) fn turns(mechanism: &impl Mechanism, steps: u32) {
     let domain = mechanism.domain();
@@ -150,7 +149,7 @@ pub(crate) fn turns(mechanism: &impl Mechanism, steps: u32) {
                 ("y", [a.y, b.y]),
                 ("psi", [a.psi, b.psi]),
             ] {
-                // The trapezoidal rule and its remainder: a jump is larger by far.
+                // The trapezoidal rule and its remainder: a jump is far larger.
                 let [from, to] = f;
                 let expected = 0.5 * (from.d1 + to.d1) * step;
                 let bound = (0.25 * (to.d2 - from.d2).abs() + 0.1 * (from.d2.abs() + to.d2.abs()))
@@ -183,7 +182,7 @@ pub(crate) fn turns(mechanism: &impl Mechanism, steps: u32) {
     }
 }
 
-/// The reduced inertia's slope is the derivative of its value, and its energy that of the links one by one.
+/// The reduced inertia's slope is the derivative of its value, and its energy the sum over the links.
 #[track_caller]
 pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
     let reduced = machine.bare_reduction(phi).unwrap();
@@ -211,7 +210,7 @@ pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
     let _ = machine.domain();
 }
 
-/// The mechanism's joints, assembled by the general solver from its own drawing at `phi`, a little off.
+/// The mechanism's joints, assembled by the general solver from a slightly inaccurate drawing at `phi`.
 pub(crate) fn as_linkage(
     mechanism: &impl Jointed,
     phi: f64,
@@ -256,7 +255,7 @@ pub(crate) fn same_frames(one: &impl Mechanism, other: &impl Mechanism, phi: f64
             let pairs = [(x.value, y.value), (x.d1, y.d1), (x.d2, y.d2), (x.d3, y.d3)];
             for (order, ((x, y), size)) in pairs.iter().zip(sizes).enumerate() {
                 let name = format!("φ = {phi}: {what} of link {link}, derivative {order}");
-                // Whole turns are a matter of where the drawing began.
+                // Whole turns depend on the start of the drawing.
                 let whole = if what == "psi" && order == 0 {
                     ((x - y) / std::f64::consts::TAU).round() * std::f64::consts::TAU
                 } else {
@@ -268,7 +267,7 @@ pub(crate) fn same_frames(one: &impl Mechanism, other: &impl Mechanism, phi: f64
     }
 }
 
-/// Everything of the above that holds at one instant: the joints close, the forces balance, the energies agree.
+/// All checks above that concern one instant: the joints close, the forces balance, the energies agree.
 #[track_caller]
 pub(crate) fn holds<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
     joints_close(machine.mechanism(), phi);

@@ -1,4 +1,4 @@
-//! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
+//! Machines for tests: random slider-cranks, and a machine with sinusoidal curves.
 use jred::machine::{Action, Load, MassProperties};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::{Domain, Link, Machine, Reducible, Reduction};
@@ -119,7 +119,7 @@ impl Spec {
     }
 }
 
-/// J = mean + swing·cos φ, load = load·sin φ, constant b and c: curves that can be written down.
+/// J = mean + swing·cos φ, load = load·sin φ, constant b and c: curves in closed form.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wave {
     /// Mean reduced inertia (kg·m²).

@@ -1,4 +1,4 @@
-//! What the test files share.
+//! Shared by the test files.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
 pub(crate) mod budget;
@@ -22,7 +22,7 @@ use jred::{Domain, Link, Phase, Scale};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
-/// The same cases every time, and no files written.
+/// The same cases in every run, and no files written.
 pub(crate) fn config(cases: u32, seed: u64) -> Config {
     Config {
         cases,
@@ -33,7 +33,7 @@ pub(crate) fn config(cases: u32, seed: u64) -> Config {
     }
 }
 
-/// `count` values of a strategy, the same every time: for figures over many cases (largest, RMS, bias).
+/// `count` values of a strategy, the same in every run: for figures over many cases (largest, RMS, bias).
 pub(crate) fn samples<T: Strategy>(count: u32, seed: u64, strategy: &T) -> Vec<T::Value> {
     let mut runner = TestRunner::new(config(count, seed));
     let mut next = || strategy.new_tree(&mut runner).unwrap().current();
@@ -55,7 +55,7 @@ pub(crate) fn scale_of(torque: f32, speed: f32, inertia: f32) -> Scale {
     Scale::new(bases).unwrap()
 }
 
-/// An error's message with its cure; of a quantity outside its range the message, which says all.
+/// An error's message with its cure; for a quantity outside its range the message alone, which is complete.
 pub(crate) fn spoken(error: impl Into<jred::Error>) -> String {
     match error.into() {
         range @ jred::Error::Range(_) => range.to_string(),
@@ -110,7 +110,7 @@ pub(crate) fn quantity<Q: Quantity>(value: f64) -> Q {
     Q::of(Q::Number::from_f64(value).unwrap())
 }
 
-/// In machine units.
+/// The value in machine units.
 pub(crate) fn value<Q: Quantity>(quantity: Q) -> f64 {
     quantity.number().to_f64()
 }

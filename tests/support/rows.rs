@@ -1,11 +1,11 @@
-//! A table with the memory it lies in.
+//! A table that owns its memory.
 
 use jred::number::Role;
 use jred::table::{Constants, Format, Shape, words_len};
 use jred::tabulate::{fill, scratch_len};
 use jred::{Domain, Error, Model, Reducible, Scale, Set, Table, TableError};
 
-/// Words of a table, and what they stand for.
+/// Words of a table, and their meaning.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows<F: Format> {
     pub(crate) words: Vec<F::Word>,
@@ -81,7 +81,7 @@ impl<F: Format> Rows<F> {
     }
 }
 
-/// What a word means, by the formats that `docs/table-image.md` states.
+/// The meaning of a word, by the formats of `docs/table-image.md`.
 pub(crate) trait Meaning: Copy + Default {
     const FIXED: bool;
     fn value(self, role: Role) -> f64;

@@ -1,6 +1,6 @@
-//! A search that tries to exceed a bound: random cases and corners first, from each of them hill climbing.
+//! A search that tries to exceed a bound: random cases and corners first, then hill climbing from each.
 
-/// Cases that are climbed from, in either direction, and steps of each.
+/// Number of cases to climb from, in either direction, and of steps each.
 const STARTS: usize = 4;
 const STEPS: usize = 10_000;
 
@@ -38,7 +38,7 @@ impl Random {
     }
 }
 
-/// The least and the greatest error found, of cases that are made of so many genes; `None` is no case.
+/// The least and the greatest error found over cases of this many genes; `None` is an invalid case.
 pub(crate) fn extremes(seed: u64, genes: usize, error: impl Fn(&[u32]) -> Option<f64>) -> [f64; 2] {
     let mut random = Random(seed);
     let mut found = [f64::INFINITY, f64::NEG_INFINITY];

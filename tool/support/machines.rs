@@ -1,4 +1,4 @@
-//! Machine texts that the tests of several packages read.
+//! Machine files used by the tests of several packages.
 
 /// A boom on a bearing, lifted by a cylinder: s² = a² + b² − 2·a·b·cos θ with a = 500 mm, b = 600 mm.
 pub(crate) const LIFT: &str = r#"gravity = ["0 m/s^2", "-9.81 m/s^2"]
@@ -21,7 +21,7 @@ joint = [
 ]
 "#;
 
-/// The lift goes up, stays, and comes down.
+/// The lift goes up, pauses, and comes down.
 pub(crate) const LIFT_MOTION: &str = r#"
 [motion]
 type = "cycle"

@@ -1,4 +1,4 @@
-//! What the tests of the tool's packages share, included by each. Not every package uses all of it.
+//! Shared by the tests of the tool's packages, each of which includes it. Not every package uses all of it.
 #![allow(dead_code)]
 
 pub(crate) mod budget;
@@ -101,7 +101,7 @@ impl Columns {
         }
     }
 
-    /// A column that is full.
+    /// A column without gaps.
     pub(crate) fn get(&self, name: &str) -> Vec<f64> {
         let index = self.names.iter().position(|n| n == name);
         let index = index.unwrap_or_else(|| panic!("no column {name:?} in {:?}", self.names));

@@ -1,4 +1,4 @@
-//! Plain numerical methods, none of which the tool uses.
+//! Plain numerical methods that the tool does not use.
 
 /// f′(x) by central differences with the steps h and h/2, extrapolated to order 4.
 pub(crate) fn derivative(f: impl Fn(f64) -> f64, x: f64, h: f64) -> f64 {

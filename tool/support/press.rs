@@ -1,4 +1,4 @@
-//! The press of `machines/press.toml`, written down once more from textbook formulas: no code of the tool.
+//! The press of `machines/press.toml` from textbook formulas, without code of the tool.
 //!
 //! In-line slider-crank, crank pivot at the origin, guide along x:
 //! x_B = r·cos φ + √(l² − r²·sin²φ), the rod's angle from sin β = −(r/l)·sin φ. Speeds come from the analytic first
@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::numerics::derivative;
 
-/// What the example says, without its title, its comments, and its simulation. Constants below are these figures.
+/// The example without its title, comments and simulation. The constants below are these figures.
 pub(crate) const STATED: &str = r#"
 gravity = ["9.81 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -72,7 +72,7 @@ const BEARINGS: f64 = 0.4;
 /// Ratio of the belt.
 pub(crate) const RATIO: f64 = 3.0;
 pub(crate) const BELT_EFFICIENCY: f64 = 0.97;
-/// Driver pulley, and the belt's mass, which runs at the driver's rim.
+/// Driver pulley, and the belt's mass at the driver's rim.
 const DRIVER: f64 = 0.0006 + 0.6 * 0.04 * 0.04;
 const DRIVEN: f64 = 0.03;
 /// Length of the move and of the cycle (s).
@@ -123,7 +123,7 @@ pub(crate) fn potential(phi: f64) -> f64 {
     -GRAVITY_X * moments
 }
 
-/// How much of the pressing force acts: nothing at 315° and at 360°, all of it from 330° to 345°, quintic ramps.
+/// Share of the pressing force that acts: 0 at 315° and 360°, 1 from 330° to 345°, with quintic ramps.
 fn window(phi: f64) -> f64 {
     let degrees = phi.to_degrees().rem_euclid(360.0);
     let ramp = |z: f64| z.powi(3) * (10.0 - 15.0 * z + 6.0 * z * z);
@@ -166,7 +166,7 @@ pub(crate) fn crank_torque(t: f64) -> f64 {
     if omega == 0.0 {
         return derivative(potential, phi, 1e-3);
     }
-    // The polynomial goes on smoothly beyond the ends of the move, which is all that differences need.
+    // The polynomial continues smoothly beyond the ends of the move, which suffices for differences.
     let momentum = |t: f64| {
         let z = t / MOVE;
         let phi = PI + TAU * z.powi(3) * (10.0 - 15.0 * z + 6.0 * z * z);
@@ -179,7 +179,7 @@ pub(crate) fn crank_torque(t: f64) -> f64 {
         + coulomb(phi) * omega.signum()
 }
 
-/// The other way to the same torque: power balance, d(K + U)/dt plus what loads take, divided by the speed.
+/// The other method for the same torque: power balance, d(K + U)/dt plus the power of the loads, divided by the speed.
 pub(crate) fn crank_torque_by_power(t: f64) -> f64 {
     let energy = |t: f64| {
         let [phi, omega, _] = motion(t);
@@ -199,7 +199,7 @@ pub(crate) struct Input {
     pub(crate) inertia: f64,
 }
 
-/// Through the belt: the driven pulley needs its own torque, then the loss, then the driver pulley.
+/// Through the belt: the torque of the driven pulley, then the loss, then the driver pulley.
 pub(crate) fn input(t: f64) -> Input {
     let [phi, omega, alpha] = motion(t);
     let delivered = crank_torque(t) + DRIVEN * alpha;

@@ -1,9 +1,9 @@
-//! What a test leaves out here.
+//! Skipped tests.
 
 use std::io::Write as _;
 
-/// Says what could not be tested here, and fails in CI. The line is seen though the test passes: only `print!` and `eprint!` are
-/// kept from the terminal. `scripts/test` looks for it.
+/// Reports a test that cannot run here, and fails in CI. The line is visible even if the test passes: only `print!` and `eprint!` are captured.
+/// `scripts/test` searches for it.
 pub(crate) fn skip(what: &str) {
     let _ = writeln!(std::io::stderr(), "\nSKIP {what}");
     assert!(

@@ -7,8 +7,7 @@ use rand::{Rng, RngExt as _};
 
 use crate::{NAMED, no_number};
 
-/// Processor time (s) and memory (KiB) of a command: more than any example takes, `sensitivity` of the excavator with overflow
-/// checks included.
+/// Processor time (s) and memory (KiB) of a command: more than any example needs, `sensitivity` of the excavator with overflow checks included.
 const SECONDS: u32 = 60;
 const MEMORY: u32 = 1_000_000;
 
@@ -51,7 +50,7 @@ pub fn any(rng: &mut impl Rng) -> &'static str {
 /// Runs a command with this machine.
 ///
 /// # Errors
-/// What is wrong with what the command did.
+/// The fault in the command's behaviour.
 ///
 /// # Panics
 /// The command cannot be started, or the machine file cannot be written.
@@ -78,7 +77,7 @@ pub fn run(command: &str, jred: &Path, machine: &str) -> Result<i32, String> {
     judge(&output, written.as_deref()).map_err(|what| format!("jred {command}: {what}"))
 }
 
-/// What is wrong with an output.
+/// Why an output is wrong.
 fn judge(output: &Output, written: Option<&[u8]>) -> Result<i32, String> {
     let [out, err] =
         [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
@@ -97,7 +96,7 @@ fn judge(output: &Output, written: Option<&[u8]>) -> Result<i32, String> {
         ));
     }
     let page = written.map(String::from_utf8_lossy).unwrap_or_default();
-    // Pages hold scripts, whose words are not numbers.
+    // Pages contain scripts, whose words are not numbers.
     let page = page.split("<script").next().unwrap_or_default().to_owned();
     for (name, text) in [("result", &out), ("message", &err), ("file", &page)] {
         if let Some(word) = no_number(text) {

@@ -1,4 +1,4 @@
-//! One function for each kind of input. It returns whether the input was understood, and panics where it finds something.
+//! One function for each kind of input. It returns whether the input was accepted, and panics on a fault.
 
 use jred::number::Quantity;
 use std::collections::BTreeMap;
@@ -31,20 +31,20 @@ use jred_sizing::study::cell::Cell;
 
 use crate::{NAMED, at, files, no_number};
 
-/// An input that is read, what it is changed from, and what is done with it.
+/// A kind of input, its seeds, and its processing.
 #[derive(Clone, Copy, Debug)]
 pub struct Harness {
     /// Its name.
     pub name: &'static str,
     /// Whether `corpus/` has a folder of this name.
     pub kept: bool,
-    /// What inputs are made from.
+    /// Seeds of the inputs.
     pub seeds: fn() -> Vec<Vec<u8>>,
-    /// Does with an input all that jred does with it; whether it was understood.
+    /// Processes an input like jred; returns whether it was accepted.
     pub run: fn(&[u8]) -> bool,
 }
 
-/// All of them.
+/// All harnesses.
 pub const ALL: [Harness; 7] = [
     Harness {
         name: "image",
@@ -91,7 +91,7 @@ pub const ALL: [Harness; 7] = [
 ];
 
 impl Harness {
-    /// What was once found, or is worth changing: whole inputs.
+    /// Complete inputs with former faults, or worth changing.
     ///
     /// # Panics
     /// The folder is not there.
@@ -108,19 +108,19 @@ pub fn named(name: &str) -> Option<Harness> {
     ALL.into_iter().find(|harness| harness.name == name)
 }
 
-/// What is no text is refused before it gets to a reader.
+/// Bytes that are not text are refused before they reach a reader.
 fn texts(bytes: &[u8], run: fn(&str) -> bool) -> bool {
     std::str::from_utf8(bytes).is_ok_and(run)
 }
 
-/// What plans are made from: that of the examples, and the kept ones.
+/// Seeds of plans: that of the examples, and the kept ones.
 fn plans() -> Vec<Vec<u8>> {
     let mut seeds = files(&["examples/data"], "_plan.jred");
     seeds.extend(files(&["tests/fuzz/corpus/plan"], ""));
     seeds
 }
 
-/// A table image: its CRC is made right, so that what is behind it is looked at; what is let in is ticked.
+/// A table image: its CRC is corrected, so that the content is checked; accepted images are ticked.
 fn image(bytes: &[u8]) -> bool {
     let words = with_crc(bytes);
     let Ok(image) = Image::new(&words) else {
@@ -141,12 +141,12 @@ fn image(bytes: &[u8]) -> bool {
     found.contains(&true)
 }
 
-/// Ticks at the ends of every cell, at the ends of the range of numbers; whether the image has this format.
+/// Ticks at the ends of every cell and of the number range; returns whether the image has this format.
 fn ticks<F: Format>(image: &Image<'_>) -> bool {
     let Ok(model) = image.any_model::<F>() else {
         return false;
     };
-    // In f32 as far as a table's own figures can be; a fixed-point number is limited to its range.
+    // In f32 up to the size of a table's own figures; a fixed-point number is limited to its range.
     let numbers = [0.0, 0.999, -1.0, 0.3, -1e-3].into_iter();
     let numbers: Vec<F::Number> = numbers.filter_map(F::Number::from_f64).collect();
     for k in 0..512u32 {
@@ -158,7 +158,7 @@ fn ticks<F: Format>(image: &Image<'_>) -> bool {
             let reach = model.acceleration_range(phase, omega, Quantity::of(b), torque);
             let [least, greatest] = [reach.least, reach.greatest].map(|end| end.value.number());
             for value in [torque.number(), least, greatest] {
-                // A table of f32 may hold figures whose products are beyond its range.
+                // A table of f32 may contain figures whose products exceed its range.
                 assert!(
                     !value.to_f64().is_nan(),
                     "{phase:?}, {a:?}, {b:?}: {value:?}"
@@ -169,7 +169,7 @@ fn ticks<F: Format>(image: &Image<'_>) -> bool {
     true
 }
 
-/// Bytes as the words of an image whose CRC is right.
+/// Bytes as the words of an image with a correct CRC.
 pub(crate) fn with_crc(bytes: &[u8]) -> Vec<u32> {
     let words = bytes
         .chunks_exact(4)
@@ -181,7 +181,7 @@ pub(crate) fn with_crc(bytes: &[u8]) -> Vec<u32> {
     words
 }
 
-/// CRC-32 as IEEE 802.3 defines it.
+/// CRC-32 as in IEEE 802.3.
 fn crc32(words: &[u32]) -> u32 {
     !words
         .iter()
@@ -193,26 +193,26 @@ fn crc32(words: &[u32]) -> u32 {
         })
 }
 
-/// The CSV files that machine files name.
+/// The CSV files named in machine files.
 fn data() -> BTreeMap<String, String> {
     let text = |name: &str| std::fs::read_to_string(at("machines").join(name)).expect("an example");
     NAMED.map(|name| (name.to_owned(), text(name))).into()
 }
 
-/// A machine file: what is in it is reduced, checked, run through its motion, and sized with the built-in catalogue.
+/// A machine file: reduced, checked, run through its motion, and sized with the built-in catalogue.
 fn machine(text: &str) -> bool {
     static DATA: OnceLock<BTreeMap<String, String>> = OnceLock::new();
     computed(text, DATA.get_or_init(data))
 }
 
-/// What profiles are made from: speeds that a drive recorded, positions, and states.
+/// Seeds of profiles: recorded speeds of a drive, positions, and states.
 fn profiles() -> Vec<Vec<u8>> {
     let mut seeds = files(&["machines"], "log.csv");
     seeds.extend(files(&["tests/fuzz/corpus/profile"], ""));
     seeds
 }
 
-/// A recorded motion, of a machine that smooths it and of one that takes it as it is.
+/// A recorded motion, for a machine that smooths it and for one that uses it as it is.
 fn profile(text: &str) -> bool {
     static MACHINES: OnceLock<[String; 2]> = OnceLock::new();
     let machines = MACHINES.get_or_init(|| {
@@ -224,7 +224,7 @@ fn profile(text: &str) -> bool {
     });
     let mut data = data();
     data.insert("drive-log.csv".to_owned(), text.to_owned());
-    // Not `any`: both are to be tried.
+    // Not `any`: both must be tried.
     let understood = machines.each_ref().map(|machine| computed(machine, &data));
     understood.contains(&true)
 }
@@ -307,7 +307,7 @@ fn written(columns: &Columns) {
     for (row, of_json) in rows.iter().zip(of_json) {
         for (cell, of_json) in row.iter().zip(of_json.as_array().expect("a row")) {
             let cell: Option<f64> = cell.parse().ok();
-            // The general parser of JSON may be off by a unit in the last place.
+            // The general JSON parser may differ by a unit in the last place.
             let close = |(a, b): (f64, f64)| (a - b).abs() <= 2.0 * f64::EPSILON * a.abs();
             assert!(
                 cell == of_json.as_f64() || cell.zip(of_json.as_f64()).is_some_and(close),
@@ -318,10 +318,10 @@ fn written(columns: &Columns) {
     sound(&write(columns, Sheet::Table, ""));
 }
 
-/// No number is none.
+/// The text contains no NaN and no infinity.
 ///
 /// # Panics
-/// One is.
+/// It contains one.
 fn sound(text: &str) {
     assert_eq!(no_number(text), None, "in {text}");
 }
@@ -357,11 +357,11 @@ fn built_in() -> &'static Catalogue {
     CATALOGUE.get_or_init(|| Catalogue::built_in().expect("the built-in catalogue"))
 }
 
-/// Between the name of a catalogue's table and its text in an input.
+/// Separator between the name of a catalogue's table and its text in an input.
 const NAME_ENDS: char = '\n';
 
-/// The first rows of the built-in tables, each behind its name: a mutation of the hundredth row shows no more. Only what was kept
-/// has gearboxes with every column, and a catalogue in TOML.
+/// The first rows of the built-in tables, each after its name: mutating the hundredth row shows no more. Only kept inputs have gearboxes with every
+/// column, and a catalogue in TOML.
 fn catalogues() -> Vec<Vec<u8>> {
     let table = |name: &str| {
         let table = at("tool/sizing/catalogue").join(name);
@@ -373,7 +373,7 @@ fn catalogues() -> Vec<Vec<u8>> {
     [&built_in[..], &files(&["tests/fuzz/corpus/catalogue"], "")].concat()
 }
 
-/// A table of a catalogue: the name of its file on the first line, then its text. The press is sized with what it holds.
+/// A table of a catalogue: the name of its file on the first line, then its text. The press is sized with it.
 fn catalogue(input: &str) -> bool {
     static PRESS: OnceLock<(MachineFile, Cycle)> = OnceLock::new();
     let (press, cycle) = PRESS.get_or_init(|| {
@@ -403,7 +403,7 @@ fn catalogue(input: &str) -> bool {
     understood
 }
 
-/// A file of a study's rows: its header, and every line as a row of it.
+/// A file of a study's rows: its header, then every line as a row.
 fn rows(text: &str) -> bool {
     let path = std::path::Path::new("rows.csv");
     let mut lines = text.lines().peekable();
@@ -420,7 +420,7 @@ fn rows(text: &str) -> bool {
     };
     let mut found = 0;
     for line in lines {
-        // Behind the check sum: any text is a cell.
+        // Without the check sum: any text is a cell.
         let (index, cells) = match store::row(form, &header.columns, line) {
             Some(row) => {
                 found += 1;
@@ -445,7 +445,7 @@ fn rows(text: &str) -> bool {
     found > 0
 }
 
-/// Words of a command line, one on each line, behind the name of the program: they are read, nothing is run.
+/// Words of a command line, one per line, after the name of the program: parsed, not run.
 fn arguments(text: &str) -> bool {
     let words = std::iter::once("jred").chain(text.lines());
     match Cli::try_parse_from(words) {

@@ -1,28 +1,28 @@
-//! The heaviest inputs that each command accepts, and the memory that it may take for them.
+//! The heaviest inputs that each command accepts, and the memory limit for them.
 
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// The memory that a command may take (MB): resident, and asked of the system for data and heap.
+/// Memory limit of a command (MB): resident, and data and heap requested from the system.
 pub const CEILING: u64 = 500;
 
-/// Processor time (s) that a quick command and one that is not may take: far above what they do, and far below a search without a bound.
+/// Limits of the processor time (s) of a quick command and a slow one: far above normal use, and far below an unbounded search.
 const SECONDS: [u32; 2] = [60, 900];
 
 /// A command with its heaviest input.
 #[derive(Clone, Copy, Debug)]
 pub struct Heavy {
-    /// Its words, `_` for a space within one. Machine files are those of `machines/`, or what [`Inputs::write`] writes.
+    /// Its words, `_` for a space within one. Machine files are those of `machines/`, or those of [`Inputs::write`].
     pub words: &'static str,
     /// Whether it takes a second or two and runs with every test; `jred-fuzz heavy` runs all.
     pub quick: bool,
-    /// The exit code with which it has to end.
+    /// The expected exit code.
     pub code: i32,
 }
 
-/// The commands. What is not here takes what its machine file holds, which has 1 MiB at most.
+/// The commands. Others are bounded by their machine file, of at most 1 MiB.
 pub const COMMANDS: [Heavy; 32] = [
     quick("size press.toml --steps 200000"),
     quick("size press.toml --steps 64 --catalogue drives --format csv"),
@@ -77,7 +77,7 @@ const fn slow(words: &'static str) -> Heavy {
 }
 
 impl Heavy {
-    /// It answers no: a rule is violated, or a torque error not reached.
+    /// It ends with 1: a rule is violated, or a torque error not reached.
     const fn violated(self) -> Self {
         Self { code: 1, ..self }
     }
@@ -87,19 +87,19 @@ impl Heavy {
 #[derive(Debug)]
 pub struct Inputs(tempfile::TempDir);
 
-/// What a command took.
+/// Resources used by a command.
 #[derive(Clone, Copy, Debug)]
 pub struct Taken {
-    /// Its exit code; `None`: it was ended.
+    /// Its exit code; `None`: it was killed.
     pub code: Option<i32>,
-    /// Resident memory at its largest (MB), as last seen a moment before the end.
+    /// Peak resident memory (MB), as last read before the end.
     pub memory: u64,
-    /// How long it took.
+    /// Its duration.
     pub time: Duration,
 }
 
 impl Inputs {
-    /// Machine files, catalogues at their limits, and a long simulation.
+    /// Writes machine files, catalogues at their limits, and a long simulation.
     ///
     /// # Panics
     /// A file cannot be written.
@@ -124,16 +124,16 @@ impl Inputs {
         Self(folder)
     }
 
-    /// Runs a command where the system gives it no more data than the ceiling.
+    /// Runs a command with data limited to the ceiling.
     ///
     /// # Errors
-    /// What is wrong with how it ended.
+    /// The fault in how it ended.
     ///
     /// # Panics
     /// It cannot be started.
     pub fn run(&self, heavy: Heavy, jred: &Path) -> Result<Taken, String> {
         let at = |name: &str| self.0.path().join(name);
-        // The rows of a study begin only where no file is.
+        // The rows of a study need a file that does not exist yet.
         let _ = std::fs::remove_file(at("OUT"));
         // In kibibytes.
         let limit = format!(
@@ -176,7 +176,7 @@ impl Inputs {
     }
 }
 
-/// The most resident memory of a process so far (MB); zero where the system does not say.
+/// Peak resident memory of a process so far (MB); zero if the system does not report it.
 fn resident(process: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -184,7 +184,7 @@ fn resident(process: u32) -> u64 {
     kilobytes.unwrap_or(0) * 1024 / 1_000_000
 }
 
-/// The press, simulated for as many rows as are accepted.
+/// The press, simulated for the largest accepted number of rows.
 fn long(press: &str) -> String {
     let head = press.split("[simulation]").next().unwrap_or_default();
     format!(

@@ -1,12 +1,12 @@
-//! Hostile inputs for everything that jred reads: nothing may panic, give a number that is none, or take minutes.
+//! Hostile inputs for everything that jred reads: nothing may panic, print NaN or infinity, or take minutes.
 //!
 //! 1. [`mutate`]: texts and images, changed byte by byte; [`machine`]: machine files, changed value by value.
-//! 2. [`harness`]: one function for each kind of input; it panics where it finds something.
+//! 2. [`harness`]: one function for each kind of input; it panics on a fault.
 //! 3. [`command`]: machine files through every command of `jred`, each with a limit of time and memory.
-//! 4. [`heavy`]: the largest inputs that each command accepts, below a ceiling of memory.
+//! 4. [`heavy`]: the largest inputs that each command accepts, below a memory limit.
 //!
-//! The same functions are run three ways: so many inputs each by `cargo test`, as long as one likes by the program
-//! `jred-fuzz`, and guided by coverage (libFuzzer) by `scripts/fuzz`. What was once found is kept in `corpus/`, and is tried first.
+//! The same functions run in three ways: a fixed number of inputs each by `cargo test`, for any time by the program `jred-fuzz`, and guided by
+//! coverage (libFuzzer) by `scripts/fuzz`. Inputs with former faults are kept in `corpus/`, and are tried first.
 #![forbid(unsafe_code)]
 
 pub mod command;
@@ -25,7 +25,7 @@ pub fn at(path: &str) -> PathBuf {
         .join(path)
 }
 
-/// The contents of every file of these folders with this ending, in the order of their names.
+/// The contents of every file of these folders with this extension, ordered by name.
 ///
 /// # Panics
 /// A folder cannot be read.
@@ -44,7 +44,7 @@ pub fn files(folders: &[&str], ending: &str) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// The CSV files that machine files of the examples name.
+/// The CSV files named in the examples' machine files.
 const NAMED: [&str; 4] = [
     "drive-log.csv",
     "force-over-stroke.csv",
@@ -52,7 +52,7 @@ const NAMED: [&str; 4] = [
     "reduced-curves.csv",
 ];
 
-/// The first word that stands for a number and is none.
+/// The first word for NaN or infinity.
 fn no_number(text: &str) -> Option<&str> {
     let mut words = text.split(|c: char| !c.is_alphanumeric());
     words.find(|word| ["inf", "NaN", "Infinity"].contains(word))

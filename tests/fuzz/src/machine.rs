@@ -1,9 +1,9 @@
-//! Machine files, changed value by value, so that most of them are still read.
+//! Machine files, changed value by value, so that most of them are still accepted.
 
 use rand::{Rng, RngExt as _};
 use toml::{Table, Value};
 
-/// Factors and numbers that a number is replaced by.
+/// Replacements of a number: factors and values.
 const FACTORS: [f64; 12] = [
     0.0, -1.0, 1e-12, 1e-6, 1e-3, 0.1, 0.5, 0.999_999, 1.000_001, 2.0, 1e3, 1e6,
 ];
@@ -11,19 +11,19 @@ const NUMBERS: [&str; 10] = [
     "0", "-0", "1", "1e-300", "1e300", "1e-9", "1e9", "90", "180", "360",
 ];
 
-/// Most changes of one machine.
+/// Largest number of changes to one machine.
 const CHANGES: usize = 3;
 
-/// Machines to change, and what to change them with.
+/// Machines to change, and values to change them with.
 #[derive(Debug)]
 pub struct Machines {
     machines: Vec<Table>,
-    /// Every key with a value that it has in one of them.
+    /// Every key with each of its values.
     values: Vec<(String, Value)>,
 }
 
 impl Machines {
-    /// The machines of these texts; what is no TOML is left out.
+    /// The machines of these texts; texts that are not TOML are left out.
     pub fn new(texts: &[Vec<u8>]) -> Self {
         let texts = texts
             .iter()
@@ -36,8 +36,7 @@ impl Machines {
         Self { machines, values }
     }
 
-    /// One of them with a few changes: a number scaled or replaced, a unit changed, a value taken from elsewhere, a key removed or
-    /// added.
+    /// One of them with a few changes: a number scaled or replaced, a unit changed, a value taken from elsewhere, a key removed or added.
     ///
     /// # Panics
     /// There are no machines.
@@ -46,12 +45,12 @@ impl Machines {
         for _ in 0..rng.random_range(1..=CHANGES) {
             self.change(rng, &mut machine);
         }
-        // A title may hold anything: it would be mistaken for a result.
+        // A title may contain anything, and could be mistaken for a result.
         machine.insert("title".to_owned(), "A machine".into());
         machine.to_string()
     }
 
-    /// Changes one place of a table: it goes down to a value at random.
+    /// Changes one value of a table, reached by a random descent.
     fn change(&self, rng: &mut impl Rng, table: &mut Table) {
         let keys: Vec<String> = table.keys().cloned().collect();
         if keys.is_empty() || rng.random_ratio(1, 12) {
@@ -89,7 +88,7 @@ impl Machines {
                 *number = numbers[rng.random_range(0..numbers.len())];
             }
             Value::Boolean(truth) => *truth = !*truth,
-            // The same key of another machine, or anything.
+            // The value of the same key in another machine, or anything.
             _ => {
                 let same: Vec<&Value> = self
                     .values
@@ -122,7 +121,7 @@ fn gather(table: &Table, values: &mut Vec<(String, Value)>) {
     }
 }
 
-/// A quantity with another number or another unit; a text that is none stays.
+/// A quantity with another number or another unit; other texts are unchanged.
 fn quantity(rng: &mut impl Rng, text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     let Ok(figure) = number.parse::<f64>() else {

@@ -1,5 +1,5 @@
-//! `jred-fuzz HARNESS [--seconds N] [--seed N]`: inputs of one harness, or with `command` machine files through every command,
-//! as long as one likes. Compiled with `--cfg fuzzing` it is a program for libFuzzer, which `scripts/fuzz` runs.
+//! `jred-fuzz HARNESS [--seconds N] [--seed N]`: inputs of one harness, or with `command` machine files through every command, for any time. Compiled
+//! with `--cfg fuzzing` it is a program for libFuzzer, which `scripts/fuzz` runs.
 #![cfg_attr(not(fuzzing), forbid(unsafe_code))]
 #![cfg_attr(fuzzing, no_main)]
 #![cfg_attr(
@@ -39,7 +39,8 @@ mod program {
     /// Runs random inputs.
     #[derive(clap::Parser)]
     pub(super) struct Options {
-        /// Harness: image, plan, machine, values (of machine files), profile, catalogue, rows, arguments, command, or heavy (the largest inputs of each command).
+        /// Harness: image, plan, machine, values (of machine files), profile, catalogue, rows, arguments, command, or heavy (the largest inputs of
+        /// each command).
         harness: String,
         /// How long.
         #[arg(long, default_value_t = 60)]
@@ -135,7 +136,7 @@ mod program {
         ExitCode::from(u8::from(found > 0))
     }
 
-    /// A table of what every command takes at its largest input.
+    /// A table of the resources that every command uses at its largest input.
     fn heavy(jred: &Path) -> ExitCode {
         let inputs = Inputs::write();
         let mut found = 0u8;
@@ -156,7 +157,7 @@ mod program {
         ExitCode::from(found)
     }
 
-    /// A panic as words.
+    /// A panic as text.
     fn caught(run: fn(&[u8]) -> bool, input: &[u8]) -> Result<bool, String> {
         catch_unwind(AssertUnwindSafe(|| run(input)))
             .map_err(|_| "it panicked, see above".to_owned())

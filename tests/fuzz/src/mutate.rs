@@ -1,8 +1,8 @@
-//! Bytes, changed at random.
+//! Random changes of bytes.
 
 use rand::{Rng, RngExt as _};
 
-/// Words that texts of jred are made of, and numbers at the ends of every range.
+/// Words of jred's texts, and numbers at the ends of every range.
 const WORDS: &[&str] = &[
     "0",
     "-0",
@@ -70,16 +70,16 @@ const WORDS: &[&str] = &[
     "-",
 ];
 
-/// Most changes of one input.
+/// Largest number of changes to one input.
 const CHANGES: usize = 6;
 
-/// The longest input (bytes).
+/// Largest size of an input (bytes).
 const LONGEST: usize = 1 << 16;
 
 /// One of the `seeds` with a few changes: bits flipped, parts removed, doubled, replaced, or taken from another seed.
 ///
 /// # Panics
-/// There is no seed.
+/// There are no seeds.
 pub fn mutated(rng: &mut impl Rng, seeds: &[Vec<u8>]) -> Vec<u8> {
     let mut bytes = seeds[rng.random_range(0..seeds.len())].clone();
     for _ in 0..rng.random_range(1..=CHANGES) {
@@ -104,7 +104,7 @@ pub fn mutated(rng: &mut impl Rng, seeds: &[Vec<u8>]) -> Vec<u8> {
                 part.start..part.start,
                 WORDS[rng.random_range(0..WORDS.len())].bytes(),
             )),
-            // A number, where there is one, becomes another word.
+            // A number, if there is one, becomes another word.
             5 => {
                 let number = number_behind(&bytes, part.start);
                 bytes.splice(number, WORDS[rng.random_range(0..WORDS.len())].bytes());
@@ -116,14 +116,14 @@ pub fn mutated(rng: &mut impl Rng, seeds: &[Vec<u8>]) -> Vec<u8> {
     bytes
 }
 
-/// A part of so many bytes, mostly a short one.
+/// A part of the input, mostly a short one.
 fn part(rng: &mut impl Rng, length: usize) -> std::ops::Range<usize> {
     let start = rng.random_range(0..=length);
     let longest = if rng.random_ratio(1, 4) { 200 } else { 8 };
     start..length.min(start + rng.random_range(0..=longest))
 }
 
-/// Where the next number from `start` on stands; nothing at the end if there is none.
+/// Range of the next number from `start` on; empty at the end without a number.
 fn number_behind(bytes: &[u8], start: usize) -> std::ops::Range<usize> {
     let digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
     let from = bytes[start..]

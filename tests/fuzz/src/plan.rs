@@ -1,4 +1,4 @@
-//! Plans: what is let in is followed.
+//! Plans: accepted plans are followed.
 
 use jred::axis::{Follower, Motion, Plan, Rate, Stage};
 use jred::number::{Bases, Number, Quantity as _};
@@ -7,13 +7,14 @@ use jred::{Domain, MachineUnits, Model, Q31, Scale, Spline, Table, curves};
 
 use crate::harness::with_crc;
 
-/// Ticks of a plan at its own pace; twice as many are followed.
+/// Ticks of a plan at full rate; twice as many are followed.
 const TICKS: u32 = 1000;
 
 /// Words of the header that name the range: its code, start and end.
 const RANGE: [usize; 3] = [3, 5, 6];
 
-/// A plan image: its CRC is made right, so that what is behind it is looked at; what is let in is followed in each kind of numbers. Whether one could follow it.
+/// A plan image: its CRC is corrected, so that the content is checked; an accepted plan is followed in each number type. Returns whether one was
+/// accepted.
 pub(crate) fn plan(bytes: &[u8]) -> bool {
     let words = with_crc(bytes);
     let [kinds, from, to] = RANGE.map(|k| words.get(k).copied().unwrap_or_default());
@@ -23,13 +24,13 @@ pub(crate) fn plan(bytes: &[u8]) -> bool {
     } else {
         let ends = [from, to].map(|end| f64::from(f32::from_bits(end)));
         let Ok(stroke) = Domain::stroke(ends[0], ends[1]) else {
-            // No model has this range, and no plan is let in with it.
+            // No model has this range, so no plan with it is accepted.
             assert!(read::<Spline<f32>>(&words, Domain::Turn, Scale::SI, [1.0 / 6.0; 7]).is_none());
             return false;
         };
         stroke
     };
-    // A torque of 2³⁰ N m is what 1 kg m² takes at an acceleration of 2³⁰ rad/s².
+    // A torque of 2³⁰ N m gives 1 kg m² an acceleration of 2³⁰ rad/s².
     let wide = Bases {
         torque: 1_073_741_824.0,
         speed: 32_768.0,
@@ -45,7 +46,7 @@ pub(crate) fn plan(bytes: &[u8]) -> bool {
     found.contains(&Some(true))
 }
 
-/// Reads a plan for a machine of this range, whatever its inertia, and follows it; none if the plan is refused, or there is no such machine.
+/// Reads a plan for a machine of this range, with any inertia, and follows it; `None` if the plan is refused, or there is no such machine.
 fn read<F: Format>(
     words: &[u32],
     domain: Domain,
@@ -73,7 +74,7 @@ fn read<F: Format>(
     Some(followed(plan, &model, on_stroke))
 }
 
-/// Follows a plan at its own pace, slower, and with a rate that changes, once and again and again; whether one may.
+/// Follows a plan at full rate, slower, and with a changing rate, once and repeatedly; returns whether it can be followed.
 fn followed<N: Number>(
     plan: Plan<'_, N>,
     model: &impl MachineUnits<Number = N>,
@@ -102,7 +103,7 @@ fn followed<N: Number>(
             for tick in 0..2 * TICKS {
                 let planned = follower.next(rate(tick));
                 sound(&planned.motion, planned.turns, on_stroke);
-                // At its end it stays.
+                // It stays at its end.
                 assert!(!done || planned.stage == Stage::Done, "{tick}: {planned:?}");
                 done = planned.stage == Stage::Done;
             }
@@ -117,7 +118,7 @@ fn followed<N: Number>(
     true
 }
 
-/// Numbers are some, and a stroke has no turns.
+/// Checks that numbers are finite, and that a stroke has no turns.
 fn sound<N: Number>(motion: &Motion<N>, turns: i32, on_stroke: bool) {
     let rates = [motion.omega.number(), motion.alpha.number()].map(Number::to_f64);
     assert!(rates.iter().all(|rate| rate.is_finite()), "{motion:?}");

@@ -1,4 +1,4 @@
-//! What was once found, and so many random inputs each: the same ones in every run. `jred-fuzz` and `scripts/fuzz` try more.
+//! Former faults, and a fixed number of random inputs each, the same in every run. `jred-fuzz` and `scripts/fuzz` try more.
 
 #[path = "../../../tool/support/skip.rs"]
 mod skip;
@@ -16,8 +16,8 @@ use skip::skip;
 
 const SEED: u64 = 0x0051;
 
-/// Runs a harness over its corpus and so many changed seeds; a share of 1/64 at least must be understood, and some be refused, or nothing is shown: what is not
-/// read is never refused.
+/// Runs a harness over its corpus and `inputs` mutated seeds. At least 1/64 must be accepted, and some refused, or the test shows nothing: inputs
+/// that are not read are never refused.
 fn bounded(name: &str, inputs: u32) {
     let harness = harness::named(name).unwrap();
     let seeds = (harness.seeds)();
@@ -33,7 +33,7 @@ fn bounded(name: &str, inputs: u32) {
     );
 }
 
-/// Every folder of the corpus is some harness's, and every harness that says so has one.
+/// Every folder of the corpus belongs to a harness, and every harness with `kept` has one.
 #[test]
 fn folders_of_the_corpus() {
     let folders = std::fs::read_dir(at("tests/fuzz/corpus")).unwrap();
@@ -102,7 +102,7 @@ fn jred() -> Option<PathBuf> {
     None
 }
 
-/// The largest inputs that commands accept, those that take a second or two.
+/// The largest inputs that commands accept, for those that take a second or two.
 #[cfg(target_os = "linux")]
 #[test]
 fn heavy_inputs() {
@@ -113,7 +113,7 @@ fn heavy_inputs() {
         let taken = taken.unwrap_or_else(|what| panic!("{what}"));
         assert!(taken.memory > 0, "{command:?}: {taken:?}");
     }
-    // More than is accepted is refused in words, not by the system.
+    // Larger ones are refused by a message, not by the system.
     for (words, why) in [
         ("size press.toml --steps 200001", "16..=200000"),
         ("size press.toml --motors motors.csv", "drives are too many"),
@@ -137,14 +137,14 @@ fn heavy_inputs() {
     }
 }
 
-/// Machine files through every command. The program `jred` is a neighbour of this test: cargo builds both.
+/// Machine files through every command. The program `jred` is next to this test: cargo builds both.
 #[test]
 fn commands() {
     let Some(jred) = jred() else { return };
     let machines = Machines::new(&files(&["machines"], ".toml"));
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut codes = [0; 3];
-    // The first line of what was found is the command.
+    // The first line of a kept input is the command.
     for found in files(&["tests/fuzz/corpus/command"], ".toml") {
         let text = String::from_utf8(found).unwrap();
         let (command, machine) = text.split_once('\n').unwrap();

@@ -1,8 +1,8 @@
-//! A line that says what is done and for how long: on a terminal from the second second on; elsewhere, as in a log, after two
-//! seconds and then every ten, unless the environment has `JRED_PROGRESS=never`.
+//! Progress line with the running task and its time: on a terminal after one second; elsewhere, as in a log, after two seconds and then every ten,
+//! unless the environment has `JRED_PROGRESS=never`.
 //!
-//! A command without rows to count (`rows/run.rs` counts those) shows that it is at work. Ctrl-C ends it at once: until its
-//! result is complete it has written nothing, and a file is written beside its place.
+//! For commands without rows to count (`rows/run.rs` counts those). Ctrl-C ends the command at once: nothing is written before the result is
+//! complete, and a file is written under a temporary name.
 
 use std::io::{IsTerminal as _, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,31 +13,31 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A command that is shorter shows nothing.
+/// Commands shorter than this show nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// How often the line is drawn.
+/// Interval at which the line is drawn.
 const TICK: Duration = Duration::from_millis(200);
 
-/// The same of a command whose stderr is no terminal.
+/// The same if stderr is not a terminal.
 const PATIENCE_OF_LOGS: Duration = Duration::from_secs(2);
 
-/// How often a log gets a line.
+/// Interval between the lines of a log.
 const TICK_OF_LOGS: Duration = Duration::from_secs(10);
 
 static LINE: Mutex<Option<Line>> = Mutex::new(None);
 
-/// Rows that are there, and rows in all: zero where none are counted.
+/// Completed rows and all rows; 0 if rows are not counted.
 static ROWS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
 
 struct Line {
-    /// `None` in a log, where nothing is taken away again.
+    /// `None` in a log, from which nothing is removed.
     bar: Option<ProgressBar>,
     stop: Sender<()>,
     thread: JoinHandle<()>,
 }
 
-/// Begins to show that `what` is done, such as `checking the machine`.
+/// Starts the line for the task `what`, such as `checking the machine`.
 pub fn begin(what: &'static str) {
     end();
     let line = if std::io::stderr().is_terminal() {
@@ -58,7 +58,7 @@ pub fn aside(print: impl FnOnce()) {
     }
 }
 
-/// Goes on with rows, `done` of `of`, which a bar shows on a terminal; elsewhere the line counts them.
+/// Counts rows from now on, `done` of `of`: a bar on a terminal, a number in the line elsewhere.
 pub fn rows(done: u64, of: u64) {
     if std::io::stderr().is_terminal() {
         end();
@@ -67,12 +67,12 @@ pub fn rows(done: u64, of: u64) {
     ROWS[1].store(of, Ordering::Relaxed);
 }
 
-/// One more row is there.
+/// Counts one more row.
 pub fn row() {
     ROWS[0].fetch_add(1, Ordering::Relaxed);
 }
 
-/// Takes the line away.
+/// Removes the line.
 pub fn end() {
     let line = LINE.lock().unwrap_or_else(PoisonError::into_inner).take();
     if let Some(line) = line {
@@ -81,7 +81,7 @@ pub fn end() {
 }
 
 impl Line {
-    /// Begins to draw the line on `screen` when so much time has passed.
+    /// Draws the line on `screen` once `patience` has passed.
     fn begin(what: &'static str, screen: ProgressDrawTarget, patience: Duration) -> Self {
         let style = ProgressStyle::with_template("{spinner} {msg}: {elapsed}; Ctrl-C stops it");
         let bar = ProgressBar::with_draw_target(None, screen)
@@ -105,7 +105,7 @@ impl Line {
         }
     }
 
-    /// Begins to write lines to a log, the first after a time and more after another.
+    /// Writes lines to a log, the first after `patience`, more after every `tick`.
     fn in_log(
         what: &'static str,
         mut log: impl Write + Send + 'static,
@@ -122,7 +122,7 @@ impl Line {
                     _ => format!(", {done} of {of} rows"),
                 };
                 let seconds = begun.elapsed().as_secs();
-                // A log that cannot be written is no reason to stop.
+                // A log that cannot be written does not stop the command.
                 let _ = writeln!(log, "{what}: {seconds} s{rows}");
                 wait = tick;
             }
@@ -134,10 +134,10 @@ impl Line {
         }
     }
 
-    /// Takes it away.
+    /// Removes the line.
     fn end(self) {
         drop(self.stop);
-        // It does nothing that could fail.
+        // The thread cannot fail.
         let _ = self.thread.join();
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
@@ -154,7 +154,7 @@ mod tests {
 
     use super::*;
 
-    /// What a terminal is told to do.
+    /// Commands to a terminal.
     #[derive(Debug, PartialEq)]
     enum Told {
         Text(String),
@@ -172,7 +172,7 @@ mod tests {
         }
 
         fn tell(&self, told: Told) {
-            // A test that has seen enough looks no more.
+            // The test may have ended.
             let _ = self.0.send(told);
         }
     }
@@ -210,12 +210,12 @@ mod tests {
         }
     }
 
-    /// What is written to a log.
+    /// Text written to a log.
     struct Log(Sender<String>);
 
     impl Write for Log {
         fn write(&mut self, text: &[u8]) -> Result<usize> {
-            // A test that has seen enough looks no more.
+            // The test may have ended.
             let _ = self.0.send(String::from_utf8_lossy(text).into_owned());
             Ok(text.len())
         }
@@ -224,14 +224,14 @@ mod tests {
         }
     }
 
-    /// A log gets whole lines, and the rows that are there; a short command writes none.
+    /// A log gets whole lines with the completed rows; a short command writes none.
     #[test]
     fn a_log_gets_lines() {
         let (sender, written) = channel();
         rows(3, 8);
         let line = Line::in_log("sizing", Log(sender), [Duration::ZERO; 2]);
         let mut text = String::new();
-        // Waits for the second line, however long it takes.
+        // Waits for the second line without a timeout.
         while text.matches('\n').count() < 2 {
             text += &written.recv().expect("it goes on");
         }
@@ -251,12 +251,12 @@ mod tests {
         matches!(told, Told::Text(text) if text.contains("checking the machine: "))
     }
 
-    /// Nothing of the line stays on the screen.
+    /// The line is removed from the screen completely.
     #[test]
     fn the_line_says_what_is_done_and_goes() {
         let (screen, told) = Screen::begin();
         let line = Line::begin("checking the machine", screen, Duration::ZERO);
-        // Waits for the line, however long it takes.
+        // Waits for the line without a timeout.
         assert!(told.iter().any(|told| shows(&told)));
         line.end();
         let rest: Vec<Told> = told.iter().collect();

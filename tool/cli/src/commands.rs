@@ -43,12 +43,12 @@ use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::named::named;
 use jred_sizing::study::chosen::ChosenDrive;
 
-/// How a command ended without an error.
+/// Result of a command without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Done {
     /// Every requirement is satisfied.
     Holds,
-    /// The answer is no: a rule is violated by every drive, or a torque error is not reached.
+    /// Every drive violates a rule, or a torque error is not reached.
     Violated,
     /// Interrupted by the user.
     Stopped,
@@ -93,7 +93,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
     }
 }
 
-/// What a command does, for those who wait.
+/// Name of the task for the progress line.
 const fn doing(command: &options::Command) -> &'static str {
     use options::Command;
     match command {
@@ -101,16 +101,16 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Check(_) => "checking the machine",
         Command::Size(_) => "checking drives",
         Command::Vary(_) | Command::Tolerance(_) => "reading machine and catalogue",
-        Command::Ratio(_) => "seeking ratios",
+        Command::Ratio(_) => "searching gear ratios",
         Command::Sensitivity(_) => "changing each quantity",
         Command::Merge(_) => "merging rows",
         Command::Bus(_) => "following the DC bus",
         Command::Simulate(_) => "following the motion",
-        Command::Steady(_) => "seeking the steady cycle",
-        Command::Fastest(_) => "seeking the fastest motion",
-        Command::Retime(_) => "seeking the gentlest motion",
-        Command::Balance(_) => "seeking counterweights and springs",
-        Command::Export(_) => "seeking the smallest table",
+        Command::Steady(_) => "searching for the steady cycle",
+        Command::Fastest(_) => "computing the fastest motion",
+        Command::Retime(_) => "computing the gentlest motion",
+        Command::Balance(_) => "computing counterweights and springs",
+        Command::Export(_) => "searching for the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",
     }
@@ -143,7 +143,7 @@ fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Done> {
     Ok(Done::Holds)
 }
 
-/// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
+/// Warns on standard error if a contact separates at this speed and acceleration; the result is computed anyway.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
     if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
         output::say(&words);
@@ -151,13 +151,13 @@ fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
     Ok(())
 }
 
-/// The drive of a name in a catalogue, of which only the motors that fit the input of the machine are kept.
+/// The named drive of a catalogue, reduced to motors that match the machine's input.
 fn drive_named(mut catalogue: Catalogue, name: &str, file: &MachineFile) -> Result<ChosenDrive> {
     fit_input(&mut catalogue, file)?;
     Ok(ChosenDrive::of(&named(&catalogue, name)?.1, &catalogue))
 }
 
-/// The drive that `--drive` names, if it is given; without it a catalogue is of no use.
+/// The drive of `--drive`, if given; a catalogue without it is an error.
 fn drive_asked(
     name: Option<&str>,
     files: &CatalogueFiles,
@@ -173,7 +173,7 @@ fn drive_asked(
     }
 }
 
-/// What a drive can give at the supply of the machine; warns of what is assumed, and of a drive that is not made for the supply.
+/// The limits of a drive at the machine's supply. Warns of assumptions, and of a drive for another supply.
 fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
     warn_of_supply(drive, file);
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
@@ -183,7 +183,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
     envelope
 }
 
-/// Warns of a drive that is not made for the supply.
+/// Warns if a drive is not made for the supply.
 fn warn_of_supply(drive: &Drive, file: &MachineFile) {
     let limits = Prepared::new(drive.motor, drive.amplifier, &file.site);
     if let Some(unfit) = limits.unfit(&file.rules) {
@@ -205,13 +205,13 @@ fn quantity(
     value.transpose()
 }
 
-/// A speed or an acceleration of the drive link, given as one of the axis.
+/// A speed or an acceleration of the drive link, given for the axis.
 fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
     let given = quantity(name, text, read, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
 }
 
-/// Says where a motion was written, and how it is read.
+/// Sentence with the path of a written motion and its use.
 fn profile_written(file: &MachineFile, path: &Path) -> String {
     let evenly = file.axis() != Axis::of_drive(file.machine.mechanism().coordinate());
     let of = match file.motion.as_ref().map(|motion| motion.tool().is_some()) {

@@ -11,8 +11,8 @@ use jred_machine::plain;
 fn main() -> ExitCode {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     let words: Vec<String> = words.collect();
-    // Colours are made with characters that are not seen: where an argument holds such, errors are shown without colours, so
-    // that all of them can be escaped.
+    // Colours are control characters. If an argument contains control characters, errors are printed without colours, so that all of them can be
+    // escaped.
     let plainly = words.iter().any(|word| plain::hidden(word).is_some());
     let cli = match Cli::read(std::env::args_os()) {
         Err(error)
@@ -21,13 +21,13 @@ fn main() -> ExitCode {
             output::say(cut(error.render().to_string(), &words).trim_end());
             return ExitCode::from(2);
         }
-        // It ends with 2 on a wrong command line, with 0 after a help text.
+        // Exits with 2 on a wrong command line, with 0 after a help text.
         parsed => parsed.unwrap_or_else(|error| error.exit()),
     };
     match run(&cli.command) {
         Ok(Done::Holds) => ExitCode::SUCCESS,
         Ok(Done::Violated) => ExitCode::from(1),
-        // As a shell reports a program that Ctrl-C ended.
+        // The shell convention for a program ended by Ctrl-C.
         Ok(Done::Stopped) => ExitCode::from(130),
         Err(report) => {
             output::complain(&report, plainly);
@@ -36,8 +36,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// A message in which words of the command line, or their values, are cut where they are long, and escaped where they hold what
-/// is not seen, such as an end of line.
+/// A message in which long command-line words and values are cut, and hidden characters such as line ends escaped.
 fn cut(mut message: String, words: &[String]) -> String {
     for word in words {
         let value = word

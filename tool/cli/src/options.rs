@@ -29,16 +29,16 @@ use jred_report::table::output::Format;
 #[derive(Debug, Parser)]
 #[command(name = "jred", version, after_help = EXIT_CODES)]
 pub struct Cli {
-    /// What to do.
+    /// The command to run.
     #[command(subcommand)]
     pub command: Command,
 }
 
 impl Cli {
-    /// From the words of the command line, the first of which is the command's own name.
+    /// Parses the command line; the first word is the name of the command.
     ///
     /// # Errors
-    /// Words that are none of the command's.
+    /// Words that the command does not accept.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let mut command = numbers(Self::command());
         let matches = command.try_get_matches_from_mut(words)?;
@@ -46,7 +46,7 @@ impl Cli {
     }
 }
 
-/// The command with options whose number may be negative: then what they say of it is said, not that there is no option of this name.
+/// Lets numeric options accept negative values, so that errors concern the value and not an unknown option.
 fn numbers(command: clap::Command) -> clap::Command {
     let kinds = [
         TypeId::of::<f64>(),
@@ -72,7 +72,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing r
      reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
      from.";
 
-/// Most time steps of a cycle: --explain and the report, which compute it anew for many machines, take half a minute with them.
+/// Largest number of time steps of a cycle: --explain and the report, which recompute it for many machines, then take half a minute.
 const MOST_STEPS: i64 = 200_000;
 
 /// The commands.
@@ -102,9 +102,9 @@ pub enum Command {
     Steady(Steady),
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
     Fastest(Box<fastest::Fastest>),
-    /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, beside all motion laws.
+    /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, and compare it with all motion laws.
     Retime(retime::Retime),
-    /// Find counterweights and springs that make the torque of the drive, or the fluctuation of the reduced inertia, least.
+    /// Find counterweights and springs that minimise the torque of the drive, or the fluctuation of the reduced inertia.
     Balance(balance::Balance),
     /// Write a fast firmware table that meets a torque error.
     Export(Export),
@@ -136,8 +136,7 @@ pub struct Reduce {
     /// Variable that the rows run over.
     #[arg(long, value_parser = word::<Over>(), default_value_t)]
     pub over: Over,
-    /// These positions instead, each with its speed and its acceleration after it, if they are given, e.g. "30 deg, 60 deg" or "30 deg, 60 rpm,
-    /// 5 rad/s^2".
+    /// These positions instead, each optionally followed by its speed and acceleration, e.g. "30 deg, 60 deg" or "30 deg, 60 rpm, 5 rad/s^2".
     #[arg(long, value_name = "STATES", allow_hyphen_values = true, conflicts_with_all = ["positions", "over"])]
     pub at: Option<String>,
     /// Also list each link's share of the reduced inertia.
@@ -180,7 +179,7 @@ pub struct Check {
 jred_machine::words! {
     /// Which motion drives are judged with.
     pub enum Moved default Own {
-        /// That of the machine file.
+        /// The motion of the machine file.
         Own = "own",
         /// The same moves in the same times with the least RMS torque for the smallest drive that is suitable with such a motion; see `jred retime`.
         Best = "best",
@@ -225,7 +224,8 @@ pub struct Size {
     /// Print the duty, every rule with figure, limit and margin, what is not checked, and the ranking below the first screen.
     #[arg(long)]
     pub full: bool,
-    /// Rank so many motors, each with its first gearbox and amplifier, or drives with --all-gearboxes: 10 if not given. In CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
+    /// Number of motors to rank, each with its first gearbox and amplifier, or of drives with --all-gearboxes: 10 if not given. In CSV and JSON the
+    /// closest refused drives follow, which --nearest 0 leaves out.
     #[arg(long, value_name = "N")]
     pub top: Option<usize>,
     /// Number of refused drives to list in CSV and JSON and to explain with --explain, closest first.
@@ -273,11 +273,11 @@ pub struct Rules {
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 done; 2 bad input, or there is no steady cycle.")]
 pub struct Steady {
-    /// Machine file. Further ones are machines on the same motor shaft, each behind its own drive train, which make whole turns while the first one makes
-    /// one.
+    /// Machine file. Further ones are machines on the same motor shaft, each with its own drive train, which make whole turns while the first one
+    /// makes one.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// By how much a further machine's drive link is ahead of the start in its `[simulation]`, e.g. "180 deg"; one for each of them, in their order.
+    /// Lead of a further machine's drive link over the start in its `[simulation]`, e.g. "180 deg"; one for each of them, in order.
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
     pub phase: Vec<f64>,
     /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02 or 2%: find its inertia.
@@ -286,8 +286,8 @@ pub struct Steady {
     /// Constant torque of the motor instead of that in `[simulation]`, e.g. "20 N m".
     #[arg(long, allow_hyphen_values = true, value_parser = jred_machine::read::torque_argument)]
     pub torque: Option<f64>,
-    /// Mean speed of the drive link over the time, e.g. "300 rpm"; find how large the torque of the motor must be for it, or a constant torque if
-    /// `[simulation]` gives no motor. Less than zero, the motor brakes what the process drives. A negative speed turns the machine backwards.
+    /// Mean speed of the drive link over the time, e.g. "300 rpm": find the size of the motor torque for it, or a constant torque if `[simulation]`
+    /// gives no motor. A torque below zero brakes a machine that the process drives. A negative speed turns the machine backwards.
     #[arg(
         long,
         value_name = "SPEED",
@@ -295,7 +295,7 @@ pub struct Steady {
         conflicts_with = "torque"
     )]
     pub mean_speed: Option<String>,
-    /// Find how large the loads of this name must be for that mean speed, under the motor as it is.
+    /// Find the size of the loads of this name for that mean speed, with the motor unchanged.
     #[arg(long, value_name = "LOAD", requires = "mean_speed")]
     pub scale: Option<String>,
     /// Turns of the drive link in a cycle; as many as the loads need, if not given.
@@ -335,7 +335,7 @@ fn fluctuation(text: &str) -> Result<f64, String> {
 pub struct Export {
     /// Machine file.
     pub file: PathBuf,
-    /// What to write.
+    /// Form of the output.
     #[arg(long, value_parser = word::<Form>(), default_value_t)]
     pub format: Form,
     /// Number type of the table.
@@ -348,7 +348,7 @@ pub struct Export {
     /// --max-bytes or --layout is given.
     #[arg(long, value_parser = word::<Core>(), default_value_t)]
     pub core: Core,
-    /// The firmware asks for accelerations, too: forward dynamics, limits, governor. Tables in fixed point then have a curve of 1/J.
+    /// The firmware also computes accelerations: forward dynamics, limits, governor. Tables in fixed point then have a curve of 1/J.
     #[arg(long)]
     pub forward: bool,
     /// A curve of 1/J, which avoids the division in fixed-point forward dynamics; auto: with --forward.
@@ -365,7 +365,7 @@ pub struct Export {
     /// if the motion has none.
     #[arg(long, allow_hyphen_values = true)]
     pub alpha: Option<String>,
-    /// Inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2", to be included.
+    /// Include this inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2".
     #[arg(long, value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
     /// Largest number of cells to try.
@@ -385,16 +385,16 @@ pub struct Export {
         allow_hyphen_values = true
     )]
     pub pieces: Option<String>,
-    /// Identifier of the machine in the image, by which firmware refuses the image of another machine, e.g. 7 or 0x1a2b; if not given, the CRC-32 of the
-    /// title.
+    /// Identifier of the machine in the image, by which firmware refuses the image of another machine, e.g. 7 or 0x1a2b; if not given, the CRC-32 of
+    /// the title.
     #[arg(long, value_name = "NUMBER", value_parser = machine_id, allow_negative_numbers = true)]
     pub machine_id: Option<u32>,
-    /// Name of the table in the program, for --format c and rust: the names in C begin with it, in Rust it is a module; if not given, C takes the name of the
+    /// Name of the table in the program, for --format c and rust: a prefix of the names in C, a module in Rust; if not given, C uses the name of the
     /// file to write.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; some seconds. The image then states the error
-    /// that is proven. Exit code 1 if that is larger than --torque-error, or if it cannot be proven.
+    /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then
+    /// contains the proven error. Exit code 1 if that is larger than --torque-error, or if it cannot be proven.
     #[arg(long)]
     pub prove: bool,
     /// File to write; if not given, only a summary is printed (as JSON with --format json).

@@ -1,11 +1,11 @@
-//! Everything that the command writes: to the terminal, and to files.
+//! All output of the command: to the terminal, and to files.
 //!
-//! A file is written beside its place and renamed when it is complete, so that an error, a full disk or a kill leaves what was
-//! there. Only where the new file cannot get the owner of the old one, the old one is written into. A file of a study's rows is
-//! different: it grows row by row, to be continued after an interruption (`rows/store.rs`).
+//! A file is written under a temporary name next to its final one and renamed when it is complete, so that an error, a full disk or a kill leaves the
+//! old file intact. Only if the new file cannot get the owner of the old one, the old one is overwritten in place. A file of a study's rows is
+//! different: it grows row by row and can be continued after an interruption (`rows/store.rs`).
 //!
-//! A message that cannot be written to stderr is dropped: the results and the exit code stay. No other place of the command writes to
-//! stdout or stderr.
+//! A message that cannot be written to stderr is dropped; results and exit code are unaffected. Nothing else in the command writes to stdout or
+//! stderr.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -24,15 +24,15 @@ use miette::{
     miette,
 };
 
-/// Prints to stdout; a closed pipe (`jred … | head`) is no error.
+/// Prints to stdout; a closed pipe (`jred … | head`) is not an error.
 ///
 /// # Errors
-/// The text cannot be written, as on a full disk.
+/// The text cannot be written, for example to a full disk.
 pub fn print(text: &str) -> Result<()> {
     print_parts(std::iter::once(text))
 }
 
-/// The same for a text in parts; behind a closed pipe the rest is not made.
+/// The same for a text in parts; after a closed pipe the remaining parts are not computed.
 ///
 /// # Errors
 /// As for [`print()`].
@@ -73,7 +73,7 @@ fn has_colour() -> bool {
     set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
 }
 
-/// The verdicts at the ends of lines, and the word in front of a warning, in colour.
+/// Colours the verdicts at line ends and the word "warning".
 fn painted(text: &str) -> String {
     const GREEN: &str = "32";
     const YELLOW: &str = "33";
@@ -95,7 +95,7 @@ fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
 
-/// The screen that stdout is shown on; 80 columns elsewhere.
+/// The screen of stdout; 80 columns if it is not a terminal.
 pub fn screen() -> Screen {
     let terminal = terminal_size::terminal_size_of(std::io::stdout());
     Screen {
@@ -103,10 +103,10 @@ pub fn screen() -> Screen {
     }
 }
 
-/// Stdout, if it is not a file that this command has read.
+/// Stdout, unless it is a file that this command has read.
 ///
 /// # Errors
-/// It is: `jred reduce press.toml >> press.toml`.
+/// Stdout is such a file: `jred reduce press.toml >> press.toml`.
 pub fn stdout() -> Result<Stdout> {
     let stdout = std::io::stdout();
     if let Some(read) = stdout_metadata().and_then(|own| disk::read_under(&own)) {
@@ -124,7 +124,7 @@ pub fn say(line: &str) {
     busy::aside(|| message(&plain::lines(line)));
 }
 
-/// Prints a warning to stderr, once: a command that repeats a run has the same to say again.
+/// Prints a warning to stderr, once: repeated runs produce the same warnings.
 pub fn warn(line: &str) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
@@ -133,7 +133,7 @@ pub fn warn(line: &str) {
     }
 }
 
-/// Writes a line to stderr; one that cannot be written, as to a full disk or a closed pipe, is dropped.
+/// Writes a line to stderr; dropped if it cannot be written, for example to a full disk or a closed pipe.
 fn message(line: &str) {
     let mut stderr = std::io::stderr();
     let _ = writeln!(stderr, "{line}").and_then(|()| stderr.flush());
@@ -154,11 +154,11 @@ pub fn complain(report: &Report, plainly: bool) {
     }
 }
 
-/// Refuses output files, each with its option, that this command has read, that stdout is redirected to, or that are one file
-/// under two names. To be asked when everything is read and nothing is computed.
+/// Refuses output files, each with its option, that this command has read, that stdout is redirected to, or that are one file under two names. Call
+/// it after reading and before computing.
 ///
 /// # Errors
-/// One of them is.
+/// A refused file.
 pub fn check<'p>(files: impl IntoIterator<Item = (&'p str, &'p Option<PathBuf>)>) -> Result<()> {
     let mut others: Vec<(&str, &Path, PathBuf)> = Vec::new();
     for (option, path) in files {
@@ -230,7 +230,7 @@ fn is_stdout(_: &Path) -> bool {
     false
 }
 
-/// What stdout is.
+/// Metadata of stdout.
 #[cfg(unix)]
 fn stdout_metadata() -> Option<Metadata> {
     use std::os::fd::AsFd as _;
@@ -265,22 +265,22 @@ fn is_same(one: IoResult<Metadata>, other: IoResult<Metadata>) -> bool {
 /// Writes a file.
 ///
 /// # Errors
-/// It cannot be written; then it is as it was, unless it has another owner.
+/// It cannot be written; the old file is then intact, unless it has another owner.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     let mut files = Files::default();
     files.add(path, bytes)?;
     files.finish()
 }
 
-/// Files that belong together: each is written in full before the first takes its place.
+/// Files of one result: all are complete before the first is renamed.
 #[derive(Debug, Default)]
 pub struct Files(Vec<(PathBuf, Output)>);
 
 impl Files {
-    /// Writes one more.
+    /// Writes one more file.
     ///
     /// # Errors
-    /// It cannot be written; then none of them takes its place.
+    /// It cannot be written; then no file is renamed.
     pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
         let begun = Output::create(path).and_then(|mut output| {
             output.write_all(bytes)?;
@@ -291,10 +291,10 @@ impl Files {
         Ok(())
     }
 
-    /// Puts them in their places.
+    /// Renames the files to their final names.
     ///
     /// # Errors
-    /// The disk is full, or something else is in the place of one; the others behind it are left out.
+    /// The disk is full, or the name of a file was taken meanwhile; the files after it are not renamed.
     pub fn finish(self) -> Result<()> {
         for (path, output) in self.0 {
             output.finish().map_err(|error| failed(&path, &error))?;
@@ -320,29 +320,29 @@ pub fn failed(path: &Path, error: &Error) -> Report {
     miette!(help = help, "cannot write {}: {error}", plain::path(path))
 }
 
-/// A file in the making.
+/// A file that is being written.
 #[derive(Debug)]
 pub struct Output {
     file: File,
-    /// Where it is written, and where it belongs; nothing for what is written in its place.
+    /// Temporary and final path; `None` for a file written in place.
     places: Option<[PathBuf; 2]>,
-    /// Whether no file may be in its place.
+    /// Whether the final path must be free.
     is_new: bool,
 }
 
 impl Output {
-    /// Begins a file, which takes the place of an old one.
+    /// Starts a file that replaces an old one.
     ///
     /// # Errors
-    /// The old file must not be written, or its folder.
+    /// No permission to write the old file or its folder.
     pub fn create(path: &Path) -> IoResult<Self> {
         Self::begin(path, false)
     }
 
-    /// Begins a file that must not exist yet; a pipe or a device may.
+    /// Starts a file that must not exist yet; a pipe or a device may.
     ///
     /// # Errors
-    /// It exists, or its folder must not be written.
+    /// It exists, or there is no permission to write its folder.
     pub fn create_new(path: &Path) -> IoResult<Self> {
         Self::begin(path, true)
     }
@@ -361,7 +361,7 @@ impl Output {
             is_new,
         };
         let place = followed(path);
-        // Who may not write a file must not replace it either.
+        // A file without write permission must not be replaced either.
         let old = match old {
             Some(old) if !old.is_file() => return Ok(in_place(write_special(path)?)),
             Some(_) if is_new => return Err(ErrorKind::AlreadyExists.into()),
@@ -384,10 +384,10 @@ impl Output {
         Ok(output)
     }
 
-    /// Puts the complete file in its place.
+    /// Renames the complete file to its final name.
     ///
     /// # Errors
-    /// The disk is full, or something else is in that place.
+    /// The disk is full, or the name was taken meanwhile.
     pub fn finish(mut self) -> IoResult<()> {
         if self.file.metadata()?.is_file() {
             self.file.sync_all()?;
@@ -415,7 +415,7 @@ impl Write for Output {
 }
 
 impl Drop for Output {
-    /// What is not finished leaves nothing behind.
+    /// Removes an unfinished file.
     fn drop(&mut self) {
         if let Some([unfinished, _]) = &self.places {
             let _ = std::fs::remove_file(unfinished);
@@ -423,13 +423,13 @@ impl Drop for Output {
     }
 }
 
-/// How long is waited for a program that reads a pipe.
+/// Time to wait for the reader of a pipe.
 pub const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Opens a pipe or a device to write it. Opening a pipe waits for its reader; so a thread opens it, which ends with the program at the latest.
+/// Opens a pipe or a device for writing. Opening a pipe blocks until it has a reader, so a thread does it, which ends with the program.
 ///
 /// # Errors
-/// It cannot be written, or nobody reads it.
+/// It cannot be written, or has no reader.
 pub fn patiently(path: &Path, patience: Duration) -> IoResult<File> {
     let (sender, receiver) = mpsc::channel();
     let path = path.to_owned();
@@ -445,7 +445,7 @@ pub fn patiently(path: &Path, patience: Duration) -> IoResult<File> {
     })?
 }
 
-/// Where a symbolic link leads, so that the link stays: to a file that need not exist.
+/// The target of a symbolic link, which need not exist; the link itself is kept.
 fn followed(path: &Path) -> PathBuf {
     let mut place = path.to_owned();
     for _ in 0..40 {
@@ -457,18 +457,18 @@ fn followed(path: &Path) -> PathBuf {
     place
 }
 
-/// Renames a file to a name that must be free: one that another program took meanwhile is an error.
+/// Renames a file to a name that must be free; an error if another program took it meanwhile.
 fn put_new(unfinished: &Path, place: &Path) -> IoResult<()> {
     match std::fs::hard_link(unfinished, place) {
         Ok(()) => std::fs::remove_file(unfinished),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(error),
-        // A file system without hard links.
+        // The file system has no hard links.
         Err(_) if place.symlink_metadata().is_ok() => Err(ErrorKind::AlreadyExists.into()),
         Err(_) => std::fs::rename(unfinished, place),
     }
 }
 
-/// Gives a new file the owner and the group of the old one; whether it has them now.
+/// Gives a new file the owner and group of the old one; returns whether that worked.
 #[cfg(unix)]
 fn is_given_to_owner(new: &File, old: &Metadata) -> bool {
     use std::os::unix::fs::{MetadataExt as _, fchown};
@@ -481,7 +481,7 @@ fn is_given_to_owner(_: &File, _: &Metadata) -> bool {
     true
 }
 
-/// A new file in the folder of another one. Names that killed runs have left are passed over.
+/// A new file in the folder of another one; skips names left by killed runs.
 fn beside(place: &Path) -> IoResult<(File, PathBuf)> {
     let mut taken = 0u64;
     loop {

@@ -1,4 +1,4 @@
-//! What a user is told about a catalogue of his own that cannot be used.
+//! Messages about an unusable catalogue of the user.
 
 mod broken;
 mod currency;
@@ -17,7 +17,7 @@ fn built_in() -> Catalogue {
 fn size_with(motors: impl AsRef<[u8]>) -> Run {
     let folder = Folder::new();
     let file = folder.file("m.csv", motors);
-    // A short path: messages are broken into lines at a fixed width.
+    // A short path, because messages are wrapped at a fixed width.
     jred([
         &"size",
         &press_file(),
@@ -101,7 +101,7 @@ fn wrong_columns() {
     );
 }
 
-/// Two columns of one name cannot both be right.
+/// Two columns of one name contradict each other.
 #[test]
 fn a_column_given_twice() {
     refuses(
@@ -170,7 +170,7 @@ fn wrong_cells() {
     );
 }
 
-/// The place shown is the cell's, not that of the same characters somewhere before it.
+/// The position shown is that of the cell, not of the same characters before it.
 #[test]
 fn the_place_is_the_cell() {
     refuses(
@@ -231,7 +231,7 @@ fn a_catalogue_beside_the_built_in_one() {
     assert!(run.out.contains(&format!(" of {all} ")), "{}", run.out);
 }
 
-/// A figure that can hardly be right is remarked upon, and used.
+/// An implausible figure is used with a warning.
 #[test]
 fn remarks_go_to_the_standard_error() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! `jred check`: freedoms, dead centres, distance from a dead point, and what a bad mechanism is told.
+//! `jred check`: degrees of freedom, dead centres, distance from a dead point, and messages about bad mechanisms.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -67,7 +67,7 @@ fn the_press() {
     }
 }
 
-/// A press whose pressing force has the wrong sign: it pushes the slider on towards φ = 360 deg instead of against it.
+/// A press whose pressing force has the wrong sign: it pushes the slider towards φ = 360 deg instead of against the motion.
 #[test]
 fn a_load_that_drives_is_named() {
     let folder = Folder::new();
@@ -85,7 +85,7 @@ fn a_load_that_drives_is_named() {
         .unwrap_or_else(|| panic!("{wrong}"));
     assert_eq!(wrong.matches("drives the machine").count(), 1);
     let (power, place) = warning.split_once(" W, at φ = ").unwrap();
-    // The force rises over 15 deg from 315 deg and is at its most from 330 deg; the slider slows down towards 360 deg.
+    // The force rises over 15 deg from 315 deg and is largest from 330 deg; the slider slows down towards 360 deg.
     let place: f64 = place.split(' ').next().unwrap().parse().unwrap();
     assert!((326.0..=332.0).contains(&(place % 360.0)), "{place}");
     // 10 kN at the speed of the slider of r (sin φ + r/(2 l) sin 2φ) ω, ω at most 29.45 rad/s.
@@ -172,7 +172,7 @@ fn the_index_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
     }
 }
 
-/// A rod barely longer than the crank turns fully, but stands almost square to the guide.
+/// A rod barely longer than the crank turns fully, but gets almost perpendicular to the guide.
 #[test]
 fn too_near_a_dead_point() {
     let folder = Folder::new();
@@ -196,7 +196,7 @@ fn too_near_a_dead_point() {
         text.contains("CLOSE TO A DEAD POINT")
             && squeezed(&text).contains("violated too close to a dead point")
     );
-    // In between: poorer than recommended, but no violation.
+    // In between: worse than recommended, but not a violation.
     let text = edited_press("length = \"180 mm\"", "length = \"36 mm\"");
     let text = jred([&"check", &folder.file("fair.toml", text)])
         .ends(0)
@@ -221,7 +221,7 @@ fn a_train() {
     assert_eq!(found["agreement"]["of_motion"], true);
 }
 
-/// Whatever mechanism a machine file names: the joints leave one freedom, and the two ways to the drive torque agree.
+/// For every example machine the joints leave one freedom, and both methods give the same drive torque.
 #[test]
 fn every_example_machine() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
@@ -230,7 +230,7 @@ fn every_example_machine() {
         if file.extension().is_none_or(|e| e != "toml") {
             continue;
         }
-        // A variator has no angle-dependent link to check by.
+        // A variator has no angle-dependent link to check.
         if std::fs::read_to_string(&file)
             .unwrap()
             .contains("[variator")
@@ -252,7 +252,7 @@ fn example(name: &str) -> std::path::PathBuf {
     folder.join(name)
 }
 
-/// A text that `jred check` prints of an example.
+/// Checks for words in the text of `jred check` for an example.
 fn says(name: &str, words: &[&str]) {
     let text = squeezed(&jred([&"check", &example(name)]).ends(0).out);
     for words in words {
@@ -260,7 +260,7 @@ fn says(name: &str, words: &[&str]) {
     }
 }
 
-/// The dwells of the program, to the digit; the pressure angle has its own figure.
+/// The dwells of the program exactly; the pressure angle is a figure of its own.
 #[test]
 fn a_cam() {
     says(
@@ -290,7 +290,7 @@ fn a_cam() {
     within("where", at, 312.5995, 1e-4);
 }
 
-/// What Grashof and Alt say of a four-bar; its transmission angle is the index's.
+/// The types of a four-bar by Grashof and Alt; the index gives its transmission angle.
 #[test]
 fn facts_of_a_four_bar() {
     says(
@@ -303,7 +303,7 @@ fn facts_of_a_four_bar() {
     );
 }
 
-/// Gears mesh alike everywhere, and have no transmission angle.
+/// Gears mesh equally in every position and have no transmission angle.
 #[test]
 fn an_index_that_never_changes_has_no_place() {
     let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machine/tests/data/gear-train.toml");

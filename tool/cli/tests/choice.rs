@@ -1,4 +1,4 @@
-//! What is chosen for a buyer is named in every output: amplifier, gear ratio, mass, price, brake resistor.
+//! Every output names the selected amplifier, gear ratio, mass, price and brake resistor.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ fn with_catalogue(command: &str, machine: &str, more: &[&str]) -> Run {
     jred_with(&[&words[..], more].concat())
 }
 
-/// The lift of which the catalogue has the resistor: 17.3 kg and 740 + 820 + 520 for motor, gearbox and amplifier, 60 for the resistor.
+/// The lift with a resistor in the catalogue: 17.3 kg, and 740 + 820 + 520 for motor, gearbox and amplifier, 60 for the resistor.
 #[test]
 fn every_output_names_what_is_chosen() {
     let text = with_catalogue("size", "lift.toml", &["--full"]).ends(0);
@@ -82,13 +82,13 @@ fn every_output_names_what_is_chosen() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    // One axis on its bus needs the same resistor.
+    // One axis on its own bus needs the same resistor.
     let bus = with_catalogue("bus", "lift.toml", &["--format", "json"])
         .ends(0)
         .json();
     assert_eq!(bus["brake resistor chosen"], "r100-100");
     assert_eq!(bus["holds"], Value::Bool(true));
-    // The objective has the price that the list shows.
+    // The objective uses the price of the list.
     let front = with_catalogue(
         "size",
         "lift.toml",
@@ -105,7 +105,7 @@ fn every_output_names_what_is_chosen() {
     assert!(!points.is_empty());
 }
 
-/// A drive that is given is not called the best of the catalogue, and one that the catalogue does not combine is refused with its reason.
+/// A given drive is not called the best of the catalogue; a combination that the catalogue excludes is refused with the reason.
 #[test]
 fn a_drive_that_is_given_is_not_the_best() {
     let folder = Folder::new();
@@ -141,7 +141,7 @@ fn a_drive_that_is_given_is_not_the_best() {
     ]);
 }
 
-/// Means over a cycle that comes back are zero for programs, too, and so are the energies of what is only stored.
+/// In JSON, too, means over a closed cycle and stored energies are zero.
 #[test]
 fn what_is_zero_is_zero_for_programs() {
     for machine in ["lift.toml", "screw.toml", "knife.toml", "table.toml"] {
@@ -152,7 +152,7 @@ fn what_is_zero_is_zero_for_programs() {
     }
 }
 
-/// Numbers so close to zero that they are rounding: every figure of these machines is of the order of one in SI.
+/// Collects numbers close enough to zero to be rounding: every figure of these machines is of the order of one in SI.
 fn collect(value: &Value, place: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(map) => map

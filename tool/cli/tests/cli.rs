@@ -1,4 +1,4 @@
-//! The command line: exit codes, forms of output, and what a user is told who made a mistake.
+//! The command line: exit codes, formats, and messages about mistakes.
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
@@ -100,7 +100,7 @@ fn one_when_no_drive_holds() {
     );
     let done = size(&["--refused"]).ends(1);
     done_says(&done, &["\nRefused\n", "peak torque", " limit "]);
-    // What to relax, with figures.
+    // The limits to relax, with figures.
     let done = size(&["--full"]).ends(1);
     done_says(
         &done,
@@ -118,7 +118,7 @@ fn one_when_no_drive_holds() {
     let refused = answer["refused"].as_array().unwrap().len();
     assert_eq!(answer["counts"]["refused"], refused);
     assert_eq!(answer["counts"]["drives"], refused);
-    // Every refused drive has a broken rule.
+    // Every refused drive violates a rule.
     for drive in answer["refused"].as_array().unwrap() {
         let checks = drive["checks"].as_array().unwrap();
         assert!(checks.iter().any(|c| c["verdict"] == "fail"), "{drive}");
@@ -154,7 +154,7 @@ fn rules_of_the_file_change_the_verdict() {
     let default = count("rms_torque = \"80 %\"");
     assert!(count("rms_torque = \"60 %\"") < default);
     assert!(count("rms_torque = \"100 %\"\npeak_torque = \"100 %\"") > default);
-    // The limit that was set is the limit that is printed.
+    // The given limit is printed.
     let text = format!("{}\n[rules]\ninertia_ratio = 7\n", press_text());
     let answer = jred([&"size", &folder.file("m.toml", text), &"--format", &"json"]).json();
     assert_eq!(answer["rules"]["limits"]["inertia_ratio"]["fail"], 7.0);
@@ -166,7 +166,7 @@ fn rules_of_the_file_change_the_verdict() {
     assert_eq!(check["limit"], 7.0);
 }
 
-/// `jred … | head -1`: whoever reads stops reading, which is no error.
+/// `jred … | head -1`: a reader that stops is not an error.
 #[test]
 fn a_closed_pipe_is_no_error() {
     let press = press_file();
@@ -221,7 +221,7 @@ fn every_machine_of_the_folder_can_be_reduced() {
         if path.extension().is_some_and(|e| e == "toml") {
             let reduce = jred([&"reduce", &path, &"--format", &"csv"]);
             let text = std::fs::read_to_string(&path).unwrap();
-            // Behind a variator the crank's angle is no function of the drive's: refused, with the reason.
+            // With a variator the crank's angle is not a function of the drive's: refused, with the reason.
             if text.contains("[variator]") {
                 assert!(
                     reduce.ends(2).message().contains("variator"),
@@ -268,7 +268,7 @@ fn top_lists_that_many() {
         let (_, table) = out.split_once("\n rank ").unwrap();
         let (table, _) = table.split_once("\nranked:").unwrap();
         let rows = table.lines().skip(2);
-        // Below the list stand the first drives of other classes of certainty.
+        // Below the list are the first drives of other classes of certainty.
         let listed = rows.map(|row| {
             row.split_whitespace()
                 .next()
@@ -331,7 +331,7 @@ fn machines_at_their_limits() {
     jred([&"simulate", &folder.file("b.toml", zero)])
         .ends(2)
         .says(&["duration"]);
-    // A train whose output carries nothing is a machine nevertheless.
+    // A train with an unloaded output is a valid machine.
     let light = r#"
 gravity = ["0 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -348,17 +348,17 @@ speed = "60 rpm"
     for inertia in columns.get("J_red [kg m^2]") {
         assert!((inertia / 2e-4 - 1.0).abs() < 1e-15);
     }
-    // Constant speed and no load: no torque at all is asked for.
+    // Constant speed without load needs no torque.
     let answer = jred([&"size", &file, &"--format", &"json"]).ends(0).json();
     assert_eq!(answer["input torque [N m]"]["rms"], 0.0);
-    // A train without any inertia cannot be.
+    // A train without inertia is refused.
     let nothing = edited(light, "\"2 kg cm^2\"", "\"0 kg m^2\"");
     jred([&"reduce", &folder.file("nothing.toml", nothing)])
         .ends(2)
         .says(&["inertia"]);
 }
 
-/// Figures for a speed at which the follower has left the cam are given, with the place and the speed.
+/// At a speed above the cam's lift-off the figures are given with position and speed.
 #[test]
 fn a_speed_above_lift_off_is_not_passed_over() {
     let cam = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/cam-translating.toml");

@@ -1,4 +1,4 @@
-//! Drawings and the page about a mechanism: sound SVG that shows what the mechanism does.
+//! Drawings and the page about a mechanism: valid SVG that shows the mechanism's motion.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ fn page(file: &Path, folder: &Folder) -> String {
     std::fs::read_to_string(report).unwrap()
 }
 
-/// The drawing, the first SVG of the page, and what moves it.
+/// The drawing, which is the first SVG of the page, and its animation data.
 fn parts(page: &str) -> (&str, Value) {
     let start = page.find("<svg").unwrap();
     let end = start + page[start..].find("</svg>").unwrap() + "</svg>".len();
@@ -31,7 +31,7 @@ fn numbers(value: &Value) -> Vec<f64> {
         .collect()
 }
 
-/// Points of a path of straight lines.
+/// Points of a polyline.
 fn points(node: Node) -> Vec<[f64; 2]> {
     let d = node.attribute("d").unwrap();
     let points = d.trim_start_matches('M').trim_end_matches('Z').split('L');
@@ -47,7 +47,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// No number that a browser could not draw, nothing beyond the page.
+/// All numbers are finite, and nothing is outside the page.
 fn check_drawing(svg: &str) {
     let document = Document::parse(svg).unwrap_or_else(|e| panic!("{e}: {svg}"));
     let root = document.root_element();
@@ -62,7 +62,7 @@ fn check_drawing(svg: &str) {
             let value = attribute.value();
             assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
         }
-        // Paths of points lie in the page's own coordinates.
+        // Paths of points are in the page's coordinates.
         if element.attribute("stroke-dasharray") == Some("5 3") {
             for [x, y] in points(element) {
                 assert!(
@@ -74,7 +74,7 @@ fn check_drawing(svg: &str) {
     }
 }
 
-/// The scale (px/m) by the scale bar.
+/// The scale (px/m) according to the scale bar.
 fn scale(document: &Document) -> f64 {
     let text = document.descendants().filter_map(|n| n.text());
     let mut labels = text.filter(|t| t.ends_with(" mm"));
@@ -86,8 +86,8 @@ fn scale(document: &Document) -> f64 {
     distance(bar[1], bar[2]) / (length * 1e-3)
 }
 
-/// The press: A goes round a circle of 30 mm about the crank's pivot, B along the guide for 60 mm, the rod keeps its length,
-/// and every link is where its frame is.
+/// The press: A moves on a circle of 30 mm about the crank's pivot, B along the guide by 60 mm, the rod keeps its length, and every link is at its
+/// frame.
 #[test]
 fn the_press_moves_as_it_should() {
     let folder = Folder::new();
@@ -132,12 +132,12 @@ fn the_press_moves_as_it_should() {
         let turn = (b[1] - a[1]).atan2(b[0] - a[0]).to_degrees();
         within("rod's angle", link[5], turn, 0.02);
     }
-    // Every path passes through the point that is drawn.
+    // Every path passes through its drawn point.
     let first = track["first"].as_u64().unwrap() as usize;
     let mark = numbers(&marks[first]);
     let nearest = paths[1].iter().map(|p| distance(*p, [mark[2], mark[3]]));
     assert!(nearest.fold(f64::MAX, f64::min) < 2.0);
-    // Three links, each with a body and its pins; the drawing is what the script moves.
+    // Three links, each with a body and its pins; the script moves the drawing's groups.
     let moved = |name: &str| {
         document
             .descendants()
@@ -149,7 +149,7 @@ fn the_press_moves_as_it_should() {
     assert!(titles.filter_map(|n| n.text()).any(|t| t == "rod"));
 }
 
-/// A millimetre mechanism and one of a hundred metres look alike.
+/// A millimetre mechanism and one of a hundred metres fill the page equally.
 #[test]
 fn any_size_fills_the_page() {
     let folder = Folder::new();
@@ -187,7 +187,7 @@ fn machines() -> impl Iterator<Item = PathBuf> {
     files.filter(move |file| reducible(file))
 }
 
-/// The page of every example machine is whole, sound and needs nothing else.
+/// The page of every example machine is complete, valid and self-contained.
 #[test]
 fn the_page_of_every_example_machine() {
     let folder = Folder::new();
@@ -235,7 +235,7 @@ fn a_title_is_text_not_markup() {
     assert!(!page.contains("<b>&\"") && !page.contains("<machine>"));
 }
 
-/// A drive link that slides, of which only the curves are known, is a block on a guide as long as its stroke, not a gear wheel.
+/// A sliding drive link known only by its curves is drawn as a block on a guide as long as its stroke, not as a gear wheel.
 #[test]
 fn a_slide_of_which_only_the_curves_are_known() {
     let folder = Folder::new();
@@ -265,7 +265,7 @@ range = "stroke"
             .fold(0.0, f64::max)
     });
     let longest = lengths.fold(0.0, f64::max);
-    // No wheel, and a guide that the block does not leave.
+    // No wheel, and a block that stays on its guide.
     let circles = document
         .descendants()
         .filter(|node| node.has_tag_name("circle"));
@@ -274,7 +274,7 @@ range = "stroke"
     assert!(longest > 0.3 * scale(&document), "{longest}");
 }
 
-/// What it says of forces and motions depends on whether there is a motion.
+/// Forces and motions of the page without a motion in the file.
 #[test]
 fn without_a_motion() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! What users see of a motor's limits: linear motors on a machine that slides, and the voltage of the supply.
+//! Limits of a motor in the output: linear motors on a sliding machine, and the voltage of the supply.
 
 use std::path::{Path, PathBuf};
 
@@ -58,7 +58,7 @@ fn a_link_that_slides_takes_a_linear_motor() {
     names.sort_unstable();
     assert_eq!(names, ["medium", "small"]);
     assert!(drives.iter().all(|d| d["gearbox"].is_null()));
-    // The moving part of the motor comes on top: F = (m_red + m)·a + ½·m_red′·v² + ….
+    // The moving part of the motor is added: F = (m_red + m)·a + ½·m_red′·v² + ….
     let input = found["input torque [N m]"]["max"].as_f64().unwrap();
     let medium = drives.iter().find(|d| d["motor"] == "medium").unwrap();
     let ratio = check(medium, "mass ratio")["value"].as_f64().unwrap();
@@ -153,7 +153,7 @@ fn the_supply_of_the_machine_file_moves_the_limits() {
 #[test]
 fn a_warning_is_given_once() {
     let folder = Folder::new();
-    // The stop is behind a whole cycle.
+    // The stop is after a whole cycle.
     let text = std::fs::read_to_string(machine_path("vertical-axis.toml")).unwrap();
     let mut text = text.replace(
         "duration = \"0.8 s\"\noutput_step",

@@ -1,4 +1,4 @@
-//! `jred export`: the table holds the machine's torque to the error that it states, in every type, layout and form.
+//! `jred export`: the table keeps the machine's torque within the stated error in every type, layout and form.
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
@@ -7,7 +7,7 @@ mod bytes;
 mod choice;
 mod closed_form;
 mod document;
-// As the command wrote it.
+// Written by the command.
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
 mod feeder_form;
@@ -16,11 +16,11 @@ mod harmonics;
 mod images;
 mod pieces;
 mod proof;
-// As the command wrote it.
+// Written by the command.
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
 mod press_pieces;
-// As the command wrote it.
+// Written by the command.
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
 mod press_table;
@@ -73,15 +73,15 @@ fn export(folder: &Folder, more: &[&str]) -> (Run, PathBuf) {
     (export_of(&press_file(), more, Some(&out)), out)
 }
 
-/// The words of an image that must have been made.
+/// The words of an image; the export must succeed.
 fn image(folder: &Folder, more: &[&str]) -> Vec<u32> {
     let (run, path) = export(folder, more);
     run.ends(0);
     words_of(&path)
 }
 
-/// The images of every type and layout, in the order of [`KINDS`], that one search finds within so many bytes and this range of
-/// speed and acceleration; the command writes that of its `--type` and `--layout`.
+/// The images of every type and layout, in the order of [`KINDS`], from one search within `bytes` and this range of speed and acceleration; the
+/// command writes the image of its `--type` and `--layout`.
 fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>> {
     let task = Task {
         number: Number::F32,
@@ -122,7 +122,7 @@ fn words_of(path: &Path) -> Vec<u32> {
     bytes.chunks_exact(4).map(word).collect()
 }
 
-/// The number after a mark, as far as it reads as one.
+/// The number after a mark.
 fn number_after(text: &str, mark: &str) -> f64 {
     let (_, rest) = text
         .split_once(mark)

@@ -1,4 +1,4 @@
-//! No result says "inf" or "NaN": figures far beyond any drive are refused, with quantity, value and limit.
+//! No result contains "inf" or "NaN": figures far beyond any drive are refused, with quantity, value and limit.
 
 use std::path::{Path, PathBuf};
 
@@ -10,19 +10,19 @@ fn data(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// Whether a text has a number that is none.
+/// Whether a text has no infinity and no NaN.
 fn is_finite(run: &Run) -> bool {
     let mut words = run.out.split(|c: char| !c.is_alphanumeric());
     !words.any(|word| word == "inf" || word == "NaN")
 }
 
-/// A motion so fast that no motor has any torque left.
+/// A motion too fast for any motor to have torque left.
 #[test]
 fn a_ratio_without_end_is_said_in_words() {
     for format in ["table", "csv", "json"] {
         let run = jred([&"ratio", &data("ratio-inf.toml"), &"--format", &format]).ends(1);
         assert!(is_finite(&run), "{}", run.out);
-        // In a table the words may be broken into lines.
+        // In a table the words may be wrapped.
         let words: Vec<&str> = run.out.split_whitespace().collect();
         assert!(
             words.join(" ").contains("nothing of its limit"),
@@ -32,7 +32,7 @@ fn a_ratio_without_end_is_said_in_words() {
     }
 }
 
-/// Catalogues with a figure of 1e308 in a row that is otherwise a real one.
+/// Catalogues with a figure of 1e308 in an otherwise valid row.
 #[test]
 fn rows_far_beyond_any_drive_are_refused() {
     let press = press_file();

@@ -1,10 +1,10 @@
-//! Nothing silent: characters that are not seen, and texts that would be read as code, do no harm anywhere.
+//! Hidden characters, and texts that could be read as code, do no harm.
 
 use std::path::{Path, PathBuf};
 
 use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text};
 
-/// An input that did harm once.
+/// An input that once did harm.
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/data")
@@ -58,7 +58,7 @@ fn a_name_does_not_become_rust() {
     assert!(!out.exists());
 }
 
-/// Every character that is not seen, in a machine file, a catalogue in both forms and a rule set, in values and in keys.
+/// Every hidden character, in a machine file, a catalogue in both formats and a rule set, in values and in keys.
 #[test]
 fn hidden_characters_are_refused_where_they_are_read() {
     let folder = Folder::new();
@@ -102,7 +102,7 @@ fn hidden_characters_are_refused_where_they_are_read() {
         let table = folder.file("motors.csv", format!("ke{c}y{motors}"));
         let run = jred([&"size", &press, &"--motors", &table]).ends(2);
         run.says(&["the title of column 1 contains", code, "motors.csv:1:"]);
-        // Nothing of it reaches the terminal.
+        // The character does not reach the terminal.
         assert!(!run.message().contains(c));
     }
 }
@@ -129,7 +129,7 @@ fn a_raw_control_character_is_named() {
     }
 }
 
-/// What a path or an argument holds is escaped wherever it is printed.
+/// Paths and arguments are escaped wherever they are printed.
 #[cfg(unix)]
 #[test]
 fn hidden_characters_of_arguments_are_escaped() {
@@ -172,7 +172,7 @@ fn hidden_characters_of_arguments_are_escaped() {
     let run = jred([&"reduce", &machine, &"--report", &page]).ends(0);
     let html = std::fs::read_to_string(&page).unwrap();
     assert!(html.contains("evil()") && !hidden(&html) && !hidden(&run.out));
-    // In errors, those of the command line as well.
+    // In errors, including those of the command line.
     for arguments in [
         &["check", evil][..],
         &["check", "--format", evil],
@@ -191,7 +191,7 @@ fn hidden_characters_of_arguments_are_escaped() {
     }
 }
 
-/// Spreadsheets take cells that begin like a formula for one; numbers stay numbers.
+/// Spreadsheets treat cells that start like a formula as one; numbers stay numbers.
 #[test]
 fn no_cell_is_a_formula() {
     let folder = Folder::new();
@@ -271,12 +271,12 @@ fn long_values_are_cut() {
         let message = run.err.replace(['\n', ' ', '│'], "");
         assert!(message.contains('…') || message.len() < 1000, "{}", run.err);
         assert!(!message.contains(&"x".repeat(401)), "{}", run.err);
-        // With a long word the message is not printed by clap: it ends as the others.
+        // With a long word the message is not printed by clap: it ends like the others.
         assert!(!run.err.ends_with("'--help'.\n\n"), "{}", run.err);
     }
 }
 
-/// An end of line within the value of an option does not make a line of its own.
+/// A line end in an option's value does not start a new line.
 #[test]
 fn an_end_of_line_in_an_option_is_escaped() {
     let press = press_file();

@@ -1,4 +1,4 @@
-//! The commands with the machines of `machines/`, and with machines that only some commands take.
+//! The commands with the machines of `machines/`, and with machines for some commands only.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ fn machine(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// The machine of every mechanism can be reduced and sized, and a drive is found that keeps every rule.
+/// The machine of every mechanism can be reduced and sized, and some drive satisfies every rule.
 #[test]
 fn a_drive_is_found() {
     for name in [
@@ -52,7 +52,7 @@ fn a_drive_is_found() {
     jred([&"check", &machine("friction-fan.toml")]).ends(0);
 }
 
-/// The figures of the document: the corner of J′ makes the error fall with the first power of the number of cells.
+/// The figures of the document: because of the corner of J′ the error falls with the first power of the number of cells.
 #[test]
 fn tables_need_as_many_cells_as_documented() {
     let doc = include_str!("../../../docs/mechanisms/geneva.md");
@@ -93,7 +93,7 @@ fn tables_need_as_many_cells_as_documented() {
     assert!(doc.contains("39 cells for 0.01 N·m in two pieces"));
 }
 
-/// A cylinder takes a motor by way of a screw.
+/// A cylinder is driven by a motor through a screw.
 #[test]
 fn a_ball_screw_lets_a_motor_turn() {
     let text = format!("{LIFT}{SCREW}{LIFT_MOTION}");
@@ -132,7 +132,7 @@ fn the_excavator_is_sized() {
     jred([&"simulate", &path]).ends(0);
 }
 
-/// A prescribed motion that asks a rope to push.
+/// A prescribed motion that would need a rope to push.
 #[test]
 fn a_rope_in_too_fast_a_cycle() {
     let text = std::fs::read_to_string(machine("hoist.toml")).unwrap();

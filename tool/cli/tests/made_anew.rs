@@ -1,4 +1,4 @@
-//! What `retime`, `fastest` and `size --motion best` keep of the file's motion, and what they say about it.
+//! Parts of the file's motion that `retime`, `fastest` and `size --motion best` keep, and their reports about it.
 
 use crate::support::schema::faults;
 use crate::support::{Folder, Run, jred_with, squeezed};
@@ -13,7 +13,7 @@ fn jred(command: &str, name: &str, options: &[&str]) -> Run {
     jred_with(&[&[command, file.as_str()][..], options].concat())
 }
 
-/// The process of a machine is never lost without a word.
+/// The process of a machine is never dropped silently.
 #[test]
 fn the_process_of_a_machine_is_kept() {
     for (name, speed, drive) in [
@@ -50,12 +50,12 @@ fn the_process_of_a_machine_is_kept() {
     assert!(run.out.contains("  not kept "), "{}", run.out);
 }
 
-/// Limits of the segments that are not kept are named, with the options that do.
+/// Limits of segments that are not kept are named, with the options that keep them.
 #[test]
 fn limits_of_segments_are_not_dropped_without_a_word() {
     let drive = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
     let run = jred("fastest", "belt-axis", &drive);
-    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept; --max-speed, --max-acceleration, --max-jerk keep them";
+    let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept; to keep them, give --max-speed, --max-acceleration, --max-jerk";
     assert!(run.out.contains(says), "{}", run.out);
     let limits = [
         &drive[..],
@@ -72,7 +72,7 @@ fn limits_of_segments_are_not_dropped_without_a_word() {
     assert!(run.out.contains("max_speed 1.6 m/s"), "{}", run.out);
 }
 
-/// So does `size --motion best`, in its list and for programs.
+/// The same for `size --motion best`, in text and JSON.
 #[test]
 fn a_motion_for_a_drive_drops_no_limit_without_a_word() {
     let options = ["--motion", "best", "--top", "1", "--steps", "64"];
@@ -97,7 +97,7 @@ fn a_motion_for_a_drive_drops_no_limit_without_a_word() {
     assert_eq!(retimed["not_kept"][0], says);
 }
 
-/// Where every drive that is suitable with a motion of its own is larger than the best one with the file's motion, that motion stays.
+/// If every drive that is suitable with its own motion is larger than the best one with the file's motion, the file's motion is kept.
 #[test]
 fn a_motion_that_needs_a_larger_drive_is_not_taken() {
     for more in [&[][..], &["--max-mass", "10 kg"]] {
@@ -138,7 +138,7 @@ fn a_motion_that_needs_a_larger_drive_is_not_taken() {
     }
 }
 
-/// A stop whose law goes 0.0042° beyond its end is one move to its end, in every command.
+/// A stop whose law overshoots its end by 0.0042° is one move to its end, in every command.
 #[test]
 fn the_overshoot_of_a_law_is_no_move() {
     let folder = Folder::new();
@@ -167,7 +167,7 @@ fn the_overshoot_of_a_law_is_no_move() {
     assert!(whole.contains(&format!("warning: {says}")), "{whole}");
 }
 
-/// A move that passes on neither repeats nor stands; too fast an end is answered in the unit it was given in.
+/// A move that ends in motion neither repeats nor holds; too fast an end is answered in the given unit.
 #[test]
 fn a_passing_move_neither_repeats_nor_stands() {
     let passing = [
@@ -183,20 +183,20 @@ fn a_passing_move_neither_repeats_nor_stands() {
     let speeds = ["--from-speed", "20 rpm", "--to-speed", "10 rpm"];
     let run = jred("fastest", "rotary-table", &[&passing[..], &speeds].concat());
     assert!(run.out.contains("move 1"), "{}{}", run.out, run.err);
-    for line in ["more at rest each time", "to hold the end"] {
+    for line in ["more rest each time", "to hold the end"] {
         assert!(!run.out.contains(line), "{}", run.out);
     }
     let fast = ["--from-speed", "6000 rpm"];
     let run = jred("fastest", "rotary-table", &[&passing[..], &fast].concat());
     assert!(run.message().contains("rpm at the most"), "{}", run.err);
     assert!(
-        run.message().contains("a longer way does not help"),
+        run.message().contains("a longer distance does not help"),
         "{}",
         run.err
     );
 }
 
-/// Sentences about what is the same, and cures that help.
+/// Sentences about equal figures, and cures that help.
 #[test]
 fn sentences_say_what_they_mean() {
     let run = jred("retime", "rotary-table", &["--objective", "peak"]);

@@ -1,4 +1,4 @@
-//! The one test program of the command.
+//! The test program of the command.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod bus {

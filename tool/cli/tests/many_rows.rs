@@ -1,4 +1,4 @@
-//! Results of many rows: written part by part, within a ceiling of memory.
+//! Results with many rows: written part by part, within a memory limit.
 
 #[cfg(target_os = "linux")]
 use std::{
@@ -11,7 +11,7 @@ use crate::support::json::row_numbers;
 use crate::support::{Folder, jred_with};
 use crate::support::{jred, press_file};
 
-/// Rows of a result that is written in two parts, the second a short one.
+/// Number of rows for a result in two parts, the second one short.
 const ROWS: usize = 4100;
 
 fn reduced(format: &str) -> String {
@@ -28,7 +28,7 @@ fn reduced(format: &str) -> String {
     .out
 }
 
-/// Where one part ends and the next begins, the columns stay in line.
+/// The columns stay aligned across parts.
 #[test]
 fn a_long_table_is_as_wide_everywhere() {
     let table = reduced("table");
@@ -51,7 +51,7 @@ fn a_long_table_is_as_wide_everywhere() {
     assert_eq!(ends[0], ends[1]);
 }
 
-/// CSV and JSON have the same rows, whatever parts they are written in.
+/// CSV and JSON have the same rows, independent of parts.
 #[test]
 fn long_forms_have_the_same_rows() {
     let csv = reduced("csv");
@@ -63,7 +63,7 @@ fn long_forms_have_the_same_rows() {
     assert_eq!(row_numbers(&json), of_csv);
 }
 
-/// Whether a run ends by itself where the system gives it no more than this much memory for data (KB); only Linux limits that.
+/// Whether a run succeeds within this much memory for data (KB); only Linux limits it.
 #[cfg(target_os = "linux")]
 fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
     let limited = format!("ulimit -d {kilobytes} && exec \"$0\" \"$@\"");
@@ -78,8 +78,7 @@ fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
     matches!(code, Some(0 | 1))
 }
 
-/// 20,000 rows of a result and 100,000 instants of a cycle take a few ten megabytes. The ceiling is seen to refuse: more rows
-/// than fit are not held.
+/// 20,000 rows of a result and 100,000 instants of a cycle take some ten megabytes. The limit works: a run with more rows fails.
 #[cfg(target_os = "linux")]
 #[test]
 fn heavy_inputs_stay_below_a_ceiling() {
@@ -95,7 +94,7 @@ fn heavy_inputs_stay_below_a_ceiling() {
     assert!(!runs_within(CEILING, &reduce("300000", "csv")));
 }
 
-/// The text of a drive takes some kilobytes, of which none is held: twelve hundred drives take no more memory than four hundred.
+/// The text of a drive takes some kilobytes and is not kept: 1200 drives take no more memory than 400.
 #[cfg(target_os = "linux")]
 #[test]
 fn every_drive_of_a_catalogue_is_written_one_by_one() {
@@ -133,7 +132,7 @@ fn every_drive_of_a_catalogue_is_written_one_by_one() {
     let answer: serde_json::Value = serde_json::from_str(&run.out).unwrap();
     let drives = ["fit", "refused"].map(|list| answer[list].as_array().unwrap().len());
     assert_eq!(drives[0] + drives[1], 1200);
-    // The same lines but for the last digits of numbers.
+    // The same lines up to the last digits of numbers.
     let shape = |text: &str| -> Vec<String> {
         let lines = text.lines();
         let lines = lines.map(|line| line.trim_end_matches(|c| ",.-e0123456789".contains(c)));
@@ -142,7 +141,7 @@ fn every_drive_of_a_catalogue_is_written_one_by_one() {
     assert_eq!(shape(&run.out), shape(&format!("{answer:#}")));
 }
 
-/// What would not fit is refused before it is computed, with the number that fits.
+/// Requests too large for memory are refused before computing, with the largest number.
 #[test]
 fn more_numbers_than_fit_are_refused() {
     let file = press_file();

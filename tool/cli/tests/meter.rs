@@ -5,7 +5,7 @@ use crate::support::{Folder, edited_press, jred, press_file};
 /// The drive of the source that sizing's tests include.
 const DRIVE: &str = "sgmsh-30a+npt025mf-3";
 
-/// To make it anew:
+/// To regenerate:
 ///
 /// ```text
 /// jred size machines/press.toml --why sgmsh-30a+npt025mf-3 --meter tool/sizing/tests/data/meter_press.rs
@@ -38,9 +38,9 @@ fn without_a_drive_that_holds_nothing_is_written() {
     let run = jred([&"size", &file, &"--meter", &out]).ends(1);
     run.says(&["no drive satisfies every rule", "is not written", "--why"]);
     assert!(!out.exists());
-    // That of a drive that does not hold is written when it is named.
+    // For a drive that violates rules it is written only if named.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &out]).ends(1);
-    // Not as one that is approved: file and stderr say what it breaks, and by how much.
+    // Not as an approved drive: file and stderr name the violations with figures.
     run.says(&["violates rules (RMS torque", "does not make it acceptable"]);
     let source = std::fs::read_to_string(&out).unwrap();
     let header: Vec<&str> = source
@@ -60,7 +60,7 @@ fn without_a_drive_that_holds_nothing_is_written() {
             && violated[0].ends_with(", > 1000 %"),
         "{violated:?}"
     );
-    // Never over the machine file.
+    // The machine file is never overwritten.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &file]).ends(2);
     run.says(&["read by this command"]);
 }

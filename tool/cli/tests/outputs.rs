@@ -1,5 +1,4 @@
-//! Nothing is lost: no output is written over a file that the command reads, and what was there stays until the new file is
-//! complete. Nothing hangs: what does not end is given up.
+//! No output overwrites an input, and an old file stays until the new one is complete. No input blocks the command without end.
 
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -73,7 +72,7 @@ const READ: [[&str; 3]; 15] = [
     ],
 ];
 
-/// Every file that a command reads, whatever it is for, by every name that it has.
+/// Every file that a command reads, under each of its names.
 #[test]
 fn an_output_is_never_a_file_that_was_read() {
     let folder = Folder::new();
@@ -106,7 +105,7 @@ fn an_output_is_never_a_file_that_was_read() {
             let mut arguments: Vec<&str> = command.split(' ').collect();
             arguments.extend([option, name]);
             let run = jred_with(&arguments).ends(2);
-            // The message may be broken into lines anywhere in a path.
+            // The message may be wrapped anywhere in a path.
             let message = run.err.replace([' ', '\n', '│'], "");
             for word in [option, name, file.to_str().unwrap(), "notoverwritten"] {
                 assert!(message.contains(word), "{word}\n{}", run.err);
@@ -167,7 +166,7 @@ fn a_share_is_not_overwritten_by_the_merged_file() {
 #[cfg(unix)]
 mod unix;
 
-/// What another program writes under the name of a new file meanwhile stays.
+/// A file that another program creates meanwhile under the new name stays.
 #[test]
 fn a_new_file_replaces_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -183,7 +182,7 @@ fn a_new_file_replaces_nothing() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// Names that are taken, as by runs of the same number that were killed, do not keep a file from being written.
+/// Existing temporary names, as of killed runs with the same number, do not block an output.
 #[test]
 fn leftovers_are_passed_over() {
     let folder = tempfile::tempdir().unwrap();
@@ -197,7 +196,7 @@ fn leftovers_are_passed_over() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 151);
 }
 
-/// The inertia of a planetary gear is constant: no rounding error of its derivative is printed as a value.
+/// A planetary gear has constant inertia: no rounding error of its derivative is printed as a value.
 #[test]
 fn what_is_zero_is_printed_as_zero() {
     let machine = shipped("linkage-planetary.toml");
@@ -214,7 +213,7 @@ fn what_is_zero_is_printed_as_zero() {
     assert!(explained.contains(" 0.0 %") && !explained.contains("-0.0 %"));
 }
 
-/// Files that belong together: where one cannot be written, none takes its place.
+/// Files of one result: if one cannot be written, none is.
 #[test]
 fn of_files_that_belong_together_all_or_none_are_written() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! The commands of the tutorial and of the pages about commands print what the pages show.
+//! The commands in the tutorial and in the pages about commands print the shown output.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A block of a page: its words behind the backticks, the name in `<!-- file: NAME -->` above it, its lines.
+/// A block of a page: the words after its backticks, the name in `<!-- file: NAME -->` above it, its lines.
 struct Block<'p> {
     kind: &'p str,
     file: Option<&'p str>,
@@ -34,7 +34,7 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
     blocks
 }
 
-/// The words of a command line, in double quotes or not.
+/// The words of a command line, quoted or not.
 fn words(line: &str) -> Vec<String> {
     let parts = line.split('"').enumerate();
     let words = parts.flat_map(|(k, part)| match k % 2 {
@@ -47,7 +47,7 @@ fn words(line: &str) -> Vec<String> {
     words.collect()
 }
 
-/// Whether the lines are the output, where the line `…` stands for any number of lines.
+/// Whether the lines match the output; the line `…` matches any number of lines.
 fn is_output(shown: &[&str], output: &[&str]) -> bool {
     match shown.split_first() {
         None => output.is_empty(),
@@ -59,7 +59,7 @@ fn is_output(shown: &[&str], output: &[&str]) -> bool {
     }
 }
 
-/// Runs the commands of a page in a folder that has the machines; returns their number.
+/// Runs the commands of a page in a folder with the machines; returns their number.
 fn check(page: &Path) -> usize {
     let folder = Folder::new();
     let machines = folder.path("machines");

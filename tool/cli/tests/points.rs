@@ -39,7 +39,7 @@ fn golden_rows() -> (Vec<String>, Vec<Vec<f64>>) {
     };
     (
         names.map(|n| n.as_str().unwrap().to_owned()).collect(),
-        // The last three are not tens of degrees.
+        // The last three are not multiples of ten degrees.
         rows.map(row).take(36).collect(),
     )
 }
@@ -83,7 +83,7 @@ fn transfer_functions_are_the_golden_ones() {
         "velocities without a motion: {:?}",
         found.names
     );
-    // JSON holds the same numbers.
+    // JSON contains the same numbers.
     let json = jred([&"reduce", &file, &"--points", &"--format", &"json"]).json();
     let again = crate::support::Columns::of_json(&json);
     assert_eq!(again.names, found.names);
@@ -98,7 +98,7 @@ fn transfer_functions_are_the_golden_ones() {
     }
 }
 
-/// At a constant ω, v = −r·ω·(sin φ + …): the in-line press by hand.
+/// At constant ω, v = −r·ω·(sin φ + …): the in-line press by hand.
 #[test]
 fn velocities_and_accelerations_in_time() {
     let found = jred([
@@ -147,7 +147,7 @@ fn velocities_and_accelerations_in_time() {
         &of(&a),
         budget::CLOSED_FORM,
     );
-    // The crank pin goes round a circle.
+    // The crank pin moves on a circle.
     let speed = of(&|_| r * omega.abs());
     near_column("A v", &found.get("A v [m/s]"), &speed, budget::CLOSED_FORM);
     let size = of(&|_| r * (omega.powi(4) + alpha * alpha).sqrt());

@@ -1,5 +1,5 @@
-//! The numbers of the press example, derived independently: textbook formulas in `support/press.rs`, other numerical
-//! methods, none of the tool's code. What is compared is what the command prints.
+//! The numbers of the press example, derived independently: textbook formulas in `support/press.rs`, other numerical methods, no code of the tool.
+//! Compared with the output of the command.
 
 mod drives;
 
@@ -50,7 +50,7 @@ fn the_example_is_the_machine_written_down_here() {
 
 #[test]
 fn both_derivations_of_the_torque_agree() {
-    // Not of the tool: d'Alembert and Lagrange on one side, the power balance on the other.
+    // Independent of the tool: d'Alembert and Lagrange on one side, the power balance on the other.
     let times: Vec<f64> = (40..=360).map(|k| 1e-3 * f64::from(k) + 1.37e-5).collect();
     let lagrange: Vec<f64> = times.iter().map(|t| press::crank_torque(*t)).collect();
     let power: Vec<f64> = times
@@ -165,9 +165,8 @@ fn the_torque_over_time() {
     );
 }
 
-/// Over a cycle that ends as it began, the drive gives exactly what the loads take: the ram's friction over twice the
-/// stroke, the bearings' over the motion, 0.4·(2π)²/0.4 s·∫S′² dz with ∫S′² dz = 10/7, and the pressing force over its
-/// way.
+/// Over a closed cycle the drive delivers exactly the energy that the loads take: the ram's friction over twice the stroke, the bearings' over the
+/// motion, 0.4·(2π)²/0.4 s·∫S′² dz with ∫S′² dz = 10/7, and the work of the pressing force.
 #[test]
 fn the_energy_of_a_cycle() {
     let friction = 150.0 * 2.0 * 0.06;
@@ -261,7 +260,7 @@ fn check_duty(answer: &Value, tolerances: [f64; 2]) {
     let times = (0..=FINE).map(|k| press::CYCLE * k as f64 / FINE as f64);
     let torque: Vec<f64> = times.map(press::crank_torque).collect();
     check("drive link torque [N m]", &torque);
-    // The largest torque against gravity, sought here every 0.01° instead of every 0.5°.
+    // The largest torque against gravity, searched every 0.01° instead of every 0.5°.
     let weight = (0..36_000).map(|k| {
         let phi = f64::from(k) / 100.0;
         derivative(press::potential, phi.to_radians(), 2e-3).abs() / press::RATIO

@@ -1,5 +1,5 @@
-//! `jred reduce --reactions` and `--energy`: every force of a slider-crank by hand, link after link, without a linear
-//! system; energies and generalised forces against the reduced curves.
+//! `jred reduce --reactions` and `--energy`: every force of a slider-crank by hand, link by link, without a linear system; energies and generalised
+//! forces against the reduced curves.
 
 use crate::support::{Columns, budget, jred, near_column, press_file, within};
 
@@ -11,7 +11,7 @@ const ROD: [f64; 3] = [6.5, 0.03, 0.055];
 const SLIDER: f64 = 42.0;
 const G: f64 = 9.81;
 
-/// What the joints of the press carry at φ, ω, α: T, crank pivot, crank pin, slider pin, guide.
+/// Joint forces of the press at φ, ω, α: T, crank pivot, crank pin, slider pin, guide.
 struct Hand {
     drive: f64,
     pivot: [f64; 2],
@@ -40,7 +40,7 @@ fn by_hand(phi: f64, omega: f64, alpha: f64, friction: f64, bearing: f64, train:
         pin[1] + ROD[2] * (cos * psi2 - sin * psi1 * psi1),
     ];
     let crank = pin.map(|a| a * CRANK[2] / R);
-    // Friction against the slider's motion; the pressing force is outside its window at the angles of the test.
+    // Friction opposes the slider's motion; the pressing force is outside its window at the angles of the test.
     let load = if slider_speed == 0.0 {
         0.0
     } else {
@@ -107,7 +107,7 @@ fn every_force_of_the_press_by_hand() {
     let compare = |column: &str, f: &dyn Fn(&Hand) -> f64| {
         let found: Vec<f64> = rows.iter().map(|&k| found.get(column)[k]).collect();
         let expected: Vec<f64> = hand.iter().map(f).collect();
-        // At a dead centre sin φ is a rounding, and with it the way that friction acts.
+        // At a dead centre sin φ is a rounding error, and so is the direction of friction.
         let ends = |k: &usize| !k.is_multiple_of(18);
         let keep = |values: &[f64]| -> Vec<f64> {
             rows.iter()
@@ -176,7 +176,7 @@ fn curves() -> Columns {
     .columns()
 }
 
-/// Two ways to the drive torque, over the motion, drive train included in both.
+/// Two methods for the drive torque over the motion, both with the drive train.
 #[test]
 fn the_drive_torque_is_that_of_the_reduced_equation() {
     let forces = press("--reactions", "time", "csv").columns();
@@ -229,7 +229,7 @@ fn the_largest_values_are_found_between_the_rows() {
     assert!(!lines.contains("guide M"), "{lines}");
 }
 
-/// The loads' generalised forces, from the forces themselves, make up the reduced torque; both energies are those of J and U.
+/// The loads' generalised forces, from the forces themselves, sum up to the reduced torque; both energies are those of J and U.
 #[test]
 fn energies_and_generalised_forces() {
     let energy = press("--energy", "time", "csv").columns();

@@ -1,4 +1,4 @@
-//! Reports: one file that needs nothing else, with every plot and every reason in it.
+//! Reports: one self-contained file with every plot and every reason.
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
@@ -21,7 +21,7 @@ fn plots(page: &str) -> Vec<&str> {
     plots
 }
 
-/// The charts' data as the page's script sees it: each series with its places `x`.
+/// The charts' data as in the page's script: each series with its abscissae `x`.
 fn charts(page: &str) -> Vec<serde_json::Value> {
     let parts = page.split("<script type=\"application/json\" class=\"chart\">");
     parts
@@ -47,7 +47,7 @@ fn check_plots(page: &str, count: usize) {
     assert_eq!(plots.len(), count);
     assert_eq!(page.matches("<figure").count(), count);
     for plot in plots {
-        // Inline in HTML an SVG needs no namespace; the parser does where prefixes are used.
+        // Inline SVG in HTML needs no namespace; the parser needs one for prefixes.
         let document = roxmltree::Document::parse(plot).unwrap_or_else(|e| panic!("{e}: {plot}"));
         let elements = document.descendants().filter(roxmltree::Node::is_element);
         let mut drawn = 0;
@@ -69,7 +69,7 @@ fn check_plots(page: &str, count: usize) {
     }
 }
 
-/// Nothing is loaded from anywhere: neither by an element nor by the style.
+/// Neither an element nor the style loads anything.
 fn check_self_contained(page: &str) {
     for word in [
         "src=",
@@ -107,7 +107,7 @@ fn check_self_contained(page: &str) {
     assert!(page.contains("<meta charset=\"utf-8\">"));
 }
 
-/// The page without what stands in its scripts.
+/// The page without the content of its scripts.
 fn without_scripts(page: &str) -> String {
     let mut parts = page.split("<script");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -151,7 +151,7 @@ fn size(folder: &Folder, file: &Path, code: i32) -> String {
     std::fs::read_to_string(report).unwrap()
 }
 
-/// HTML to plain text, so that what the page says can be looked up.
+/// HTML as plain text, for searching.
 fn plain(page: &str) -> String {
     let mut text = String::new();
     let mut inside = false;
@@ -201,7 +201,7 @@ fn the_report_of_the_press() {
     ] {
         assert!(text.contains(word), "{word}");
     }
-    // The nearest refused drives, and every rule that they break.
+    // The closest refused drives, and every rule that they violate.
     let refused = answer["refused"].as_array().unwrap();
     assert!(text.contains(&format!("{} drives, closest first", refused.len())));
     let rows: Vec<&str> = page.split("<tr>").collect();
@@ -221,7 +221,7 @@ fn the_report_of_the_press() {
             }
         }
     }
-    // Every check of the best drive with its verdict, or what is missing.
+    // Every check of the best drive with its verdict or its missing data.
     for check in best["checks"].as_array().unwrap() {
         let rule = check["rule"].as_str().unwrap();
         let row = if check["verdict"] == "not-checked" {
@@ -244,7 +244,7 @@ fn the_report_of_the_press() {
     assert!(page.len() < 3_000_000, "{} bytes", page.len());
 }
 
-/// The charts' data: as many as there are pictures of charts, finite, and the same curves.
+/// The charts' data: one set per picture, finite, with the same curves.
 fn check_charts(page: &str, count: usize) {
     let charts = charts(page);
     assert_eq!(charts.len(), count);
@@ -266,7 +266,7 @@ fn check_charts(page: &str, count: usize) {
             );
         }
     }
-    // The plane knows when each of its points is.
+    // The plane has the time of each of its points.
     let plane = charts.iter().find(|c| c["form"] == "plane").unwrap();
     let mut series = plane["series"].as_array().unwrap().iter();
     let duty = series.find(|s| s["name"] == "duty").unwrap();
@@ -353,7 +353,7 @@ fn the_page_of_a_simulation() {
     check_plots(&page, 6);
 }
 
-/// The columns of a drive link that slides have other names: every chart has its curve.
+/// A sliding drive link has other column names: every chart has its curve.
 #[test]
 fn the_page_of_a_simulation_that_slides() {
     let folder = Folder::new();
@@ -368,7 +368,7 @@ fn the_page_of_a_simulation_that_slides() {
     }
 }
 
-/// The potential's curve is named after what it holds: a damper stores nothing.
+/// The curve of the potential energy is named after its parts: a damper stores nothing.
 #[test]
 fn the_potential_names_its_springs() {
     let folder = Folder::new();
@@ -385,7 +385,7 @@ fn the_potential_names_its_springs() {
     assert!(!lever.contains("weight −U′"));
 }
 
-/// Machines without loads, without a train, at constant speed: plots of nothing are plots nevertheless.
+/// Machines without loads, without a train, at constant speed: empty plots are valid.
 #[test]
 fn reports_of_plain_machines() {
     let folder = Folder::new();
@@ -404,7 +404,7 @@ speed = "60 rpm"
     check_self_contained(&page);
     check_nesting(&page);
     assert!(!plain(&page).contains("NaN"));
-    // A curve that does not bend is drawn with the instants that were asked for.
+    // A curve without bends is drawn with the requested instants.
     assert!(page.len() < 500_000, "{} bytes", page.len());
     for plot in plots(&page) {
         roxmltree::Document::parse(plot).unwrap();

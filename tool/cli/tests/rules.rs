@@ -3,7 +3,7 @@
 use crate::support::{Folder, jred, press_file, press_text};
 use jred_machine::read as machine_file;
 
-/// A rule set of one's own that cannot be used is refused with its file.
+/// An unusable rule set of the user is refused with its file.
 #[test]
 fn a_wrong_set_of_ones_own() {
     let folder = Folder::new();
@@ -30,7 +30,7 @@ fn a_wrong_set_of_ones_own() {
     }
 }
 
-/// The command line: another set, what the file says stays; the sets are listed with their sources.
+/// The command line: another set; entries of the file are kept; the sets are listed with their sources.
 #[test]
 fn the_command_line() {
     let folder = Folder::new();
@@ -40,7 +40,7 @@ fn the_command_line() {
     );
     let run = jred([&"size", &file, &"--rules", &"fanuc"]);
     assert!(run.code == 0 || run.code == 1, "{}", run.err);
-    // With a limit of 3 the file's warning at 4 comes too late.
+    // With a limit of 3 the file's warning at 4 is too late.
     let run = jred([&"size", &file, &"--rules", &"fanuc-contouring"]).ends(2);
     run.says(&["contradicts the set", "inertia_ratio_warning", "above"]);
     jred([&"size", &file, &"--rules", &"fanux"])

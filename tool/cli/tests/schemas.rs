@@ -18,7 +18,7 @@ fn file_of(form: &str) -> PathBuf {
     folder().join(format!("{name}.json"))
 }
 
-/// With `JRED_BLESS=1` the files are written anew.
+/// With `JRED_BLESS=1` the files are regenerated.
 #[test]
 fn the_schemas_are_those_of_the_types() {
     let mut known = BTreeSet::new();
@@ -113,7 +113,7 @@ fn every_answer_follows_its_schema() {
     let mut met = BTreeSet::new();
     for run in runs {
         let answer: Run = jred_with(&run);
-        // A command that does not apply to the machine says so.
+        // A command that does not apply to the machine reports so.
         if answer.code == 2 || answer.out.is_empty() {
             assert!(!answer.err.is_empty(), "{run:?}");
             continue;

@@ -1,4 +1,4 @@
-//! What `jred size` and `jred ratio` print of a search: ranking, filters, fronts, ratios.
+//! Output of `jred size` and `jred ratio` for searches: ranking, filters, fronts, ratios.
 
 use crate::support::{jred, near, press_file, shipped, within};
 use jred_machine::analysis::duty::{Duty, STEPS};
@@ -106,7 +106,7 @@ fn options_of_size() {
         .says(&["must be a mass"]);
 }
 
-/// The list of ratios: the figures of the library, in the order of power.
+/// The list of ratios: the library's figures, ordered by power.
 #[test]
 fn the_command_lists_ratios() {
     let run = jred([&"ratio", &press_file(), &"--format", &"json"]).ends(0);
@@ -144,7 +144,7 @@ fn the_command_lists_ratios() {
         .says(&["at most 1"]);
 }
 
-/// At constant speed there is no best ratio: the range of the RMS torque is open above, and a note says why.
+/// At constant speed there is no best ratio: the range of the RMS torque is open above, which a note explains.
 #[test]
 fn an_open_range_of_ratios_is_said_to_be_open() {
     let conveyor = shipped("conveyor.toml");
@@ -165,7 +165,7 @@ fn an_open_range_of_ratios_is_said_to_be_open() {
     assert!(row["RMS ratio to"].is_null(), "{row}");
 }
 
-/// The table fits on a page, says why there is no range, and can be cut to what is asked for.
+/// The table fits on a page, explains missing ranges, and can be limited.
 #[test]
 fn the_table_of_ratios_is_narrow_and_can_be_cut() {
     let press = press_file();

@@ -1,4 +1,4 @@
-//! What `jred sensitivity` and `jred tolerance` print.
+//! Output of `jred sensitivity` and `jred tolerance`.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ fn the_command_lists_quantities() {
     );
 }
 
-/// What moves no rule is counted, not listed; three digits, and no rounding noise, no line wider than a page.
+/// Quantities without effect are counted, not listed; three digits, no rounding noise, no line wider than a page.
 #[test]
 fn the_table_leaves_out_what_moves_nothing() {
     let folder = Folder::new();
@@ -85,7 +85,7 @@ fn the_table_leaves_out_what_moves_nothing() {
     for row in rows {
         assert!(row.chars().count() <= 120, "{row}");
         assert!(!row.contains("nothing") && !row.contains("e-"), "{row}");
-        // The first number is the quantity's own, as the file gives it.
+        // The first number is the value in the file.
         let numbers = row
             .split_whitespace()
             .filter(|cell| cell.parse::<f64>().is_ok());
@@ -97,7 +97,7 @@ fn the_table_leaves_out_what_moves_nothing() {
             assert!(digits.count() <= 3, "{cell} in {row}");
         }
     }
-    // Gravity is across the axis: in CSV with a slope of zero, in the table by name only.
+    // Gravity is across the axis: in CSV with a slope of zero, in the table only its name.
     assert!(
         csv.lines()
             .any(|line| line.starts_with("gravity.2,") && line.contains(",nothing,")),
@@ -110,7 +110,7 @@ fn the_table_leaves_out_what_moves_nothing() {
     assert!(idle.contains("gravity.2"), "{idle}");
 }
 
-/// The command: the table of the file, shares that merge to the whole, a summary from the merged file.
+/// The command: the table of the file, shares that merge to the whole, a summary of the merged file.
 #[test]
 fn the_command_sums_up_shares_as_one_run() {
     let folder = Folder::new();
@@ -171,7 +171,7 @@ fn the_command_sums_up_shares_as_one_run() {
     assert!(other.is_empty(), "{other}");
 }
 
-/// Draws that cannot be built are counted apart: of the others the share that holds a rule is that of the rows.
+/// Samples that cannot be built are counted separately: the share that satisfies a rule is that of the other rows.
 #[test]
 fn draws_that_cannot_be_built_are_counted_apart() {
     let folder = Folder::new();
@@ -207,7 +207,7 @@ fn draws_that_cannot_be_built_are_counted_apart() {
         "{}",
         run.out
     );
-    // The speed does not depend on the crank: it holds in all that could be built.
+    // The speed does not depend on the crank: its rule is satisfied in all samples that could be built.
     let speed = run
         .out
         .lines()

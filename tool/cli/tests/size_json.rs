@@ -68,8 +68,7 @@ fn an_answer_without_a_drive_follows_it_as_well() {
     assert_eq!(answer["explanation"]["change"]["holds"], false);
 }
 
-/// The schema can be violated: it is no schema that takes everything.
-/// A drive link that slides has its own keys, and one that has both or none follows no form.
+/// The schema rejects invalid answers. A sliding drive link has its own keys; one with both kinds of keys or neither is invalid.
 #[test]
 fn a_slide_has_keys_in_newtons_and_metres() {
     let bucket = machine("excavator-bucket.toml");
@@ -160,7 +159,7 @@ fn a_drive_can_be_named() {
     ]);
 }
 
-/// The motor of the next smaller rated power, with the rules that it violates: no refused motor lies between.
+/// The motor of the next smaller rated power, with the rules that it violates: no other refused motor is between.
 #[test]
 fn the_next_smaller_motor_says_why_not() {
     let press = press_file();
@@ -192,8 +191,8 @@ fn the_next_smaller_motor_says_why_not() {
     );
 }
 
-/// On 400 V mains the best drive with the maker's own figures is larger than others that violate no rule. Every form names the smallest
-/// of each class of certainty, with its rank and the number of the class.
+/// On 400 V mains the best drive with the maker's own figures is larger than others that violate no rule. Every format names the smallest of each
+/// class of certainty, with its rank and the size of the class.
 #[test]
 fn smaller_motors_of_less_certain_data_are_not_hidden() {
     let folder = Folder::new();
@@ -230,7 +229,7 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
         assert_eq!(member["rank"].take(), rank);
         member.as_object_mut().unwrap().remove("rank");
         assert_eq!(&member, first);
-        // The maker's own document, and a voltage, are what the classes are made of.
+        // The classes depend on the source of the figures and on the voltage.
         let unknown = first["motor largest bus voltage [V]"].is_null();
         assert_eq!(unknown, word == "voltage-unknown");
         assert!(word != "other-figures" || first["figures from"] == "other");
@@ -253,9 +252,9 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
         }
         least = least.min(smallest);
     }
-    // The trap that this is about: the best drive is not the smallest.
+    // The case under test: the best drive is not the smallest.
     assert!(power(&fit[0]) > 2.0 * least);
-    // Each rule that is not checked, counted a second time.
+    // Each unchecked rule, counted a second time.
     let gaps = all["not checked"].as_array().unwrap();
     assert!(!gaps.is_empty());
     for gap in gaps {
@@ -275,8 +274,8 @@ fn smaller_motors_of_less_certain_data_are_not_hidden() {
     }
 }
 
-/// Every figure of two answers, and of the objects in them, whose path tells where it stands. A figure is compared as a share of the largest of its
-/// group (a mean of nearly nothing beside its RMS), a margin as one of its limit.
+/// Compares every figure of two answers and of the objects in them; `path` is the position in the JSON. Tolerances are shares of the largest figure
+/// of the group (a small mean next to its RMS); for a margin, of its limit.
 fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
     match (found, exact) {
         (Value::Object(found), Value::Object(exact)) => {
@@ -287,7 +286,7 @@ fn compare(path: &str, found: &Value, exact: &Value, least: f64) -> usize {
                 .into_iter()
                 .flatten()
                 .fold(0.0, |m: f64, x| m.max(x.abs()));
-            // Notes have rounded figures.
+            // Notes contain rounded figures.
             let figures = found.iter().filter(|(key, _)| *key != "note");
             let figures = figures.map(|(key, value)| {
                 let least = if key == "margin" { 1.0 } else { group };

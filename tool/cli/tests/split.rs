@@ -1,4 +1,4 @@
-//! `jred split`: the optimum, the curve and what is refused.
+//! `jred split`: the optimum, the curve and refusals.
 
 use crate::support::{Columns, jred, near, near_column, squeezed, within};
 
@@ -48,7 +48,7 @@ fn two_equal_pinions_follow_the_textbook() {
     assert_eq!(json["equal_within_bounds"], true);
 }
 
-/// The curve passes through the bounds, its rows multiply to the ratio, and none lies below the optimum.
+/// The curve includes the bounds, its rows multiply to the ratio, and none is below the optimum.
 #[test]
 fn the_curve_has_its_minimum_at_the_optimum() {
     let arguments = |format: &'static str| {
@@ -137,7 +137,7 @@ fn the_table_says_what_the_equal_split_costs() {
         &"4 kg cm^2",
     ])
     .ends(0);
-    // Wheels that do not grow: all the ratio in front, up to the bound.
+    // Wheels of constant inertia: the whole ratio in the first stage, up to the bound.
     assert!(
         squeezed(&constant.out).contains("optimum i = 10 · 2,"),
         "{}",

@@ -1,4 +1,4 @@
-//! `jred vary` and `jred merge`: what a row says, shares, continuing, messages.
+//! `jred vary` and `jred merge`: content of a row, shares, resuming, messages.
 // Rows are compared digit by digit.
 #![allow(clippy::float_cmp)]
 
@@ -16,7 +16,7 @@ fn rows(text: &str) -> Vec<HashMap<String, String>> {
     reader.into_iter().map(row).collect()
 }
 
-/// CSV as the test reads it, by hand: quotes, commas, lines.
+/// A CSV reader of the test's own: quotes, commas, lines.
 fn csv_reader(text: &str) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for line in text.lines() {
@@ -34,7 +34,7 @@ fn csv_reader(text: &str) -> Vec<Vec<String>> {
     rows
 }
 
-/// A row says what `jred size` says of a machine file that was changed by hand.
+/// A row equals the result of `jred size` for a machine file edited by hand.
 #[test]
 fn a_row_is_what_sizing_the_changed_file_gives() {
     let folder = Folder::new();
@@ -127,8 +127,7 @@ fn a_machine_that_is_refused_is_a_row() {
     assert_eq!(rows[1]["verdict"], "fits");
 }
 
-/// No machine with a drive is an answer of its own: the exit code of `jred size` that finds none. A share leaves the answer to
-/// the whole.
+/// If no machine has a drive, the exit code is that of `jred size` without a drive. A share leaves this to the whole.
 #[test]
 fn one_when_no_machine_has_a_drive() {
     let (press, out) = (press_file(), Folder::new());
@@ -241,7 +240,7 @@ fn what_cannot_be_varied_is_said() {
     shard.ends(2).says(&["there is no share 2 of 2"]);
 }
 
-/// The elements of lists count from 1 as in messages; who counts from 0 is told.
+/// The elements of lists count from 1 as in messages; an index of 0 is refused with that hint.
 #[test]
 fn the_first_element_is_number_one() {
     let run = |path: &str| {

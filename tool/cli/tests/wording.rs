@@ -1,7 +1,7 @@
-//! What users read, kept as snapshots, so that a change of wording or layout is read in review.
+//! Texts for users as snapshots, so that a change of wording or layout is reviewed.
 //!
-//! `cargo insta review` shows what changed; `INSTA_UPDATE=always cargo test -p jred-cli wording` writes all of it anew. Paths are
-//! relative to the folder in which the command runs, colour is off, and rounding noise, digests and the version are masked.
+//! `cargo insta review` shows the changes; `INSTA_UPDATE=always cargo test -p jred-cli wording` rewrites all snapshots. Paths are relative to the
+//! folder in which the command runs, colour is off; rounding noise, digests and the version are masked.
 
 mod catalogues;
 mod help;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 use crate::support::{Folder, press_text};
 
-/// A catalogue that is small enough to be read: two motors, two gearboxes, all that the built-in tables say of them.
+/// A small catalogue: two motors, two gearboxes, with all figures of the built-in tables.
 const MOTORS: [&str; 2] = ["sgmsh-15a", "sgmsh-30a"];
 const GEARBOXES: [&str; 2] = ["npt025mf-5", "npt035mf-10"];
 
@@ -46,7 +46,7 @@ impl Desk {
         Self(folder)
     }
 
-    /// The text of one of the machine files that users start from.
+    /// The text of an example machine file.
     fn machine(name: &str) -> String {
         if name == "press.toml" {
             return press_text();
@@ -68,7 +68,7 @@ impl Desk {
             .fold(self, |desk, name| desk.with(name, Self::machine(name)))
     }
 
-    /// The command as typed, what it prints, and its exit code if that is not 0.
+    /// The command as typed, its output, and its exit code if not 0.
     fn run(&self, arguments: &[&str]) -> String {
         let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
             .current_dir(self.0.path(""))
@@ -101,7 +101,7 @@ impl Desk {
         text
     }
 
-    /// All of `commands`, one after the other.
+    /// All `commands` in order.
     fn runs(&self, commands: &[&[&str]]) -> String {
         let texts: Vec<String> = commands.iter().map(|command| self.run(command)).collect();
         texts.join("\n")
@@ -114,7 +114,7 @@ fn compare(name: &str, text: &str) {
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.set_snapshot_path("snapshots");
-    // Blanks at the ends of lines, of which tables have many, cannot be seen.
+    // Trailing blanks, which tables have, are invisible.
     settings.add_filter(r"(?m)[ \t]+$", "");
     settings.add_filter(r" *-?\d(\.\d+)?e-1\d\b", " [rounding]");
     settings.add_filter(r"(\d\.\d{5})\d+", "$1…");

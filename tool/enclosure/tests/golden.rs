@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// The enclosures in the middle of a stretch contain the references and are as narrow as rounding allows.
+/// The enclosures in the middle of a stretch contain the references and are as narrow as rounding permits.
 fn compare(case: &Case, machine: &Machine<impl Jointed>) {
     let enclosed = Enclosed::new(machine);
     let rows = case.rows();

@@ -160,7 +160,7 @@ fn a_wrong_word_is_found_in_any_cell() {
     }
 }
 
-/// A force that acts within a part of 0.0004 of a cell, which the machine does not report as an edge: no checked place shows it.
+/// A force that acts over 0.0004 of a cell, which the machine does not report as an edge: no sampled position shows it.
 #[test]
 fn a_peak_between_the_places_is_proven_and_not_estimated() {
     let cells = 32;

@@ -1,4 +1,4 @@
-//! The one test program of the package.
+//! The test program of the package.
 
 mod golden;
 mod intervals;

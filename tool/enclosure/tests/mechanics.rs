@@ -1,4 +1,4 @@
-//! A machine of the core with joints that close, as curves for a proof; and a search for the error of a table.
+//! A machine of the core with closed loops, as curves for a proof; and a search for the error of a table.
 
 use jred::machine::Jointed;
 use jred::table::{CurveValues, Format, words_len};
@@ -87,7 +87,7 @@ pub(crate) fn proof<F: Format>(
     prove(&table, &goal, curves, &mut |_| true)
 }
 
-/// The largest error of a table at random places and around the worst of them, evaluated without the rounding of a tick.
+/// The largest error of a table at random positions and around the worst of them, evaluated without the rounding of a tick.
 pub(crate) fn searched<F: Format>(
     machine: &impl Reducible,
     made: &Made<F>,

@@ -1,5 +1,4 @@
-//! Counterweights and springs against closed forms, against the machine file that they are written into, and against bodies drawn at
-//! random.
+//! Counterweights and springs against closed forms, against the machine file that contains them, and against random bodies.
 
 use std::path::Path;
 
@@ -24,7 +23,7 @@ fn example(name: &str) -> String {
     std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap()
 }
 
-/// A lever of 10 kg whose centre of mass is 0.3 m from its bearing, turned evenly; what it has besides.
+/// A lever of 10 kg whose centre of mass is 0.3 m from its bearing, turned at constant speed; `more` is added to it.
 fn lever(range: &str, more: &str) -> MachineFile {
     machine(&format!(
         "title = \"lever\"\ngravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"bearing\"\n{range}\
@@ -50,8 +49,8 @@ fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) 
     }
 }
 
-/// The result is at the bound: nothing is better by more than a thousandth per cent, or than the roundings of what was there; a peak lies between
-/// the instants, at so few steps a hundredth per cent above them.
+/// The result is at the bound: nothing is better by more than 1e-5, or than the roundings of the unbalanced figures. A peak is between the instants;
+/// with so few steps it is up to 1e-4 above them.
 fn is_optimal(found: &Balanced, goal: Goal) {
     let [before, after] = [found.before, found.after].map(|f| f.of(goal));
     let share = if goal == Goal::Peak { 1e-4 } else { 1e-5 };
@@ -62,7 +61,7 @@ fn is_optimal(found: &Balanced, goal: Goal) {
     );
 }
 
-/// S = −m·r takes all of the weight; of the bodies that have it, nothing lighter than 3 kg·m by 0.5 m.
+/// S = −m·r takes all of the weight; of the bodies with that moment, none is lighter than 3 kg·m by 0.5 m.
 #[test]
 fn a_counterweight_balances_a_lever() {
     let file = lever(
@@ -93,7 +92,7 @@ fn a_counterweight_balances_a_lever() {
     }
 }
 
-/// With at most 4 kg within 0.5 m a third of the weight is left: the bound is m·R.
+/// With at most 4 kg within 0.5 m a third of the weight remains: the bound is m·R.
 #[test]
 fn a_counterweight_keeps_within_its_bounds() {
     let file = lever("", "");
@@ -122,7 +121,7 @@ fn a_spring_without_free_length_holds_a_lever() {
     assert!(found.after.holding[1] < 1e-4 * WEIGHT);
 }
 
-/// A torsion spring over a part of the turn: the straight line of least squares through the weight.
+/// A torsion spring over a part of the turn: the least-squares line through the weight.
 #[test]
 fn a_torsion_spring_is_a_straight_line_of_least_squares() {
     let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
@@ -175,8 +174,8 @@ fn figures(file: &MachineFile) -> [f64; 3] {
     [torque.rms, torque.peak(), (squares / n).sqrt()]
 }
 
-/// On the crank of a press and the rocker and coupler of four-bars: what is found is what the file has into which it is written, and of
-/// bodies drawn at random within the bounds none is better.
+/// On the crank of a press and the rocker and coupler of four-bars: the result equals the figures of the file that contains it, and no random body
+/// within the bounds is better.
 #[test]
 fn no_body_drawn_at_random_is_better() {
     let mut random = ChaCha8Rng::seed_from_u64(71);
@@ -226,7 +225,7 @@ fn no_body_drawn_at_random_is_better() {
     assert!(better >= 4, "only {better} are worth anything");
 }
 
-/// Of a counterweight and a spring that can each do it, the search takes no body that the spring then carries; of what has no effect, nothing.
+/// If a counterweight and a spring can each balance the weight, no body is added that the spring then carries; without effect, nothing is added.
 #[test]
 fn what_is_not_needed_is_not_taken() {
     let spring = "[[spring]]\nname = \"balancer\"\nbetween = [\"lever.tip\", { on = \"ground\", at = [\"0 mm\", \"500 mm\"] }]\n\
@@ -235,7 +234,7 @@ fn what_is_not_needed_is_not_taken() {
     let found = balance(&file, &request(Goal::Holding, &[(0, 20.0, 0.5)], &[0])).unwrap();
     is_optimal(&found, Goal::Holding);
     assert!(found.masses[0].is_none(), "{:?}", found.masses);
-    // The jaw slides: its mass alone counts, and at constant speed nothing moves it but the cam.
+    // The jaw slides: only its mass counts, and at constant speed only the cam moves it.
     let four_bar = machine(&example("four-bar"));
     let found = balance(
         &four_bar,
@@ -245,7 +244,7 @@ fn what_is_not_needed_is_not_taken() {
     assert!(found.masses[0].is_none(), "{:?}", found.masses);
 }
 
-/// What cannot be answered.
+/// Requests without an answer.
 #[test]
 fn what_cannot_be_balanced() {
     let still = lever("", "");
@@ -268,7 +267,7 @@ fn what_cannot_be_balanced() {
         fault(&spring, &request(Goal::Inertia, &[], &[0])),
         Fault::SpringForInertia
     ));
-    // The spring that closes a cam would be best if it did not.
+    // A spring that closes a cam is refused: its optimum would let the contact open.
     let cam = machine(&example("linkage-cam-lever"));
     assert!(matches!(
         fault(&cam, &request(Goal::Rms, &[], &[0])),
@@ -276,8 +275,8 @@ fn what_cannot_be_balanced() {
     ));
 }
 
-/// Over a range on both sides of the upright position the weight turns the lever either way, and so must the spring: by k·80° each. On one side
-/// it turns one way only.
+/// Over a range on both sides of the upright position the weight's torque has either sign, and so must the spring's: k·80° each. On one side it has
+/// one sign only.
 #[test]
 fn a_spring_says_whether_it_works_both_ways() {
     let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
@@ -301,7 +300,7 @@ fn a_spring_says_whether_it_works_both_ways() {
     );
 }
 
-/// A goal that costs more than a tenth of heat's root is named.
+/// A goal that costs more than a tenth of the RMS is named.
 #[test]
 fn a_higher_rms_is_said() {
     let file = lever(

@@ -1,4 +1,4 @@
-//! One-sided contacts in motions that are made.
+//! One-sided contacts in computed motions.
 
 use std::path::Path;
 
@@ -31,8 +31,8 @@ fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
     cycle(file, &actuator, *limits, None, &chain.parts).unwrap()
 }
 
-/// The cabin of a hoist hangs on two falls: above g/75 mm the drum lets its rope go slack while it brakes on the way up and while it goes down faster. With the limits that are named it stays
-/// taut, and little is lost: they are near that.
+/// The cabin of a hoist hangs on two falls: above g/75 mm the drum lets its rope go slack while it brakes on the way up and while it accelerates
+/// down. With the named limits the rope stays taut, and little time is lost: they are close to the limit.
 #[test]
 fn a_rope_that_goes_slack_is_named_with_limits() {
     let file = hoist();

@@ -1,4 +1,4 @@
-//! The free motion under a drive against closed forms, the way, and its own energy.
+//! The free motion under a drive against closed forms, against `Way`, and against its own energy.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ fn machine(text: &str) -> MachineFile {
     read::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
 }
 
-/// A table of 2 kg·m² with dry friction, without a motor of its own, followed so long (s).
+/// A table of 2 kg·m² with dry friction, without a motor of its own, simulated for this time (s).
 fn table(friction: f64, duration: f64, more: &str) -> MachineFile {
     machine(&format!(
         "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"2 kg m^2\"\n[[load]]\non = \"table\"\nopposing_moment = \"{friction} N m\"\n[simulation]\nduration = \"{duration} s\"\noutput_step = \"{} s\"\n{more}",
@@ -72,7 +72,7 @@ fn imbalance(columns: &Columns) -> f64 {
     largest(&columns.get("energy balance [J]")) / turned_over.into_iter().fold(0.0, f64::max)
 }
 
-/// T = (J_M + J_G)·i·α + (J·α + τ)/(i·η) + c, solved for α by hand; then the largest speed, which it holds.
+/// T = (J_M + J_G)·i·α + (J·α + τ)/(i·η) + c, solved for α by hand; then constant at the largest speed.
 #[test]
 fn full_torque_accelerates_a_table_evenly_up_to_the_largest_speed() {
     let (motor, gearbox) = (motor(), gearbox());
@@ -99,14 +99,14 @@ fn full_torque_accelerates_a_table_evenly_up_to_the_largest_speed() {
     }
     assert!(even > 10 && even < 50, "{even}");
     assert!(imbalance(&rows) < budget::BALANCE);
-    // In the steady state the motor gives what friction takes.
+    // In the steady state the motor delivers the friction losses.
     let torques = rows.get("motor torque [N m]");
     let steady = friction + 3.0 / (10.0 * 0.9);
     near("steady", torques[50], steady, budget::CLOSED_MOTION);
     let speeds = rows.get("motor speed [rpm]");
     let last = rows.get("omega [rad/s]")[50];
     near("motor", speeds[50], last * 10.0 / RPM, budget::CLOSED_FORM);
-    // The gearbox carries J·α + τ while it accelerates.
+    // The gearbox carries J·α + τ during acceleration.
     let peak = found.loads.gearbox_torque.unwrap();
     near(
         "gearbox",
@@ -123,8 +123,8 @@ fn full_torque_accelerates_a_table_evenly_up_to_the_largest_speed() {
     );
 }
 
-/// While the machine coasts against the motor's own friction, power flows back through the gearbox with its other efficiency, and a
-/// motor that drives backwards mirrors the motion.
+/// While the machine coasts against the motor's own friction, power flows back through the gearbox with its other efficiency; a motor that drives
+/// backwards mirrors the motion.
 #[test]
 fn a_stop_coasts_through_the_gearbox_and_backwards_is_the_mirror() {
     let (motor, gearbox) = (motor(), gearbox());
@@ -156,7 +156,7 @@ fn a_stop_coasts_through_the_gearbox_and_backwards_is_the_mirror() {
     }
 }
 
-/// The press under the controller's torque: the motor torque of each row is what the way asks for in its state, an equation of its own.
+/// The press under the controller's torque: the motor torque of each row is that of `Way` in its state, an independent equation.
 #[test]
 fn the_torque_of_each_row_is_that_of_the_way() {
     let text = press_text();
@@ -199,7 +199,7 @@ fn the_torque_of_each_row_is_that_of_the_way() {
     let following = found.simulated.following.unwrap();
     let errors = rows.get("phi error [deg]");
     assert!(following.error.abs().to_degrees() >= largest(&errors));
-    // A smaller motor comes to its limit in the stroke.
+    // A smaller motor reaches its limit in the stroke.
     let small = catalogue
         .drives()
         .find(|(_, drive)| drive.motor.key == "sgmsh-10a" && drive.gearbox.is_some())
@@ -212,7 +212,7 @@ fn the_torque_of_each_row_is_that_of_the_way() {
     assert!(error.abs() > following.error.abs(), "{error}");
 }
 
-/// One whose winding and housing are one body that warms up.
+/// A motor whose winding and housing are one thermal body.
 fn warm_motor() -> Motor {
     Motor {
         winding: Winding {
@@ -245,7 +245,7 @@ fn a_brake_does_not_heat_the_motor() {
     let rows = columns(&run(&table(1.0, 60.0, text), drive));
     let warm = rows.get("t [s]").into_iter().zip(rows.get("motor [degC]"));
     let rises: Vec<(f64, f64)> = warm.map(|(t, motor)| (t, motor - 20.0)).collect();
-    // It stands after three seconds; until then its own friction heats it.
+    // It is at rest after three seconds; until then its own friction heats it.
     let (off, hot) = *rises.iter().find(|(t, _)| *t >= 25.0).unwrap();
     assert!(hot > 1.0, "{hot}");
     let mut cooled = 0;
@@ -257,7 +257,7 @@ fn a_brake_does_not_heat_the_motor() {
     assert!(cooled > 10);
 }
 
-/// A motor that stalls heats up by a constant loss: C·θ′ = P·(1 + g·θ) − θ/R.
+/// A stalled motor heats up with a constant loss: C·θ′ = P·(1 + g·θ) − θ/R.
 #[test]
 fn a_stalled_motor_heats_up_as_the_closed_form_says() {
     let motor = warm_motor();
@@ -292,7 +292,7 @@ fn a_stalled_motor_heats_up_as_the_closed_form_says() {
         rows.get("motor [degC]")[50],
         budget::CLOSED_FORM,
     );
-    // It does not start: 12 N·m more are needed, and its own friction.
+    // It does not start: 12 N·m plus its own friction are missing.
     let stuck = found.simulated.missing.unwrap();
     assert_eq!(stuck.time.to_bits(), 0.0f64.to_bits());
     near(

@@ -38,7 +38,7 @@ fn machine(text: &str) -> MachineFile {
     read::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
 }
 
-/// A motor without rotor, friction and gearbox, whose torque falls in a straight line from rest to its largest speed.
+/// A motor without rotor, friction and gearbox, whose torque falls linearly from rest to its largest speed.
 fn motor(torques: [f64; 2], speed: f64) -> Actuator {
     let motor = Motor {
         peak_curve: vec![[0.0, torques[0]], [speed, torques[1]]],
@@ -63,7 +63,7 @@ fn task(from: f64, to: f64) -> Task {
 
 fn fastest(file: &MachineFile, motor: &Actuator, task: &Task) -> Fastest {
     let found = solve(file, motor, task).unwrap_or_else(|why| panic!("{why}"));
-    // Finer cells keep to 1e-9; what rounding of the speeds makes of the torque in a short step is a little more, and where curves of a force in a joint meet some times as much.
+    // Finer cells reach 1e-9. Rounding of the speeds in a short step adds a little; where curves of a joint force meet, some times as much.
     let most = if task.limits.forces.is_some() {
         1e-8
     } else {

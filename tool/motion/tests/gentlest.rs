@@ -1,4 +1,4 @@
-//! The gentlest motion against closed forms, against the duty and against a search of its own.
+//! The gentlest motion against closed forms, against the duty and against an independent search.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -22,7 +22,7 @@ mod polynomials;
 mod ramps;
 mod slow;
 
-/// A disc that turns freely, with an opposing moment if there is one.
+/// A disc that turns freely, with an opposing moment if given.
 fn table(inertia: f64, friction: f64) -> MachineFile {
     let mut text = format!(
         "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n\
@@ -39,7 +39,7 @@ fn machine(text: &str) -> MachineFile {
     read::parse("machine.toml", text, Path::new("")).unwrap()
 }
 
-/// One of the machines that come with the tool, its text edited.
+/// An example machine with edited text.
 fn example(name: &str, edits: &[(&str, &str)]) -> MachineFile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
     let mut text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
@@ -97,7 +97,7 @@ fn crank(loads: &str) -> MachineFile {
          com = [\"100 mm\", \"0 mm\"]\n[mechanism.slider]\nmass = \"8 kg\"\n{loads}"
     ))
 }
-/// With ramps the acceleration is zero at rest and has no jump; a tenth costs little, and less than the law of fifth degree.
+/// With ramps the acceleration is zero at rest and has no jump; a ramp of a tenth costs little, and less than the law of fifth degree.
 #[test]
 fn ramps_begin_and_end_without_a_jump() {
     let file = table(2.0, 0.0);
@@ -116,7 +116,7 @@ fn ramps_begin_and_end_without_a_jump() {
     }
     assert!(before.abs() < 1e-6 * most, "{before}");
     let least = 12.0 * 4.0 * distance * distance / duration.powi(3);
-    // A rise by the parabola over a tenth, of whatever height, and then what is best: 1/(2S) with S = (0.1·(1/3 − 1/24))²/(0.1·8/15) + 0.4³/3, 1.118·least.
+    // A parabolic rise over a tenth with free height, then the optimum: 1/(2S) with S = (0.1·(1/3 − 1/24))²/(0.1·8/15) + 0.4³/3, 1.118·least.
     // ∫S″² of the law of fifth degree is 120/7.
     assert!(
         gentle.cost > 1.11 * least && gentle.cost < 1.15 * least,
@@ -148,7 +148,7 @@ fn units_change_nothing() {
     }
 }
 
-/// Without friction and losses the motion backwards over the same way is the one forwards, run in reverse.
+/// Without friction and losses the motion back over the same distance is the forward one in reverse.
 #[test]
 fn backwards_is_the_same_in_reverse() {
     let file = crank("");
@@ -158,7 +158,7 @@ fn backwards_is_the_same_in_reverse() {
     is_global(&there);
     is_global(&back);
 }
-/// What cannot be made is refused by its name.
+/// Invalid input is refused with its name.
 #[test]
 fn bad_input_is_named() {
     let file = table(2.0, 0.0);
@@ -206,7 +206,7 @@ fn bad_input_is_named() {
         Obstacle::NoCopper
     );
 }
-/// The table of an indexing cam rests while the cam turns through its dwell: the gentlest motion hurries through it, and says so.
+/// The table of an indexing cam rests while the cam turns through its dwell: the gentlest motion shortens the dwell and reports it.
 #[test]
 fn a_dwell_of_a_cam_that_is_lost_is_named() {
     let found = retimed(&example("indexing-cam", &[]), Goal::Rms, 0.0);
@@ -222,13 +222,13 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
             .is_empty()
     );
 }
-/// What a table of loads acts on is no link of the machine: none of it stands still while the drive turns.
+/// The load table acts on no link of the machine: none is reported as resting while the drive turns.
 #[test]
 fn a_load_is_no_link_that_stands_still() {
     let found = retimed(&example("load-table", &[]), Goal::Rms, 0.0);
     assert!(found.standing.is_empty(), "{:?}", found.standing);
 }
-/// A large gearbox with losses, at whose output the torque bends twice within the roundings of the far lines between which its bends are sought: the
+/// A large gearbox with losses, at whose output the torque bends twice within the roundings of the wide bracket in which bends are searched: the
 /// lower bound is found, and close.
 #[test]
 fn two_bends_close_to_each_other_have_a_bound() {

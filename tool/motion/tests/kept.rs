@@ -1,4 +1,4 @@
-//! What a motion prescribes as process is kept, and what lies between is made anew.
+//! Prescribed process parts of a motion are kept; the parts between are recomputed.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -72,7 +72,7 @@ fn motor() -> Actuator {
     }
 }
 
-/// The knives of a flying shear run with the strip: that is kept, and the rest of the turn begins and ends with its speed.
+/// The knives of a flying shear run with the strip: that part is kept, and the remaining turn begins and ends with its speed.
 #[test]
 fn a_flying_shear_keeps_its_synchrony() {
     let file = example("flying-shear");
@@ -106,7 +106,7 @@ fn a_flying_shear_keeps_its_synchrony() {
     }
 }
 
-/// A move that begins with a ramp at a kept part has its acceleration there; a free one jumps.
+/// A move with a ramp starts from a kept part with its acceleration; one with free ends jumps.
 #[test]
 fn ramps_begin_with_the_acceleration_of_the_kept_part() {
     let file = example("flying-shear");
@@ -123,7 +123,7 @@ fn ramps_begin_with_the_acceleration_of_the_kept_part() {
     assert!(jumps(0.0) > 0.1, "{}", jumps(0.0));
 }
 
-/// The ram of a drawing press: its pause is in the middle of a cycle that begins in motion, and stays as well.
+/// The ram of a drawing press: its pause is inside a cycle that begins in motion, and is kept as well.
 #[test]
 fn a_drawing_press_keeps_its_stroke_and_its_pause() {
     let file = example("drawing-press");
@@ -148,7 +148,7 @@ fn a_drawing_press_keeps_its_stroke_and_its_pause() {
     near("bound", found.bound.unwrap(), found.best.rms, 1e-4);
 }
 
-/// A constant inertia that passes on at v, and in between goes a way D in a time T: 12·J²·(D − v·T)²/T³, and friction all the time.
+/// A constant inertia that passes on at v, with a distance D in a time T in between: 12·J²·(D − v·T)²/T³, and friction throughout.
 #[test]
 fn a_kept_part_counts_in_full() {
     let steady = "law = \"constant-speed\"; speed = \"2 rad/s\"; move = \"1 rad\"";
@@ -158,7 +158,7 @@ fn a_kept_part_counts_in_full() {
     let cost = 12.0 * 4.0 * (TAU - 1.0 - 2.0_f64).powi(2);
     near("RMS", found.best.rms, (cost / 1.5).sqrt(), 1e-5);
     near("bound", found.bound.unwrap(), (cost / 1.5).sqrt(), 1e-6);
-    // C on top of a torque whose mean is zero, which it is between equal speeds.
+    // C added to a torque of zero mean, as between equal speeds.
     let file = table(3.0, &[steady, round]);
     let found = retimed(&file, Goal::Rms, 0.0);
     let exact = (cost / 1.5 + 9.0).sqrt();
@@ -169,7 +169,7 @@ fn a_kept_part_counts_in_full() {
     assert!(peak.bound.unwrap() <= peak.best.peak && peak.best.peak < peak.own.peak);
 }
 
-/// A cycle that begins in the middle of a move is begun where something is kept.
+/// A cycle that begins inside a move is started at a kept part.
 #[test]
 fn a_cycle_begins_with_what_is_kept() {
     let segments = [
@@ -194,7 +194,7 @@ fn a_cycle_begins_with_what_is_kept() {
     near("speed", found.motion.at(0.2).omega, 2.0, 1e-9);
 }
 
-/// Without anything kept it begins where it rests, so that the pause stays.
+/// Without a kept part it starts at a rest, so that the pause is kept.
 #[test]
 fn a_cycle_that_begins_in_motion_keeps_its_pause() {
     let segments = [
@@ -212,8 +212,8 @@ fn a_cycle_that_begins_in_motion_keeps_its_pause() {
     near("begins", chain.begins, 1.0, 1e-9);
 }
 
-/// A motion that is nothing but constant speed: of one that turns for ever the fastest and the gentlest turn are sought, and it is said that it is not kept; of
-/// another nothing is left.
+/// A motion of constant speed only: if it is endless, the fastest and the gentlest turn are computed, and the constant speed is reported as not kept;
+/// otherwise nothing is left to compute.
 #[test]
 fn a_constant_speed_alone_is_no_process() {
     let file = example("shaper");
@@ -236,7 +236,7 @@ fn chain_of(motion: &Motion, file: &MachineFile) -> Result<Chain, NoMoves> {
     chain(motion, &file.process())
 }
 
-/// The web of a winder runs at its speed, whichever law leads to it; what is sought are start and stop.
+/// The web of a winder runs at its speed, with any law leading to it; only start and stop are computed.
 #[test]
 fn a_winder_keeps_the_speed_of_its_web() {
     let file = example("winder");
@@ -253,7 +253,7 @@ fn a_winder_keeps_the_speed_of_its_web() {
     );
 }
 
-/// What is kept and too much for the drive is said; the RMS torque over all of the cycle can still be limited.
+/// A kept part that exceeds the drive is reported; the RMS torque over the cycle can still be limited.
 #[test]
 fn a_kept_part_beside_the_limits() {
     let steady = "law = \"constant-speed\"; speed = \"2 rad/s\"; move = \"1 rad\"";

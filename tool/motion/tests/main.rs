@@ -1,4 +1,4 @@
-//! The one test program of the package.
+//! The test program of the package.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod balance;

@@ -1,10 +1,10 @@
-//! What motions are made of.
+//! Parts of motions.
 
 use jred::machine::motion::Law;
 use jred_machine::model::motion::{Motion, Segment};
 use jred_motion::moves::{Move, NoMoves, Part, chain};
 
-/// Moves, a pause, a move that goes on through a joint of two segments in motion, and one straight back.
+/// Moves, a pause, a move through a joint of two segments in motion, and an immediate return.
 #[test]
 fn segments_become_moves_and_pauses() {
     let law = Law::Polynomial345;

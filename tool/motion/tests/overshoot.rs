@@ -1,4 +1,4 @@
-//! A law that goes beyond its end and comes back, or first goes the other way, does not ask for that.
+//! The overshoot of a law beyond its end, or an initial backward motion, is not kept.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn retimed(file: &MachineFile) -> Retimed {
     retime(file, file.motion.as_ref().unwrap(), &request).unwrap()
 }
 
-/// Least ∫(J·a)² from a speed to rest, and the other way round: the speed is a parabola, v ≥ 0 as long as D ≥ v₀·T/3.
+/// Least ∫(J·a)² from a speed to rest and the reverse: the speed is a parabola, v ≥ 0 as long as D ≥ v₀·T/3.
 #[test]
 fn a_stop_ends_where_it_is_asked_to() {
     let start = "law = \"polynomial-5\"; move = \"140 deg\"; duration = \"1 s\"";
@@ -83,7 +83,7 @@ fn a_stop_ends_where_it_is_asked_to() {
         near("speeds", ends.speeds[0] + ends.speeds[1], v, 1e-12);
         let found = retimed(&file);
         assert_eq!(found.optimum(), Optimum::Global);
-        // A parabola is what the search is made of: roundings are left.
+        // The search uses parabolas, so only roundings remain.
         near("heat", found.moves[0].cost, heat, 1e-9 * heat);
         let cycle = t + 20.0 / 360.0;
         let rms = (heat / cycle).sqrt();
@@ -112,14 +112,15 @@ fn a_stop_with_viscous_friction() {
     let heat = c
         * c
         * (2.0 * a * a * (e * e - 1.0) / k + 4.0 * a * level * (e - 1.0) / k + level * level * t);
-    // As an independent computation has it.
+    // From an independent computation.
     near("heat", heat, 14.252, 5e-4);
     let found = retimed(&table(c, &[STEADY, STOP]));
     assert_eq!(found.moves.len(), 1);
     near("found", found.moves[0].cost, heat, 1e-6 * heat);
 }
 
-/// What is asked for stays: a turn between speeds of opposite directions, a law that goes farther back than its move is long, and a recorded motion.
+/// Requested reversals are kept: a turn between speeds of opposite directions, a law that goes back farther than the length of its move, and a
+/// recorded motion.
 #[test]
 fn turns_that_are_asked_for_stay() {
     let turn = "law = \"polynomial-5\"; move = \"10 deg\"; duration = \"0.5 s\"";
@@ -132,7 +133,7 @@ fn turns_that_are_asked_for_stay() {
     let short = "law = \"polynomial-5\"; move = \"1 deg\"; duration = \"1 s\"";
     let chained = of(&table(0.0, &[STEADY, short]));
     assert_eq!((chained.parts.len(), chained.overshoots.len()), (3, 0));
-    // Speeds that rise and fall as cubics level at their ends: the way is that at the mean of both.
+    // Speeds that rise and fall as cubics with zero end slopes: the distance is that at the mean of both.
     let node = |t: f64, step: f64, phi: f64, omega: f64| Node {
         t,
         step,

@@ -1,4 +1,4 @@
-//! Pauses of a motion that is written as a profile and read again: the machine stands still in them.
+//! Pauses of a motion that is written as a profile and read again: the machine is at rest in them.
 // Zeros are exact.
 #![allow(clippy::float_cmp)]
 
@@ -15,10 +15,10 @@ use jred_sizing::thermal::classify::Features;
 
 use crate::support::{Folder, near};
 
-/// Motor torque at the input of the drive train, and no more.
+/// Motor torque at the input of the drive train only.
 const DIRECT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
 
-/// Most of a step at rest that is none: the speed (per s) and acceleration (per s²) of a rounding.
+/// Largest residuals in a step at rest: speed (per s) and acceleration (per s²) from rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The spindle goes there, pauses, goes back and pauses; the speed (m/s) is `left` in the first pause.
@@ -65,7 +65,7 @@ of = { point = "nut", along = "x" }
     read::read(&folder.file("spindle.toml", text)).unwrap()
 }
 
-/// What friction and an acceleration of 1.2 m/s² take of the spindle (N·m).
+/// Torques of the spindle for friction and for an acceleration of 1.2 m/s² (N·m).
 fn torques() -> [f64; 2] {
     let lead = 0.01 / std::f64::consts::TAU;
     let friction = 0.3 * 100.0 * 9.81 * lead;
@@ -76,16 +76,16 @@ fn duty(file: &MachineFile) -> Duty {
     Duty::new(file, file.required_motion().unwrap(), 2000).unwrap()
 }
 
-/// Share of the time in which the machine stands still.
+/// Share of the time at rest.
 fn at_rest(duty: &Duty) -> f64 {
     duty.integral(|now| f64::from(now.omega == 0.0)) / duty.duration
 }
 
-/// A speed of a rounding is none: torque, time at rest and starts are those of a profile with zeros, and of the closed form.
+/// A speed within rounding counts as zero: torque, time at rest and starts are those of a profile with zeros, and of the closed form.
 #[test]
 fn a_rounding_of_the_speed_is_a_pause() {
     let [friction, inertia] = torques();
-    // For 1 s each, half of 2 s, it speeds up and slows down.
+    // It accelerates and brakes for 1 s each, half of 2 s.
     let squares = (friction + inertia).powi(2) + (friction - inertia).powi(2);
     let rms = (squares / 18.0).sqrt();
     for left in ["0", "1e-17", "-1e-17", "1e-12"] {
@@ -105,20 +105,20 @@ fn a_rounding_of_the_speed_is_a_pause() {
     near("RMS torque", rms(&left), rms(&zero), 1e-9);
 }
 
-/// What is slower than the rest of the motion by less than a million times is no pause.
+/// A part that is slower than the rest of the motion by a factor below a million is not a pause.
 #[test]
 fn a_slow_part_is_no_pause() {
     let duty = duty(&paused("1e-5"));
     assert!(at_rest(&duty) < 0.5);
 }
 
-/// The corners of a profile, where the acceleration stops rising, are not smoothed: its peak torque is that of the closed form, however long
-/// the steps are that two pauses of 8 s make.
+/// Corners of a profile, where the acceleration stops rising, are not smoothed: its peak torque is that of the closed form, also with the long steps
+/// of two pauses of 8 s.
 #[test]
 fn the_peak_of_a_corner_is_that_of_its_row() {
     let mut rows = vec![[0.0; 4]];
     for sign in [1.0, -1.0] {
-        // Up to 1.2 m/s², slowly down to 1 m/s², and to none; slowing down is the same backwards.
+        // Up to 1.2 m/s², slowly down to 1 m/s², and to zero; braking is the reverse.
         for [jerk, duration] in [
             [1.2 / 0.013, 0.013],
             [-0.5, 0.4],
@@ -154,7 +154,7 @@ fn the_peak_of_a_corner_is_that_of_its_row() {
     }
 }
 
-/// The machine with a profile as its motion; what is prescribed stays.
+/// The machine with a profile as its motion; prescribed parts are kept.
 fn with_profile(name: &str, made: &Retimed, file: &MachineFile) -> MachineFile {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../machines/{name}.toml"));
     let text = std::fs::read_to_string(path).unwrap();
@@ -182,7 +182,7 @@ fn with_profile(name: &str, made: &Retimed, file: &MachineFile) -> MachineFile {
     read::read(&folder.file("machine.toml", kept)).unwrap()
 }
 
-/// The steps of a written profile at which nothing moves, but for rounding.
+/// The steps of a written profile without motion, up to rounding.
 fn check_pauses(name: &str, profile: &str) {
     let rows: Vec<Vec<&str>> = profile
         .lines()
@@ -201,7 +201,7 @@ fn check_pauses(name: &str, profile: &str) {
     }
 }
 
-/// The gentlest motions of machines with friction, written and read: torque and time at rest are those of the motion.
+/// The gentlest motions of machines with friction, written and read: torque and time at rest are preserved.
 #[test]
 fn a_written_motion_is_read_with_its_pauses() {
     let machines = [
@@ -236,7 +236,7 @@ fn a_written_motion_is_read_with_its_pauses() {
         let [own, read] = [&made.motion, read.required_motion().unwrap()]
             .map(|motion| Duty::new(&file, motion, 2000).unwrap());
         let rms = |duty: &Duty| duty.figures(|now| now.input_torque).rms;
-        // Their steps of time are not the same.
+        // Their time steps differ.
         near(name, rms(&read), rms(&own), 3e-6);
         near(name, at_rest(&read), at_rest(&own), 1e-6);
     }

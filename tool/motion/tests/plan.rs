@@ -1,4 +1,4 @@
-//! A motion as a plan that firmware follows.
+//! A motion as a plan for firmware.
 
 mod bound;
 mod kept;
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use jred_machine::model::coordinate::Coordinate;
 use jred_motion::trace::{Node, Trace};
 
-/// A motion of nodes at equal times.
+/// A motion with nodes at equal time steps.
 fn motion(count: usize, length: f64, state: impl Fn(f64) -> [f64; 3]) -> Trace {
     let step = length / count as f64;
     let node = |k: usize| {
@@ -27,7 +27,7 @@ fn motion(count: usize, length: f64, state: impl Fn(f64) -> [f64; 3]) -> Trace {
     Trace::new(Coordinate::Angle, (0..=count).map(node).collect())
 }
 
-/// A cycloidal move of half a turn in a second, in so many steps.
+/// A cycloidal move of half a turn in a second, in `count` steps.
 fn cycloid(count: usize) -> Trace {
     let (way, angle) = (0.5 * TAU, TAU);
     motion(count, 1.0, |t| {

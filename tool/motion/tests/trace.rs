@@ -1,4 +1,4 @@
-//! A motion through nodes, and the files that it becomes.
+//! A motion through nodes, and the files written from it.
 
 use std::fmt::Write as _;
 
@@ -23,7 +23,7 @@ use jred_sizing::thermal::classify::Features;
 
 use crate::support::{Folder, edited, press_text};
 
-/// The press with a profile as its motion; and what `[motion]` has besides.
+/// The press with a profile as its motion; `more` is added to `[motion]`.
 fn press_with(trace: &Trace, more: &str) -> MachineFile {
     let folder = Folder::new();
     folder.file("profile.csv", trace.profile());
@@ -35,7 +35,7 @@ fn press_with(trace: &Trace, more: &str) -> MachineFile {
     read::read(&machine).unwrap()
 }
 
-/// Where the speed is a cubic, the nodes give it back between them.
+/// If the speed is a cubic, the nodes reproduce it in between.
 #[test]
 fn a_cubic_of_the_speed_is_given_back() {
     let phi = |t: f64| 0.3 + t * t - 0.4 * t.powi(3) + 0.1 * t.powi(4);
@@ -59,7 +59,7 @@ fn a_cubic_of_the_speed_is_given_back() {
     }
 }
 
-/// A profile that was written is read as the motion that it was made from.
+/// A written profile is read as the same motion.
 #[test]
 fn a_profile_is_read_as_the_same_motion() {
     let law = |z: f64| z * z * z * (10.0 - z * (15.0 - 6.0 * z));
@@ -92,11 +92,11 @@ fn a_profile_is_read_as_the_same_motion() {
     assert!(Duty::new(&file, motion, 200).is_ok());
 }
 
-/// Motor torque at the input of the drive train, and no more.
+/// Motor torque at the input of the drive train only.
 const DIRECT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
 
 /// The fastest motions of the press, there, a pause, and back, written and read again: largest and RMS torque of the duty are the motor's limit and
-/// the figures of the motion, although the acceleration jumps.
+/// the motion's figures, although the acceleration jumps.
 #[test]
 fn a_profile_keeps_the_corners() {
     let none = std::collections::BTreeMap::<String, String>::new();
@@ -140,7 +140,7 @@ fn a_profile_keeps_the_corners() {
         "{rms} {}",
         made.load.rms
     );
-    // The second move begins from rest; the first one where the cycle turns back, without one.
+    // The second move starts from rest; the first one at the reversal of the cycle, without a rest.
     assert_eq!(Features::of(&found, &DIRECT, 1.0).starts, 1);
     let parts = moves::chain(motion, &[]).unwrap().parts;
     let same = matches!(
@@ -150,7 +150,7 @@ fn a_profile_keeps_the_corners() {
     assert!(same, "{parts:?}");
 }
 
-/// A curve through rows of a move and a pause swings around the rest: that is no start. Digits are cut as in a recording.
+/// A curve through rows of a move and a pause oscillates around the rest: that is not a start. Digits are truncated as in a recording.
 #[test]
 fn a_recorded_pause_is_followed_by_one_start() {
     let law = |z: f64| z * z * z * (10.0 - z * (15.0 - 6.0 * z));
@@ -179,8 +179,8 @@ fn a_recorded_pause_is_followed_by_one_start() {
     assert_eq!(features.starts, 2);
 }
 
-/// A cam table is read by programs that know its own columns alone: the differences of the positions over those of the master are the derivatives that
-/// stand beside them, whatever the units are. Of a parabola central differences are exact.
+/// Programs read a cam table by its own columns: position differences over master differences are the given derivatives, in any units. For a parabola
+/// central differences are exact.
 #[test]
 fn derivatives_of_a_cam_table_are_by_its_own_columns() {
     for coordinate in [Coordinate::Angle, Coordinate::Length] {
@@ -233,12 +233,13 @@ fn derivatives_of_a_cam_table_are_by_its_own_columns() {
     }
 }
 
-/// What the work of a profile's motion and the energy differ by, as `jred check` finds it.
+/// Difference between the work of a profile's motion and the energy, as in `jred check`.
 fn imbalance(file: &MachineFile) -> f64 {
     Findings::of(file).unwrap().agreement.energy.unwrap()
 }
 
-/// The fastest and the gentlest motion of the press balance work and energy as well as its own motion does: at their rows the jerk jumps, and the work is integrated from one to the next.
+/// The fastest and the gentlest motion of the press balance work and energy as well as its own motion does: the jerk jumps at their rows, and the
+/// work is integrated from row to row.
 #[test]
 fn the_check_accepts_the_profiles() {
     let none = std::collections::BTreeMap::<String, String>::new();
@@ -260,7 +261,7 @@ fn the_check_accepts_the_profiles() {
     let fastest = cycle(&file, &actuator, Limits::default(), None, &[part]).unwrap();
     let found = imbalance(&press_with(&fastest.trace, "cyclic = false\n"));
     assert!(found < 1e-9, "{found:e}");
-    // A law whose speed is a polynomial of a higher degree than the profile's.
+    // A law whose speed is a polynomial of higher degree than the profile's.
     for machine in ["cam-translating", "linkage-cam-lever", "load-table"] {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
             .join(format!("../../machines/{machine}.toml"));

@@ -1,4 +1,4 @@
-//! The way against the duty, which counts in the drive link's own direction.
+//! `Way` against the duty, which counts in the drive link's own direction.
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -10,9 +10,8 @@ use jred_sizing::motor::envelope::Envelope;
 use crate::support::budget::SAME_SUMS;
 use crate::support::{Folder, edited, edited_press, press_file};
 
-/// The motor torque of every drive at every instant of the press's cycle in which it moves is the duty's, which goes through the train
-/// stage by stage, and the acceleration that this torque gives is the instant's: behind its belt, and behind two more stages with losses,
-/// one of which turns the direction round.
+/// The motor torque of every drive at every moving instant of the press's cycle equals the duty's, which goes through the train stage by stage, and
+/// the acceleration at this torque is the instant's: with its belt, and with two more stages with losses, one of which reverses the direction.
 #[test]
 fn demand_is_that_of_the_duty_and_acceleration_its_inverse() {
     behaves_as_the_duty(&read::read(&press_file()).unwrap());

@@ -45,9 +45,9 @@ pub struct Answer<'a> {
 }
 
 impl<'a> Answer<'a> {
-    /// An answer with its data; what is read is added behind.
+    /// An answer with its data and no blocks.
     pub(crate) fn new<D: Data>(title: impl Into<String>, data: &D) -> Self {
-        // Only a map whose keys are no text cannot be written.
+        // Serialisation fails only for a map whose keys are not text.
         let data = serde_json::to_value(data).unwrap_or_default();
         Self::of_map(D::FORM, title.into(), data)
     }
@@ -63,7 +63,7 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Another title for reading: with the request, say.
+    /// Replaces the title for reading, for example by one with the request.
     pub(crate) fn titled(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
@@ -74,7 +74,7 @@ impl<'a> Answer<'a> {
         self.course = Some(course);
     }
 
-    /// Sets the CSV, where it is neither the course nor the first table.
+    /// Sets the CSV if it is neither the course nor the first table.
     pub(crate) fn csv(&mut self, csv: String) {
         self.csv = Some(csv);
     }
@@ -104,7 +104,7 @@ impl<'a> Answer<'a> {
         self.blocks.push(Block::Code(code.into()));
     }
 
-    /// The answer in one of the formats, part by part.
+    /// Renders the answer in one of the formats, part by part.
     pub fn write(&self, format: Format, screen: Screen) -> Box<dyn Iterator<Item = String> + '_> {
         match (&self.course, format) {
             (Some(course), Format::Json) => {
@@ -125,7 +125,7 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Its first table, every digit.
+    /// The first table with all digits.
     fn tables_as_csv(&self) -> String {
         let mut tables = self.blocks.iter().filter_map(|block| match block {
             Block::Table(table) => Some(table.csv()),

@@ -1,8 +1,8 @@
 //! Drawing of a mechanism from its joints and frames only, so that any mechanism can be drawn.
 //!
-//! Links are bars and plates through their joints and named points, or the outlines that they were given; pins are circles,
-//! sliders blocks, guides and slots pairs of lines; fixed parts are hatched. Behind them lie the paths of the named points
-//! over the whole range and faint copies of the links at other positions.
+//! Links are bars and plates through their joints and named points, or their given outlines. Pins are circles, sliders blocks, guides and slots pairs
+//! of lines; fixed parts are hatched. Behind them are the paths of the named points over the whole range and faint copies of the links at other
+//! positions.
 
 use std::fmt::Write as _;
 
@@ -22,13 +22,13 @@ use glyphs::Pen;
 use sketch::{Pose, Sketch};
 use view::View;
 
-/// Pictures of an animation over the range.
+/// Frames of an animation over the range.
 pub const PICTURES: usize = 180;
 
-/// Faint copies.
+/// Number of faint copies.
 const GHOSTS: usize = 8;
 
-/// The position of a still drawing, as a share of the range: an eighth of a turn shows a crank off its dead centres.
+/// Position of a still drawing as a share of the range; an eighth of a turn shows a crank off its dead centres.
 const SHOWN: f64 = 0.125;
 
 /// Ink of hatching and notes.
@@ -37,11 +37,10 @@ const QUIET: &str = "#8a949e";
 /// A drawing that a script can move.
 #[derive(Clone, Debug)]
 pub struct Moving {
-    /// The drawing at the picture `first`.
+    /// The drawing at frame `first`.
     pub svg: String,
-    /// What moves: a JSON object of numbers, `positions` (deg or mm), `links` (x, y in px and an angle in deg for each link and
-    /// picture), `points` (x, y for each named point and picture), `turn` whether the first picture follows the last, `first`
-    /// the picture to begin with.
+    /// JSON object of numbers: `positions` (deg or mm), `links` (x, y in px and an angle in deg for each link and frame), `points` (x, y for each
+    /// named point and frame), `turn` (whether the first frame follows the last), `first` (the frame to begin with).
     pub track: String,
 }
 
@@ -57,7 +56,7 @@ pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
     Ok(draw(mechanism, &sketch, &pose, &place))
 }
 
-/// The mechanism at one position, with what a script needs to move it.
+/// The mechanism at one position, with the data for a script to move it.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
@@ -179,7 +178,7 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
     svg.finish()
 }
 
-/// Attributes of a group that is moved and turned (deg).
+/// Attributes of a group that is moved and turned by `turn` (deg).
 fn placed([x, y]: [f64; 2], turn: f64, mark: &str) -> String {
     format!("transform=\"translate({x:.2} {y:.2}) rotate({turn:.3})\" {mark}")
 }

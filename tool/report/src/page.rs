@@ -1,7 +1,7 @@
 //! The sizing report: one self-contained HTML page.
 //!
-//! Every chart is on the page twice: as a picture, for paper and for browsers without scripts, and as data that the page's
-//! script draws with uPlot (`templates/vendor/uplot`, MIT licence), to be zoomed and read out.
+//! Every chart is on the page twice: as an SVG picture, for paper and browsers without scripts, and as data that the page's script draws with uPlot
+//! (`templates/vendor/uplot`, MIT licence), with zoom and readout.
 
 use askama::Template;
 use jred::Error;
@@ -36,13 +36,13 @@ use section::MotionPage;
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, retime_page, steady_page};
 
-/// Most motors that the page lists, each with its first gearbox and amplifier.
+/// Number of motors on the page, each with its first gearbox and amplifier.
 const LISTED: usize = 25;
 
-/// Most refused drives that the page lists.
+/// Number of refused drives on the page.
 const REFUSED: usize = 50;
 
-/// Number of refused drives for which the page shows the changes they need.
+/// Number of refused drives with their required changes.
 const CHANGED: usize = 3;
 
 struct Figure {
@@ -123,7 +123,7 @@ pub fn page(
         warnings: warnings.to_vec(),
         ..Page::of(name, file, duty, selection, candidate)?
     };
-    // Rendering into a string fails only if a template is wrong, which the tests would show.
+    // Rendering into a string fails only for a wrong template, which the tests show.
     Ok(Some(page.render().unwrap_or_default()))
 }
 
@@ -216,7 +216,7 @@ impl Page {
             fit,
             ranking: selection.ranking(words),
             smaller: listing::smaller(selection),
-            // Of one drive there is nothing to compare.
+            // A single drive needs no comparison.
             classes: (selection.classes().iter().filter(|_| all_count > 1))
                 .map(listing::class_text)
                 .collect(),
@@ -371,7 +371,7 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
     ])
 }
 
-/// Every rule over the gear ratio, wide enough for the range that satisfies all.
+/// Every rule over the gear ratio; the axis contains the range that satisfies all.
 fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     if subject.judged.drive.motor.kind == MotorKind::Linear {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The schemas of the JSON of all commands, which are generated from its types.
+//! JSON schemas of all commands, generated from their types.
 
 use schemars::Schema;
 
@@ -7,7 +7,7 @@ use crate::list;
 use jred_machine::analysis::steady::Steady;
 use jred_machine::export::data::ExportData;
 
-/// Each under the name of its form.
+/// All schemas, each with the name of its form.
 pub fn all() -> Vec<(&'static str, Schema)> {
     vec![
         of::<list::balance::Form>(),

@@ -18,7 +18,7 @@ file = "curves.csv"
 range = "turn"
 "#;
 
-/// What `jred reduce --format csv` writes is read back as the same machine.
+/// The CSV of `jred reduce` is read back as the same machine.
 #[test]
 fn an_exported_machine_comes_back() {
     let file = read::read(&press_file()).unwrap();
@@ -53,7 +53,7 @@ fn an_exported_machine_comes_back() {
             j_most = j_most.max(a.inertia);
             slope_most = slope_most.max(a.inertia_slope.abs());
             weight_most = weight_most.max(a.potential_slope.abs());
-            // Coulomb friction has bends at the dead centres, which a smooth curve rounds off.
+            // Coulomb friction has bends at the dead centres, which a smooth curve rounds.
             assert!(
                 (a.coulomb - b.coulomb).abs() <= 0.02 * (1.0 + a.coulomb),
                 "{phi}"

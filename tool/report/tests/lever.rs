@@ -1,4 +1,4 @@
-//! A mechanism of one's own with a drive link that slides: every heading and unit is that of a stroke.
+//! A user-defined mechanism with a sliding drive link: every heading and unit is that of a stroke.
 use std::path::Path;
 
 use crate::support::{budget, near};
@@ -155,7 +155,7 @@ fn a_sliding_drive_link() {
     }
 }
 
-/// A pin in a straight slot through the pivot pushes square to the lever: the best there is. Seen from the guide it does not.
+/// A pin in a straight slot through the pivot pushes perpendicular to the lever, which is optimal; seen from the guide it is not.
 #[test]
 fn the_check_of_a_stroke() {
     let findings = Findings::of(&lever()).unwrap();

@@ -171,7 +171,7 @@ impl<'a> Context<'a> {
             let Amplifier { key, maker, .. } = amplifier;
             let motor = self.drive.motor;
             assumptions.push(format!(
-                "nobody states that amplifier {key} ({maker}) runs motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
+                "no source pairs amplifier {key} ({maker}) with motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
                 motor.key, motor.maker
             ));
         }

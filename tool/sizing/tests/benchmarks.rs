@@ -1,6 +1,6 @@
-//! Examples of makers' handbooks that end with a motor: the motor that the handbook chooses, judged by the rules.
+//! Examples of makers' handbooks that select a motor: the selected motor, judged by the rules.
 //!
-//! The handbooks add the load torque and that of all inertia, so the machine is given by both: see docs/evidence.md.
+//! The handbooks add the load torque and the torque of the whole inertia, so the machine is given by both: see docs/evidence.md.
 
 use std::path::Path;
 
@@ -18,14 +18,14 @@ use crate::support::{Folder, near, within};
 /// 3000 rpm in rad/s.
 const TOP: f64 = 100.0 * std::f64::consts::PI;
 
-/// What the handbook gives of load and motor, in N m and kg m².
+/// The handbook's data of load and motor, in N m and kg m².
 struct Example {
     load_torque: f64,
     load_inertia: f64,
     rated: f64,
     peak: f64,
     rotor: f64,
-    /// Allowed load inertia over the rotor's.
+    /// Allowed ratio of load inertia to rotor inertia.
     ratio: f64,
     /// Time of acceleration (s).
     accelerate: f64,
@@ -56,7 +56,7 @@ const SMALL: Example = Example {
 };
 
 impl Example {
-    /// 25 turns up to 3000 rpm and back to rest, and a pause to 1.5 s in all.
+    /// 25 turns up to 3000 rpm and back to rest, then a pause up to 1.5 s.
     fn file(&self) -> String {
         format!(
             r#"gravity = ["0 m/s^2", "0 m/s^2"]
@@ -133,7 +133,7 @@ fn of(checks: &[Check], rule: Rule) -> &Check {
     checks.iter().find(|check| check.id == rule).unwrap()
 }
 
-/// The motor that the handbook finds satisfactory satisfies the rules, with the handbook's figures.
+/// The motor that the handbook accepts satisfies the rules, with the handbook's figures.
 #[test]
 fn yaskawa_screw_with_its_motor() {
     let checks = SCREW.checks();
@@ -162,7 +162,7 @@ fn yaskawa_screw_with_its_motor() {
     for check in [peak, ratio, speed, of(&checks, Rule::RmsTorque)] {
         assert_eq!(check.verdict, Verdict::Pass, "{}", check.sentence());
     }
-    // Five times as fast it is too small: T_P = 2.43 N m against 1.91 N m.
+    // At five times the acceleration it is too small: T_P = 2.43 N m against 1.91 N m.
     let hasty = Example {
         accelerate: 0.02,
         ..SCREW
@@ -174,7 +174,8 @@ fn yaskawa_screw_with_its_motor() {
     assert!(hasty.torques()[0] > 1.91);
 }
 
-/// The handbook prints T_P = 0.186 N m, less than 0.286 N m. Its load inertia is 75 times the rotor's, though it states 30 times as allowed: the rule says so.
+/// The handbook prints T_P = 0.186 N m, less than 0.286 N m. Its load inertia is 75 times the rotor's, above its own limit of 30, which the rule
+/// reports.
 #[test]
 fn yaskawa_small_motor() {
     let checks = SMALL.checks();

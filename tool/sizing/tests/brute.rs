@@ -1,4 +1,4 @@
-//! What a cycle asks of a drive, by plain loops over its samples: the oracle of `Cycle`'s own way, and what it is timed against.
+//! Figures of a cycle for a drive by plain loops over its samples: reference for `Cycle` and for its timing.
 #![allow(dead_code)]
 
 use jred_machine::analysis::duty::{Duty, Smooth};
@@ -6,7 +6,7 @@ use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::cycle::{Cycle, Peak};
 use jred_sizing::motor::envelope::Envelope;
 
-/// A duty of which no more is known than its instants: what plain loops see.
+/// A duty reduced to its instants, all that plain loops use.
 pub(crate) fn sampled(mut duty: Duty) -> Duty {
     duty.smooth = Smooth::default();
     duty
@@ -47,7 +47,7 @@ pub(crate) fn power(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 3] {
     [low, high, (squares / cycle.duration()).sqrt()]
 }
 
-/// Energy put in and energy taken back.
+/// Energy delivered and energy regenerated.
 pub(crate) fn energies(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for sample in cycle.samples() {
@@ -58,7 +58,7 @@ pub(crate) fn energies(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 2] 
     sums
 }
 
-/// The sample that comes closest to the envelope.
+/// The sample closest to the envelope.
 pub(crate) fn peak(cycle: &Cycle, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Peak {
     let mut peak = Peak {
         used: f64::NEG_INFINITY,
@@ -101,7 +101,7 @@ pub(crate) fn mean_output_torque(cycle: &Cycle, power: f64) -> f64 {
     }
 }
 
-/// The sum of the magnitudes of a torque's terms, each at its largest: rounding is counted in shares of it.
+/// Sum of the magnitudes of a torque's terms, each at its largest; reference for roundings.
 pub(crate) fn scale(cycle: &Cycle, c: &Coefficients) -> f64 {
     let largest = |k: usize| {
         let loads = cycle.samples().iter().map(|s| s.loads()[k].abs());

@@ -24,8 +24,8 @@ const BUS: Bus = Bus {
     resistor: Some([780.0, 47.0]),
 };
 
-/// A linear axis of mass m that brakes from v to rest in t_b, once every t_z: the power falls in a straight line from
-/// m·v²/t_b. The maker's rule for a brake resistor: P_max = η·m·v²/(2·t_b) while braking, P_cont = P_max·t_b/t_z.
+/// A linear axis of mass m that brakes from v to rest in t_b, once every t_z: the power falls linearly from m·v²/t_b. The maker's rule for a brake
+/// resistor: P_max = η·m·v²/(2·t_b) while braking, P_cont = P_max·t_b/t_z.
 #[test]
 fn a_braking_axis_by_the_makers_rule() {
     let (mass, speed, braking, cycle, eta) = (120.0, 2.0, 0.25, 3.0, 0.9);
@@ -53,7 +53,7 @@ fn a_braking_axis_by_the_makers_rule() {
     assert_eq!(figures.highest, 780.0);
 }
 
-/// What comes back first charges the capacitor: ½·C·(U² − U₀²).
+/// The regenerated energy charges the capacitor first: ½·C·(U² − U₀²).
 #[test]
 fn a_capacitor_takes_what_it_can() {
     let curve = |energy: f64| {
@@ -83,7 +83,7 @@ fn a_capacitor_takes_what_it_can() {
     let figures = BUS.run(&curve(1.7 * room));
     near("burnt", figures.burnt, 0.7 * room, budget::BUS);
     near("held", figures.highest, 780.0, budget::BUS);
-    // Without a resistor the voltage goes on rising; nothing bounds it where more comes back than is drawn.
+    // Without a resistor the voltage keeps rising, without bound if more is regenerated than drawn.
     let bare = Bus {
         resistor: None,
         ..BUS
@@ -96,7 +96,7 @@ fn a_capacitor_takes_what_it_can() {
         2.0,
     );
     assert_eq!(bare.run(&hoist).highest, f64::INFINITY);
-    // A supply that takes energy back: nothing else happens.
+    // A supply that takes energy back absorbs all of it.
     let figures = Bus {
         regenerative: true,
         ..bare
@@ -108,12 +108,12 @@ fn a_capacitor_takes_what_it_can() {
     );
 }
 
-/// More power than the resistor takes: E = P/k + (E₀ − P/k)·e^(−k·t) with k = 2/(R·C).
+/// More power than the resistor dissipates: E = P/k + (E₀ − P/k)·e^(−k·t) with k = 2/(R·C).
 #[test]
 fn a_resistor_at_its_most() {
     let (power, time) = (16e3, 0.05);
     let on = 780.0f64 * 780.0;
-    // It begins with the bus full: the time to fill it comes before.
+    // Starting with a full bus: the time to fill it is before.
     let room = 0.5 * BUS.capacitance * (on - 560.0f64.powi(2));
     let fill = room / power;
     let curve = PowerCurve::new(
@@ -138,8 +138,8 @@ fn a_resistor_at_its_most() {
     );
 }
 
-/// Power that rises or falls over a time, more of it than the resistor takes: E′ = P(t) − 2·E/(R·C), by Runge-Kutta, whether the voltage is
-/// highest within the time or at one of its ends.
+/// A power ramp beyond what the resistor dissipates: E′ = P(t) − 2·E/(R·C), by Runge-Kutta; the voltage is highest within the ramp or at one of its
+/// ends.
 #[test]
 fn a_resistor_at_its_most_under_a_ramp() {
     let on = 780.0f64 * 780.0;
@@ -184,7 +184,7 @@ fn a_resistor_at_its_most_under_a_ramp() {
             let voltage = (2.0 * highest / BUS.capacitance).sqrt();
             near("voltage", figures.highest, voltage, 1e-7);
             near("peak", figures.burnt_peak, k * highest, 1e-7);
-            // What is left above the chopper's voltage burns afterwards, while the axis draws: no more than all of it.
+            // Energy above the chopper's voltage is dissipated afterwards, while the axis draws: at most all of it.
             let rest = energy - full;
             assert!(
                 figures.burnt >= burnt - 1e-6 * burnt
@@ -211,8 +211,7 @@ fn random_curve(random: &mut ChaCha8Rng, period: f64, level: f64) -> PowerCurve 
     PowerCurve::new(points, period)
 }
 
-/// Over a period nothing is stored: what the mains give is what the axes take, less what they give back, and the heat of the
-/// resistor.
+/// Over a period no energy is stored: the mains deliver the energy of the axes, minus the regenerated one, plus the heat of the resistor.
 #[test]
 fn energy_balances() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
@@ -242,7 +241,7 @@ fn energy_balances() {
         near("net", curve.energy(), drawn - back, 1e-9);
         assert!(figures.burnt <= back * (1.0 + 1e-9), "{figures:?}");
         assert!(figures.highest >= bus.voltage);
-        // A period ends where it began, wherever the walk over it did.
+        // A period ends at its initial voltage, wherever the evaluation starts.
         let trace = bus.trace(&curve);
         let [first, last] = [trace.first().unwrap()[1], trace.last().unwrap()[1]];
         near("voltage", last, first, budget::BUS_BALANCE);
@@ -258,7 +257,7 @@ fn energy_balances() {
     assert!(started_full > 30, "{started_full}");
 }
 
-/// The same bus in small steps: E += (P_supply − P − P_R)·dt.
+/// The same bus in explicit steps: E += (P_supply − P − P_R)·dt.
 fn stepped(bus: &Bus, curve: &PowerCurve, count: u32) -> BusFigures {
     let [on, r] = bus.resistor.unwrap();
     let c = bus.capacitance;
@@ -326,7 +325,7 @@ fn small_steps_agree() {
     assert!(full >= 2, "{full} cases above the chopper's voltage");
 }
 
-/// A curve moved, repeated and added is what it says at every time.
+/// Shifted, repeated and added curves have the expected value at every time.
 #[test]
 fn curves_move_and_add() {
     let mut random = ChaCha8Rng::seed_from_u64(13);
@@ -358,7 +357,7 @@ fn curves_move_and_add() {
     }
 }
 
-/// The resistor that is asked for is just enough, and what is smaller is not.
+/// The requested resistor is just sufficient; a smaller one is not.
 #[test]
 fn the_resistor_asked_for_is_enough() {
     let data = BusData {
@@ -400,7 +399,7 @@ fn the_resistor_asked_for_is_enough() {
     assert!(asked > 20, "{asked}");
 }
 
-/// The end of a cycle that is repeated differs by rounding from that of one as long: where one goes on the other keeps its last value.
+/// The end of a repeated cycle differs by rounding from that of an equally long one: where one continues the other keeps its last value.
 #[test]
 fn the_sum_of_level_curves_is_level_to_the_end() {
     let level = |power: f64, period: f64| PowerCurve::new([[0.0, power], [period, power]], period);

@@ -1,4 +1,4 @@
-//! The catalogue: what is built in, how a user's own is read, and which drives it gives.
+//! The catalogue: built-in data, a user's own catalogue, and the drives of both.
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
@@ -50,7 +50,7 @@ fn the_built_in_catalogue_is_plausible() {
             assert!((1.0..2.2).contains(&share), "{key}: M0/Mn {share}");
             assert!(standstill < peak_torque, "{key}");
         }
-        // Rotors grow with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
+        // Rotor inertia grows with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
         let slimness = motor.rotor_inertia / peak_torque.powf(5.0 / 3.0);
         assert!((5e-7..2e-5).contains(&slimness), "{key}: {slimness:e}");
         // Time to accelerate the bare rotor to rated speed at peak torque.
@@ -89,8 +89,7 @@ fn the_built_in_catalogue_is_plausible() {
     }
 }
 
-/// Rated power and power rate stand in the same documents as torque, speed and inertia, but not in the catalogue: a typing error in one
-/// of them shows.
+/// Rated power and power rate are in the same documents as torque, speed and inertia, but not in the catalogue: they reveal typing errors.
 #[test]
 fn the_built_in_motors_agree_with_their_rated_power() {
     let catalogue = built_in();
@@ -121,7 +120,7 @@ fn the_built_in_motors_agree_with_their_rated_power() {
     assert_eq!(others, 19, "17 of Fagor, HG-KN43J, SGMUH-30D");
 }
 
-/// The current of a torque at rated, standstill and peak torque; peak over M0 over rated torque.
+/// The current at rated, standstill and peak torque; peak over M0 over rated torque.
 #[test]
 fn the_built_in_motors_agree_with_themselves() {
     let (mut constants, mut currents) = (0, 0);
@@ -141,7 +140,7 @@ fn the_built_in_motors_agree_with_themselves() {
             continue;
         };
         currents += 1;
-        // A printed torque constant that differs is left out: the current at the rated torque is what heats.
+        // A printed torque constant that differs is left out: the current at the rated torque determines the heat.
         if let Some(constant) = winding.torque_constant {
             near(key, constant * current, rated, 0.05);
             constants += 1;
@@ -149,7 +148,7 @@ fn the_built_in_motors_agree_with_themselves() {
         if let Some(at_rest) = winding.standstill_current {
             near(key, standstill / at_rest, rated / current, 0.05);
         }
-        // Saturation costs up to a fifth of the torque; friction, part of the rated current, may make it look larger.
+        // Saturation takes up to a fifth of the torque; friction, part of the rated current, can raise the apparent value.
         if let Some(most) = winding.peak_current {
             let share = (peak / most) / (rated / current);
             assert!((0.8..1.3).contains(&share), "{key}: {share}");

@@ -74,13 +74,13 @@ fn figures_are_those_of_the_samples() {
     runner(4000).run(&every, check).unwrap();
 }
 
-/// The peak against envelopes of every kind. Bounds hold for every sample of every stretch, or the largest would be missed.
+/// The peak against envelopes of every kind. Bounds must be valid for every sample of a stretch, otherwise the largest is missed.
 #[test]
 fn the_peak_is_that_of_the_samples() {
     let every = (duty(), coefficients(), 0.2..300.0, envelope());
     let check = |(duty, c, ratio, envelope): (_, Coefficients, f64, _)| {
         let cycle = Cycle::new(&duty);
-        // Ratios that keep within the envelope's speed, reach its end or pass it.
+        // Ratios that stay within the envelope's speed, reach its end or exceed it.
         let ratio =
             ratio / 100.0 * f64::min(envelope_end(&envelope), 1e4) / cycle.peak_speed().max(1e-3);
         let found = cycle.peak(&c, ratio, &envelope);

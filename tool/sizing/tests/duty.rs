@@ -28,7 +28,7 @@ fn catalogue() -> Catalogue {
     Catalogue::load(None, None).unwrap()
 }
 
-/// At constant speed a motor supplies what friction takes, and nothing comes back.
+/// At constant speed a motor supplies only friction, and regenerates nothing.
 #[test]
 fn constant_speed_supplies_only_friction() {
     let duty = duty_of(&read(CONSTANT_SPEED), 50);

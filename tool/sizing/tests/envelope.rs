@@ -1,6 +1,6 @@
-//! The torque-speed envelope of a motor: from its winding, from its data sheet, at another voltage, on an amplifier. What it
-//! is compared with is searched for on grids or written down in closed form, without the tool's formulas.
-// What is given as such must come out as such, to the last digit.
+//! The torque-speed envelope of a motor: from its winding, from its data sheet, at another voltage, on an amplifier. References come from grid
+//! searches or closed forms, without the tool's formulas.
+// Given values must be returned exactly.
 #![allow(clippy::float_cmp)]
 
 mod circuit;
@@ -18,8 +18,7 @@ use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 
 use crate::support::budget;
 
-/// rad/s of a revolution per minute.
-/// A motor of which nothing is stated but its rotor.
+/// A motor with rotor data only.
 fn bare() -> Motor {
     Motor {
         key: "m".into(),
@@ -66,7 +65,7 @@ fn site(bus_voltage: f64) -> Site {
     }
 }
 
-/// Two figures that must agree to a share of the larger; exactly zero agrees with zero only.
+/// Two figures that must agree to a share of the larger; zero agrees only with zero.
 #[track_caller]
 fn near(found: f64, expected: f64, budget: f64) {
     let size = found.abs().max(expected.abs());

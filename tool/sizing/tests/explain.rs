@@ -1,4 +1,4 @@
-//! What a drive's torque is made of, and what would have to change for it to hold.
+//! Contributions to a drive's torque, and changes that would make it suitable.
 
 mod outline;
 mod remedies;
@@ -36,7 +36,7 @@ fn catalogue() -> Catalogue {
     Catalogue::load(None, None).unwrap()
 }
 
-/// A drive with everything that costs torque: friction, brake, a lossy gearbox.
+/// A drive with all losses: friction, brake, a lossy gearbox.
 fn lossy(catalogue: &mut Catalogue) -> Drive<'_> {
     let motor = &mut catalogue.motors[3];
     motor.friction = [0.05, 2e-4];
@@ -55,8 +55,8 @@ fn lossy(catalogue: &mut Catalogue) -> Drive<'_> {
     }
 }
 
-/// A carriage on a turning arm has its share of J under its own name, m·r², and the arm keeps its own; so have torques by its inertia, and
-/// the sum is the motor's torque.
+/// A carriage on a turning arm has its share of J, m·r², under its own name, and the arm keeps its own share; so do torques by inertia, and the sum
+/// is the motor's torque.
 #[test]
 fn a_carriage_has_its_own_share() {
     let text = r#"
@@ -170,7 +170,7 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
                 let at_peak = total(shares, |s| s.at_peak);
                 within("peak", at_peak.abs(), largest, budget::CELLS * largest);
             }
-            // The inertias add up to that which λ is made of.
+            // The inertias add up to that of λ.
             let rotor = drive.motor.rotor_inertia;
             let brake = drive.motor.brake.unwrap().inertia;
             for (found, load) in [
@@ -192,7 +192,7 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
     assert!(machines > 12, "{machines} machines");
 }
 
-/// What is known of the press without this code: stored energies come back over a closed cycle, the others do not.
+/// Properties of the press independent of this code: stored energies return over a closed cycle, losses do not.
 #[test]
 fn energies_of_the_press() {
     let file = machine("press.toml");
@@ -221,7 +221,7 @@ fn energies_of_the_press() {
         let energy = effect(name).energy;
         within(name, energy, 0.0, budget::CLOSED_CYCLE * turned_over);
     }
-    // The belt's losses, stage by stage: the train states them as power.
+    // The belt's losses, stage by stage: the train gives them as power.
     let train = &file.drive_train;
     let loss = duty.integral(|i| {
         train
@@ -257,7 +257,7 @@ fn energies_of_the_press() {
         own,
         budget::SAME_SUMS,
     );
-    // All of them are the work of the motor.
+    // Together they are the work of the motor.
     let sum = total(&breakdown.effects, |e| e.energy);
     near("work", sum, breakdown.total.energy, budget::SAME_SUMS);
     let work = duty.integral(|i| {
@@ -272,7 +272,7 @@ fn energies_of_the_press() {
     );
 }
 
-/// A slower, lighter press under another force, read from an edited file, against the alteration.
+/// A slower, lighter press with another force, from an edited file, against the alteration.
 #[test]
 fn an_altered_duty_is_that_of_the_altered_file() {
     let (time, mass, process) = (1.5, 0.8, 0.6);
@@ -346,7 +346,7 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     );
 }
 
-/// The same of a lift whose payload comes and goes, with static friction and a load in a segment: also what holds it.
+/// The same for a lift whose payload comes and goes, with static friction and a load in a segment; also its holding torque.
 #[test]
 fn an_altered_lift_is_that_of_the_altered_file() {
     let text = include_str!("../../../machines/pick-and-place.toml");
@@ -393,7 +393,7 @@ fn an_altered_lift_is_that_of_the_altered_file() {
     );
 }
 
-/// A spring is no mass: it keeps its torque where the masses are gone.
+/// A spring is not a mass: it keeps its torque without the masses.
 #[test]
 fn springs_keep_their_torque_without_masses() {
     let file = machine("linkage-four-bar.toml");

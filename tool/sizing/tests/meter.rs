@@ -34,7 +34,7 @@ fn with_limits(file: &MachineFile, test: impl FnOnce(&Context, &MeterLimits)) {
     test(&context, &MeterLimits::new(&context, &file.rules));
 }
 
-/// Rules that are off give no limit, shares stand in the limits, and where no rule is judged the source still says why.
+/// Rules that are off give no limit, shares are included in the limits, and without judged rules the source still gives the reason.
 #[test]
 fn limits_are_those_of_the_rules() {
     let rules = "[rules]\nrms_torque = \"50 %\"\npeak_torque = \"off\"\nspeed = \"100 %\"\ngearbox_mean_exponent = \"10/3\"\n\n[motion]";
@@ -70,7 +70,7 @@ fn limits_are_those_of_the_rules() {
     });
 }
 
-/// The rules that a drive violates are named, each with its figure; where none is violated there is nothing to name.
+/// Violated rules are named with their figures; without violations there is no such text.
 #[test]
 fn violated_rules_are_named() {
     for (share, violated) in [("100 %", 0), ("0.1 %", 2)] {
@@ -87,7 +87,7 @@ fn violated_rules_are_named() {
     }
 }
 
-/// The figures of the cycle in the source are those of plain loops over its samples: with a drive to which energy comes back.
+/// The figures of the cycle in the source are those of plain loops over its samples, for a drive with regeneration.
 #[test]
 fn sized_figures_are_those_of_the_samples() {
     let file = read::read(&shipped("hoist.toml")).unwrap();
@@ -138,7 +138,7 @@ fn sized_figures_are_those_of_the_samples() {
             near(name, of(name), expected, 1e-6);
         }
         assert!((of("cycles") - 2.0).abs() < 0.5);
-        // The largest share of the curve that is written, as the meter reads it.
+        // The largest share of the written curve, as the meter reads it.
         let peak = limits
             .entries
             .iter()
@@ -160,7 +160,7 @@ fn sized_figures_are_those_of_the_samples() {
     });
 }
 
-/// The mean torque of the gearbox is monitored where the rule means the same by it, with the exponent 3.
+/// The mean torque of the gearbox is monitored only if the rule has the exponent 3.
 #[test]
 fn what_the_meter_does_not_monitor_is_named() {
     for (exponent, monitored) in [("3", true), ("10/3", false)] {
@@ -190,7 +190,7 @@ fn what_the_meter_does_not_monitor_is_named() {
     }
 }
 
-/// The source says first whether the drive violates rules, and breaks its arrays where rustfmt does: beyond sixty characters.
+/// The source begins with violated rules, and wraps its arrays like rustfmt: beyond sixty characters.
 #[test]
 fn the_source_warns_and_is_laid_out() {
     let (mut lines, mut broken) = (0, 0);
@@ -218,7 +218,7 @@ fn the_source_warns_and_is_laid_out() {
     assert!(lines > 0 && broken > 0, "{lines} {broken}");
 }
 
-/// How far a curve lies below its rating is said where it is more than rounding, and what is said is what it is.
+/// The distance of a curve below its rating is stated if larger than rounding, and correct.
 #[test]
 fn shortfalls_are_said() {
     let file = read::read(&press_file()).unwrap();
@@ -241,7 +241,7 @@ fn shortfalls_are_said() {
     });
 }
 
-/// Each constant of the source has its unit beside it, and its digits are grouped by three on both sides of the point.
+/// Each constant in the source has its unit, and digits grouped by three on both sides of the decimal point.
 #[test]
 fn constants_have_units_and_grouped_digits() {
     let file = read::read(&press_file()).unwrap();
@@ -287,7 +287,7 @@ fn constants_have_units_and_grouped_digits() {
     });
 }
 
-/// Of two rules of one speed the stricter gives the limit, whichever it is, and is named.
+/// Of two rules for one speed the stricter gives the limit and is named.
 #[test]
 fn the_stricter_of_two_rules_is_the_limit() {
     for (motor, gearbox) in [("100 %", "20 %"), ("20 %", "100 %")] {
@@ -322,7 +322,7 @@ fn the_stricter_of_two_rules_is_the_limit() {
     }
 }
 
-/// What the source defines is what its function hands to the meter; a time constant of nothing is none.
+/// The constants of the source are those that its function passes to the meter; a time constant of 0 is left out.
 #[test]
 fn the_limits_that_are_defined_are_used() {
     let file = read::read(&press_file()).unwrap();

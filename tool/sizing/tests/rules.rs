@@ -1,4 +1,4 @@
-//! The mechanical rules: each figure against a derivation of its own.
+//! The mechanical rules: each figure against an independent derivation.
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
@@ -96,7 +96,7 @@ impl Stand {
         alone.prepare(&self.file.site).remove(0)
     }
 
-    /// Assumptions and warnings that go with the result.
+    /// Assumptions and warnings of the result.
     fn warnings(&self, geared: bool) -> Vec<String> {
         let prepared = self.prepared();
         let drive = self.drive(geared);
@@ -104,19 +104,19 @@ impl Stand {
             .assumptions(&RuleSet::default())
     }
 
-    /// What a rule found, if it applies.
+    /// A rule's finding, if it applies.
     fn finding(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Option<Finding> {
         let prepared = self.prepared();
         let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
         context.findings(rules).get(rule)
     }
 
-    /// What a rule found under the machine file's rules; it must apply.
+    /// A rule's finding under the machine file's rules; it must apply.
     fn found(&self, geared: bool, rule: Rule) -> Finding {
         self.finding(geared, &self.file.rules, rule).unwrap()
     }
 
-    /// A rule in words; it must be shown.
+    /// A rule as text; it must be shown.
     fn check(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Check {
         let prepared = self.prepared();
         let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
@@ -132,7 +132,7 @@ impl Stand {
     }
 }
 
-/// The limit that a warning is about is said beside the one that refuses.
+/// A warning names its limit next to the one for refusal.
 #[test]
 fn a_warning_names_its_limit() {
     let note = |value: f64| {
@@ -149,7 +149,7 @@ fn a_warning_names_its_limit() {
     assert_eq!(note(4.0), "10 times the rotor's inertia");
 }
 
-/// Where the peak is said with its speed, that at which the cycle comes closest to the envelope.
+/// If the peak is reported with its speed, it is that of the point closest to the envelope.
 #[test]
 fn the_place_of_the_peak_is_said() {
     let stand = Stand::press();
@@ -172,7 +172,7 @@ fn the_place_of_the_peak_is_said() {
     );
 }
 
-/// Of a limit ten times can be used and be said; beyond that no number helps.
+/// The use of a limit is printed up to ten times.
 #[test]
 fn a_use_of_a_limit_is_said_up_to_ten_times() {
     let used = |value: f64| {

@@ -38,7 +38,7 @@ fn case(text: &str, steps: usize) -> Case {
     Case { file, duty, cycle }
 }
 
-/// A case of which plain loops know as much as sizing.
+/// A case in which plain loops use the same data as sizing.
 fn sampled(text: &str, steps: usize) -> Case {
     let case = case(text, steps);
     let duty = brute::sampled(case.duty);
@@ -54,12 +54,12 @@ fn catalogue() -> Catalogue {
     Catalogue::load(None, None).unwrap()
 }
 
-/// The drives of a case, with masses and prices where the index says so.
+/// The drives of a case, some with masses and prices by their index.
 fn priced() -> Catalogue {
     let mut catalogue = catalogue();
     for (k, motor) in catalogue.motors.iter_mut().enumerate() {
         motor.mass = (k % 3 != 0).then_some(2.0 + (k * 7 % 13) as f64);
-        // The lighter, the dearer.
+        // Lighter ones are more expensive.
         motor.price = (k % 4 != 1).then_some(1000.0 - (k * 7 % 13) as f64 * 40.0 + (k % 3) as f64);
     }
     for (k, gearbox) in catalogue.gearboxes.iter_mut().enumerate() {
@@ -101,7 +101,7 @@ fn ranked_by_what_was_asked_for() {
             .iter()
             .map(|c| objective.value(&selection, c))
             .collect();
-        // What is in doubt comes last, then what is unknown.
+        // Uncertain ones come last, then unknown ones.
         let doubts = selection.fit.known().iter();
         let doubts: Vec<_> = doubts
             .map(|c| Certainty::of(&c.drive, &c.outcome))
@@ -154,7 +154,7 @@ fn ranked_by_what_was_asked_for() {
         put_in,
         budget::PREPARED_CYCLE,
     );
-    // Without any price the ranking stays, and its words with it.
+    // Without any price the ranking stays, and so does its text.
     let bare = Catalogue {
         amplifiers: Vec::new(),
         ..self::catalogue()
@@ -208,7 +208,7 @@ fn the_front_is_what_nothing_beats() {
             })
             .collect();
         assert_eq!(front.compared, values.len());
-        // One sentence for each objective of which a suitable drive has no figure, and none else.
+        // One sentence for each objective for which a suitable drive has no data, and no other.
         let missing = |objective: &&Objective| {
             let fit = selection.first_fit(usize::MAX);
             fit.iter().any(|c| objective.value(&selection, c).is_none())
@@ -247,8 +247,8 @@ fn the_front_is_what_nothing_beats() {
     }
 }
 
-/// Temperatures of motors whose data differ are compared as shares of what is allowed, not as kelvins: of two equal motors that
-/// of which the thermal resistances are known is not the warmer one for it.
+/// Temperatures of motors with different data are compared as shares of the allowed rise, not as kelvins: of two equal motors the one with known
+/// thermal resistances does not count as warmer.
 #[test]
 fn temperatures_are_compared_as_shares() {
     let case = case(&press_text(), 200);

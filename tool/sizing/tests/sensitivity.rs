@@ -20,7 +20,7 @@ use jred_sizing::study::common::Study;
 use jred_sizing::study::edit::Edit;
 use jred_sizing::study::sensitivity::{Reach, Room, Sensitivity};
 
-/// A motor that limits nothing by its speed, and no gearbox.
+/// A motor without a speed limit in effect, and no gearbox.
 fn strong() -> Catalogue {
     let mut catalogue = Catalogue::load(None, None).unwrap();
     let mut motor = catalogue.motors[0].clone();
@@ -114,7 +114,7 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     near("slope", slope.slope, expected, budget::SLOPE);
     assert!(slope.uncertainty < 1e-3 * slope.slope.abs(), "{slope:?}");
 
-    // What moves nothing moves nothing: gravity is across the axis.
+    // A quantity without effect has slope zero: gravity is across the axis.
     let gravity = study.document.find("gravity.2").unwrap();
     let gravity = found
         .dependences
@@ -136,8 +136,8 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     assert_eq!(fixed, ["gravity.1"]);
 }
 
-/// A study keeps its cycle where a quantity is moved that only the drive's surroundings, or the rules, have: it is the cycle that reading
-/// and sampling the changed machine anew gives, for these and for all others.
+/// A study keeps its cycle if a quantity concerns only the drive's surroundings or the rules: the cycle equals that of the changed machine, read and
+/// sampled again, for these and all other quantities.
 #[test]
 fn some_sections_do_not_reach_the_cycle() {
     const STEPS: usize = 60;
@@ -176,7 +176,7 @@ fn some_sections_do_not_reach_the_cycle() {
             kept += usize::from(Arc::ptr_eq(&machine.cycle, &nominal));
         }
     }
-    // Those of the hoist's supply alone are eight.
+    // The hoist's supply alone has eight.
     assert!(kept >= 8, "{kept} quantities kept the cycle");
 }
 
@@ -184,7 +184,7 @@ fn some_sections_do_not_reach_the_cycle() {
 #[test]
 fn room_in_closed_form() {
     let conveyor = include_str!("../../../machines/conveyor.toml");
-    // 850 rpm · 5 = 445 rad/s of 1000 rad/s: a limit of 50 % is used by 0.89.
+    // 850 rpm · 5 = 445 rad/s of 1000 rad/s: of a limit of 50 % the used share is 0.89.
     let text = format!(
         "{conveyor}\n[rules]\nspeed = \"50 %\"\ninertia_ratio = 900\ninertia_ratio_warning = 900\n"
     );
@@ -250,7 +250,7 @@ fn room_in_closed_form() {
     assert_eq!(room, &limit.room[0]);
 }
 
-/// Beyond the room the named rule is broken, within it none is: by sizing the changed machine.
+/// Beyond its room a quantity violates the named rule, within it none: by sizing the changed machine.
 #[test]
 fn just_beyond_its_room_a_quantity_breaks_the_rule() {
     let folder = Folder::new();
@@ -293,7 +293,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
     assert!(seen >= 6, "only {seen} rooms end at a rule");
 }
 
-/// A context of the study's drive: the same findings as those of `One`.
+/// A context of the study's drive has the same findings as `One`.
 #[test]
 fn one_drive_is_judged_as_in_the_catalogue() {
     let (_folder, study) = study(RACK, 64);
@@ -311,8 +311,8 @@ fn one_drive_is_judged_as_in_the_catalogue() {
     assert_eq!(format!("{a:?}"), format!("{b:?}"));
 }
 
-/// A machine whose torque at the motor goes with the ratio of its gear: a friction M at the wheel asks M·z₁/z₂ of the motor at constant speed, so
-/// the share goes with 1/z₂, by du/d ln z₂ = −u, and by z/2·(1/(z + 1) − 1/(z − 1)) = −z²/(z² − 1) of u for one more and one less.
+/// A machine whose motor torque depends on the gear ratio: friction M at the wheel needs M·z₁/z₂ of the motor at constant speed. The share is
+/// proportional to 1/z₂, so du/d ln z₂ = −u, and by one tooth more and less z/2·(1/(z + 1) − 1/(z − 1)) = −z²/(z² − 1) of u.
 #[test]
 fn teeth_are_moved_by_one() {
     let text = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { diameter = \"1 m\", mass = \"1 kg\" }\n\
@@ -361,7 +361,7 @@ fn teeth_are_moved_by_one() {
     }
 }
 
-/// The default sampling against a finer one: every share of a limit of every shipped machine that can be sized.
+/// The default sampling against a finer one: every share of a limit of every example machine that can be sized.
 #[test]
 fn shares_do_not_depend_on_the_sampling() {
     const FINE: Sampling = Sampling {

@@ -1,4 +1,4 @@
-//! Temperature: closed forms, an independent integration, duty types, and what is said when data are missing.
+//! Temperature: closed forms, an independent integration, duty types, and texts about missing data.
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
@@ -56,8 +56,8 @@ fn a_step_from_cold() {
     near("S1", found, 135.0 * 0.8, budget::THERMAL);
 }
 
-/// One body under a load that is on for t₁ and off for t₂: θ_max = P·R·(1 − e^(−t₁/τ))/(1 − e^(−(t₁+t₂)/τ)), whether the
-/// rest is part of the cycle or of the operation.
+/// One body under a load that is on for t₁ and off for t₂: θ_max = P·R·(1 − e^(−t₁/τ))/(1 − e^(−(t₁+t₂)/τ)), with the rest in the cycle or in the
+/// operation.
 #[test]
 fn a_rectangular_load() {
     for (on, off, tau) in [
@@ -81,7 +81,7 @@ fn a_rectangular_load() {
     }
 }
 
-/// Copper that grows with the temperature: P·(1 + g·θ) shortens the cooling, θ = R·P/(1 − g·R·P), τ′ = τ/(1 − g·R·P).
+/// Copper loss that grows with temperature: P·(1 + g·θ) changes the rise and its time constant, θ = R·P/(1 − g·R·P), τ′ = τ/(1 − g·R·P).
 #[test]
 fn growing_resistance_in_closed_form() {
     let (r, tau, growth) = (0.5, 400.0, 0.003_64);
@@ -96,7 +96,7 @@ fn growing_resistance_in_closed_form() {
         let expected = end * -(-250.0 * left / tau).exp_m1();
         near("from cold", found, expected, budget::THERMAL);
     }
-    // g·R·P = 1: the last watt before the runaway, and the first of it.
+    // g·R·P = 1: the last watt before the runaway, and the first beyond.
     let limit = 1.0 / (growth * r);
     let at = |copper| {
         let course = steps(&[(0.0, copper, 0.0)], 3.0);
@@ -104,7 +104,7 @@ fn growing_resistance_in_closed_form() {
     };
     assert!(matches!(at(0.999 * limit), Hottest::Rise([hot, _]) if hot > 1e5));
     assert_eq!(at(1.001 * limit), Hottest::Runaway);
-    // For a while any motor bears it.
+    // For a limited time any motor bears it.
     let course = steps(&[(0.0, 2.0 * limit, 0.0)], 3.0);
     let found = rise(&course, &network, &Operation::Short { operating: 30.0 })[0];
     near(
@@ -115,7 +115,7 @@ fn growing_resistance_in_closed_form() {
     );
 }
 
-/// Two bodies at steady losses: θ_h = R_h·(P_v + Q), θ_w = θ_h + R_w·P_v with P_v = P·(1 + g·θ_w).
+/// Two bodies at constant losses: θ_h = R_h·(P_v + Q), θ_w = θ_h + R_w·P_v with P_v = P·(1 + g·θ_w).
 #[test]
 fn two_bodies_at_rest() {
     let (growth, [rw, rh]) = (0.003_64, [0.3, 0.7]);
@@ -127,7 +127,7 @@ fn two_bodies_at_rest() {
     near("winding", winding, housing + rw * loss, budget::THERMAL);
 }
 
-/// A network as the tests know it: resistances, capacities, growth.
+/// A network of the test: resistances, capacities, growth.
 #[derive(Clone, Copy)]
 struct Known {
     r: [f64; 2],
@@ -149,8 +149,8 @@ impl Known {
         ]
     }
 
-    /// Runge and Kutta's classical method over losses given as functions of time and of the middle of the step (where jumps lie
-    /// between steps, the latter is the side to take); the largest rises on the way, and the last.
+    /// The classical Runge-Kutta method over losses given as functions of time and of the middle of the step (which selects the side of a jump
+    /// between steps); the largest rises on the way, and the last.
     fn integrate(
         &self,
         losses: impl Fn(f64, f64) -> [f64; 2],
@@ -181,8 +181,7 @@ impl Known {
     }
 }
 
-/// Losses that change all the time, two bodies, growing copper: against Runge and Kutta's method, run through so many
-/// cycles that it is periodic.
+/// Continuously changing losses, two bodies, growing copper loss: against the Runge-Kutta method over enough cycles to be periodic.
 #[test]
 fn two_bodies_by_another_integration() {
     let known = Known {
@@ -213,7 +212,7 @@ fn two_bodies_by_another_integration() {
     let found = rise(&course(2000), &known.network(), &Operation::Continuous);
     near("winding", found[0], most[0], budget::THERMAL_STEPS);
     near("housing", found[1], most[1], budget::THERMAL_STEPS);
-    // The ripple is there: the mean losses alone give less.
+    // The ripple matters: the mean losses alone give less.
     let mean = steady(known.r, course(2000).mean(), known.growth).unwrap();
     assert!(most[0] > 1.05 * mean[0], "{most:?} {mean:?}");
     // Second order in the steps.
@@ -227,7 +226,7 @@ fn two_bodies_by_another_integration() {
     );
 }
 
-/// From cold for a time that is no whole number of cycles, and with rests, by the same integration.
+/// From cold for a non-integer number of cycles, and with rests, by the same integration.
 #[test]
 fn operations_by_another_integration() {
     let known = Known {
@@ -271,7 +270,7 @@ fn operations_by_another_integration() {
     near("housing, S3", found[1], most[1], budget::RUNGE_KUTTA);
 }
 
-/// The housing goes on warming up after the load is gone: its hottest point lies inside a piece of constant losses.
+/// The housing keeps warming up after the load has ended: its hottest point is inside a piece of constant losses.
 #[test]
 fn the_housing_is_hottest_after_the_load() {
     let known = Known {
@@ -294,8 +293,8 @@ fn the_housing_is_hottest_after_the_load() {
     assert!(found[1] > 1.05 * ends, "{} at the ends, {}", ends, found[1]);
 }
 
-/// A cycle that is short beside the time constants: its temperature is that of its mean losses, and no digits are lost in
-/// the many small steps.
+/// A cycle that is short compared with the time constants: its temperature is that of its mean losses, without loss of digits in the many small
+/// steps.
 #[test]
 fn short_cycles_lose_no_digits() {
     let (resistances, growth) = ([0.3, 0.7], 0.003_64);
@@ -326,7 +325,7 @@ fn the_overload_integral() {
     // The sign does not matter.
     let found = overload::largest(&cycle(-9.0, 0.2, 1.0, 2.0), 2.0, 5.0);
     near("negative", found, (81.0 - 25.0) * 0.2, budget::OVERLOAD);
-    // Two loads of which the second comes before the first is forgotten, across the end of the cycle.
+    // Two loads, the second before the first has decayed, across the end of the cycle.
     let points = vec![
         [0.0, 8.0],
         [0.5, 8.0],
@@ -347,7 +346,7 @@ fn the_overload_integral() {
     let expected =
         (a.powi(3) / 3.0 - rated * rated * a + 2.0 / 3.0 * rated.powi(3)) / (2.0 * a / 3.0);
     near("ramp", found, expected, budget::OVERLOAD);
-    // Nothing above the rated current, and more than it bears for ever.
+    // Never above the rated current, and more than it bears endlessly.
     assert_eq!(overload::largest(&cycle(5.0, 0.2, 1.0, 2.0), 2.0, 5.0), 0.0);
     assert_eq!(
         overload::largest(&cycle(9.0, 1.9, 1.0, 2.0), 2.0, 5.0),
@@ -374,14 +373,13 @@ fn bodies_and_their_times() {
     near("two", two.slowest(), 200.0 + 1400.0, 1e-12);
 }
 
-/// What changes nothing leads nowhere: no rise is that which comes back.
+/// A change of zero has no rise of its own.
 #[test]
 fn a_change_of_nothing_has_no_rise_of_its_own() {
     assert_eq!(Change::default().periodic(), None);
 }
 
-/// A ramp of the current or of another loss, long beside the time constant of the winding, heats as the same ramp in a thousand pieces does:
-/// whichever of them changes, the winding follows it.
+/// A ramp of the current or of another loss, long compared with the winding's time constant, heats like the same ramp in a thousand pieces.
 #[test]
 fn a_ramp_is_followed() {
     let network = Network::one(0.5, 4.0, 0.0);

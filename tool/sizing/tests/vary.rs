@@ -8,7 +8,7 @@ fn document() -> Document {
     Document::parse(press_text()).unwrap()
 }
 
-/// Quantities are found where they stand, and only the named ones change.
+/// Quantities are found at their position, and only the named ones change.
 #[test]
 fn a_changed_file_differs_in_the_named_place_only() {
     let document = document();
@@ -117,7 +117,7 @@ fn values_of_an_axis() {
         values("com.1=-5..5mm:2".replace("com", "crank.com").as_str()),
         [-5.0, 5.0]
     );
-    // What is in a row is what was put into the file.
+    // A row contains the values written into the file.
     assert_eq!(values("slider.mass=0.1..0.4kg:4"), [0.1, 0.2, 0.3, 0.4]);
     let grid = Grid::new(vec![
         Axis::parse(&document, "slider.mass=1,2kg").unwrap(),

@@ -45,7 +45,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     for (k, link) in links.clone().enumerate() {
         if links.clone().take(k).any(|earlier| earlier == link) {
             return Err(miette!(
-                help = "give the sum of both as the most of one",
+                help = "give one of them with the sum of both masses",
                 "two counterweights are on {:?}",
                 file.machine.mechanism().link_names()[link]
             ));
@@ -68,7 +68,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     Ok(Done::Holds)
 }
 
-/// Why there is no answer; `links` are those that would have an effect.
+/// Why there is no answer; `links` are the links with an effect.
 fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) -> Report {
     let name = plain::path(&options.file);
     match fault {
@@ -76,7 +76,7 @@ fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) 
         Fault::Duty(fault) => duty_report(fault.clone()),
         Fault::NoMotion => miette!(
             help = "add a [motion], or give --least holding or --least inertia, which need none",
-            "{name} has no [motion], over which the torque is to be least"
+            "{name} has no [motion] over which the torque could be minimised"
         ),
         Fault::Nothing => match options.least {
             Goal::Inertia => miette!(
@@ -86,11 +86,11 @@ fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) 
         },
         Fault::SpringForInertia => miette!(
             help = "remove --spring, or choose another --least",
-            "a spring has no inertia: it has no part in --least inertia"
+            "a spring has no inertia and no effect on --least inertia"
         ),
         Fault::Parts(parted) => miette!(
             help = "keep the spring that closes the contact as it is, or choose another --least",
-            "with what would be best, {} ({}): {}",
+            "with the optimum, {} ({}): {}",
             parted.what,
             parted.state,
             parted.force
@@ -110,7 +110,7 @@ fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) 
             };
             miette!(
                 help = format!("choose {such}{named}{or}"),
-                "no counterweight and no spring that is sought changes what is to be least"
+                "none of the given counterweights and springs changes the objective"
             )
         }
     }
@@ -126,7 +126,7 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
     let &[link, most, reach] = parts.as_slice() else {
         return Err(miette!(
             help = format!(
-                "write the link, the most the counterweight may weigh, and how far it may reach from the origin of the link's frame: \
+                "write the link, the largest mass of the counterweight, and its largest distance from the origin of the link's frame: \
                  \"{example}, 20 kg, 250 mm\""
             ),
             "{given} has {} parts instead of three",
@@ -149,7 +149,7 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
     })
 }
 
-/// The number of a spring.
+/// Index of a spring.
 fn spring(name: &str, file: &MachineFile) -> Result<usize> {
     let springs = || {
         let all = file.elements.iter().enumerate();

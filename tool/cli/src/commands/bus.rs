@@ -25,7 +25,7 @@ use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::size::Selection;
 
-/// Shows how far a search is.
+/// Shows the progress of a search.
 struct Bar<'a>(&'a ProgressBar);
 
 impl Watch for Bar<'_> {
@@ -67,7 +67,7 @@ pub fn run(options: &Options) -> Result<Done> {
             options.sampling.sampling(),
         )?);
     }
-    // Drawn on standard error, and only where that is a terminal.
+    // Drawn on standard error, only if it is a terminal.
     busy::rows(0, 0);
     let bar = ProgressBar::new(0);
     let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
@@ -80,10 +80,10 @@ pub fn run(options: &Options) -> Result<Done> {
     })
 }
 
-/// Most time steps of all axes together: some 150 bytes each.
+/// Largest number of time steps of all axes together, about 150 bytes each.
 const MOST_STEPS: usize = 2_000_000;
 
-/// Refuses more axes than memory is meant for at so many steps.
+/// Refuses axes and steps that need too much memory.
 fn bounded(options: &Options) -> Result<()> {
     let (axes, steps) = (options.files.len(), options.sampling.sampling().steps);
     if axes * steps <= MOST_STEPS {

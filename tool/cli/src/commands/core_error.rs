@@ -1,10 +1,10 @@
-//! The core's errors in a report: what is wrong, and its cure as help.
+//! The core's errors as reports: the fault, and its cure as help.
 
 use jred::Error;
 use jred_machine::analysis::duty::Fault;
 use miette::{Report, miette};
 
-/// The report of what stands in the way of a duty.
+/// Report of an obstacle to a duty.
 pub(crate) fn duty_report(fault: Fault) -> Report {
     match fault {
         Fault::Machine(error) => core_report(error),
@@ -12,7 +12,7 @@ pub(crate) fn duty_report(fault: Fault) -> Report {
     }
 }
 
-/// The report of an error of the core.
+/// Report of an error of the core.
 pub(crate) fn core_report(error: impl Into<Error>) -> Report {
     let error = error.into();
     match error.cure().to_string() {

@@ -20,7 +20,7 @@ use jred_machine::read;
 use jred_report::list;
 use jred_report::table::output::Format;
 
-/// Where the pieces of the table meet; nowhere without `--pieces`.
+/// Positions where the pieces of the table meet; empty without `--pieces`.
 fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
     let edges = match options.pieces.as_deref() {
         None => return Ok(Vec::new()),
@@ -54,7 +54,7 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
     if !matches!(options.format, Form::C | Form::Rust) {
         return Err(miette!(
             help = "remove --name, or use --format c or rust",
-            "--name is of source code, and --format {} has no names",
+            "--name applies to source code; --format {} has no names",
             options.format
         ));
     }
@@ -106,7 +106,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     if let (Some(whole), true) = (whole, options.pieces.is_some()) {
         return Err(miette!(
             help = "remove --pieces, or take another --layout",
-            "{whole} a whole turn, not a piece of one"
+            "{whole} a whole turn only, without pieces"
         ));
     }
     let coordinate = file.machine.mechanism().coordinate();
@@ -175,7 +175,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     })
 }
 
-/// Prints the table, and where it was written.
+/// Prints the table and the path of its file.
 fn show(options: &options::Export, export: &Export) -> Result<Done> {
     let mut answer = list::export::answer(export);
     let format = match (&options.out, options.format) {
@@ -189,7 +189,7 @@ fn show(options: &options::Export, export: &Export) -> Result<Done> {
     print_answer(&answer, format)
 }
 
-/// Whether the error of the table is proven, and is not above the one allowed; says what is not so.
+/// Whether the error of the table is proven and within the allowed one; otherwise reports why not.
 fn proof_holds(export: &Export) -> bool {
     let (words, cure) = match (export.proof(), export.excess()) {
         (Some(Proven::Open(why)), _) => (
@@ -206,8 +206,8 @@ fn proof_holds(export: &Export) -> bool {
     false
 }
 
-/// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
-/// without a motion, the speed reached within a radian stands in.
+/// Largest speed and acceleration: as given, otherwise those of the motion. Without an acceleration (constant speed, or no motion) ω² is used, the
+/// acceleration that reaches ω within half a radian.
 fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
     match (given, &file.motion) {
         ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),

@@ -43,17 +43,17 @@ use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
 use motion::{Motion, of_motion};
 
-/// Share by which a speed may exceed the largest one: rounding of its unit.
+/// Share by which a speed may exceed the largest one, for the rounding of its unit.
 const ROUNDING: f64 = 1e-9;
 
-/// What moves the machine, by name, and what its gearbox limits.
+/// The motor or drive with its name, and the limits of its gearbox.
 struct Chosen {
     name: String,
     actuator: Actuator,
     limits: Limits,
-    /// The drive of a catalogue.
+    /// The drive, if it is from a catalogue.
     drive: Option<ChosenDrive>,
-    /// What gets warm in it; of a drive.
+    /// The winding, if a drive is given.
     winding: Option<Winding>,
 }
 
@@ -163,7 +163,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
     })
 }
 
-/// The motion as files: a profile and a cam table.
+/// Writes the motion as a profile and a cam table.
 fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
     if let Some(path) = &options.profile {
         files.add(path, trace.profile().as_bytes())?;
@@ -177,7 +177,7 @@ fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
     Ok(())
 }
 
-/// The files that were written.
+/// Sentences about the written files.
 fn written(options: &Options, file: &MachineFile) -> Vec<String> {
     let profile = options
         .profile
@@ -238,7 +238,7 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
     }))
 }
 
-/// Refuses speeds of the ends that no way can lead to: motor and options leave less everywhere.
+/// Refuses end speeds above the limit of motor and options, which no distance can reach.
 fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<()> {
     let way = &Way::new(file, actuator.clone(), 1.0);
     let limits = task.limits;
@@ -260,7 +260,7 @@ fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &T
             format!("{} {}", short(most), axis.coordinate.speed_unit())
         };
         return Err(miette!(
-            help = "give a lower speed, or raise that limit: a longer way does not help",
+            help = "give a lower speed, or raise that limit: a longer distance does not help",
             "--{name} {} is too fast: the limit of the {} leaves {most} at the most, everywhere",
             plain::quoted(text),
             limit.name_in(file)
@@ -336,7 +336,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
     })
 }
 
-/// A motor with the same torque at every speed, up to a largest one if it is given.
+/// A motor with constant torque, up to its largest speed if that is given.
 fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
     let kind = fit::input_kind(file);
     let coordinate = motor_coordinate(file);

@@ -1,4 +1,4 @@
-//! A motion written as the plan that firmware follows.
+//! Writes a motion as a plan for firmware.
 
 use miette::{Result, miette};
 
@@ -15,10 +15,10 @@ use jred_motion::trace::Trace;
 use jred_motion::way::Actuator;
 use jred_report::list;
 
-/// Writes it, if it is requested; returns the line that reports it. `gearbox` is the largest torque at the output of the drive's (N·m).
+/// Writes the plan, if requested; returns a sentence about it. `gearbox`: largest torque at the gearbox output (N·m).
 ///
 /// # Errors
-/// A motion that no plan holds, or a file that cannot be written.
+/// A motion that does not fit a plan, or a file that cannot be written.
 pub(super) fn write(
     options: &PlanFile,
     (file, trace): (&MachineFile, &Trace),

@@ -83,7 +83,7 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
     if !missing.is_empty() && !matches!(options.format, Format::Table) {
         output::say(&format!("warning: {}", not_contained(&missing)));
     }
-    // The forces in the joints are missing at a change point too; time, position and speed are not.
+    // At a change point the joint forces are missing; time, position and speed are not.
     let cells = if sets.reactions { 3 } else { usize::MAX };
     let passed = !(moves && columns.has_empty_cells(cells));
     let view = list::reduction::View {
@@ -102,16 +102,16 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
     print_answer(&answer, options.format)
 }
 
-/// Most numbers that are held at once: 320 MB.
+/// Largest number of values in memory: 320 MB.
 const MOST_NUMBERS: usize = 20_000_000;
 
-/// Refuses more numbers than are held.
+/// Refuses requests for more values.
 fn check_size(file: &MachineFile, request: &reduce::Request) -> Result<()> {
     let two = reduce::Request {
         positions: 2,
         ..*request
     };
-    // A machine that cannot take these positions is refused where it cannot take one of its own.
+    // A machine that fails at these two positions reports its error later.
     let Ok(columns) = reduce(file, &two) else {
         return Ok(());
     };
@@ -146,7 +146,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
     Ok(Some([omega, alpha]))
 }
 
-/// The positions of the command line, and their states.
+/// The positions of the command line with their states.
 fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<reduce::At>>> {
     let Some(text) = &options.at else {
         return Ok(None);

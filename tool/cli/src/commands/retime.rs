@@ -140,8 +140,8 @@ pub(super) fn report(
             "nothing moves in the motion of {name}"
         ),
         Obstacle::NoMoves(NoMoves::AllKept) => miette!(
-            help = "give a motion with moves beside the constant speed",
-            "the motion of {name} is nothing but constant speed, which is kept"
+            help = "give a motion with moves in addition to the constant speed",
+            "{name} moves at constant speed only, which is kept: there is nothing to optimise"
         ),
         Obstacle::NoMoves(NoMoves::NotAtRest { speed, at_end }) => {
             let axis = file.axis();
@@ -188,8 +188,8 @@ fn of_move(number: usize, step: &Move, fault: &Fault, file: &MachineFile) -> Rep
             "{place}: nothing that moves has inertia"
         ),
         Fault::NotFound => miette!(
-            help = "shorten it: in a long time the machine would all but stand still somewhere, which is not found; write that as a pause between moves. Or try other --ends, or another --objective",
-            "{place}: the search for the gentlest motion did not come to an end"
+            help = "shorten it: in a long time the machine nearly stops somewhere, which the search does not find; write a pause between moves instead. Or try other --ends, or another --objective",
+            "{place}: the search for the gentlest motion did not converge"
         ),
     }
 }

@@ -104,17 +104,17 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         output::write(path, page::simulation_page(&shown).as_bytes())?;
     }
     let done = print_answer(&shown.answer(), options.format)?;
-    // The rows up to there are written before the reason is.
+    // The rows up to that point are written before the reason.
     found.ended.map_or(Ok(done), |error| Err(error.into()))
 }
 
-/// Further machines.
+/// Reads the further machines.
 pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<MachineFile>> {
     let files = paths.iter();
     files.map(|path| read::read_over_turns(path)).collect()
 }
 
-/// Where the drive links of further machines start.
+/// Starting positions of the further machines' drive links.
 pub(super) fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>> {
     if !phases.is_empty() && phases.len() != others.len() {
         return Err(miette!(
@@ -137,7 +137,7 @@ pub(super) fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>>
         .collect())
 }
 
-/// Adds the columns asked for of each machine.
+/// Adds the requested columns of each machine.
 fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> {
     for (k, machine) in machines.all().enumerate() {
         let prefix = k
@@ -150,7 +150,7 @@ fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> 
     Ok(())
 }
 
-/// The motion under a drive of the catalogue, the name of that and what it bears.
+/// The motion under a drive of the catalogue, with the drive's name and loads.
 fn with_drive(
     chosen: &ChosenDrive,
     machines: &Together,

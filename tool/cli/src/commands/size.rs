@@ -30,7 +30,7 @@ use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::Objective;
 use jred_sizing::select::size::Selection;
 
-/// Motors that are ranked.
+/// Number of ranked motors.
 const TOP: usize = 10;
 
 /// Runs `jred size`.
@@ -125,7 +125,7 @@ pub fn size(options: &Size) -> Result<Done> {
     })
 }
 
-/// What the command found.
+/// The results of the command.
 struct Answer<'a, 'c> {
     options: &'a Size,
     file: &'a MachineFile,
@@ -196,7 +196,7 @@ impl Answer<'_, '_> {
     }
 }
 
-/// The motion that suits the best drive, said before the list, and what is said of it to programs; `None`: the file's stays.
+/// The motion made for the best drive, printed before the list, and its data; `None`: the file's motion is kept.
 fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, list::suited::MotionData)> {
     let suited = judging
         .best()
@@ -256,7 +256,7 @@ fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
     )
 }
 
-/// The drive of this name; where the catalogue was thinned, the error says so.
+/// The drive of this name; the error mentions the filter, if there is one.
 fn asked_for<'c>(
     name: &str,
     options: &Size,

@@ -1,4 +1,4 @@
-//! `jred split`: the division of a total gear ratio over stages that makes the reduced inertia smallest.
+//! `jred split`: divides a total gear ratio over stages for the smallest reduced inertia.
 
 use jred::mechanism::synthesis::{Driven, OpenStage, OpenTrain, RatioSplit};
 use jred::number::RangeError;
@@ -11,7 +11,7 @@ use jred_report::list::split;
 /// The result of `jred split`.
 ///
 /// # Errors
-/// Options that do not fit together, or bounds within which the stages cannot give the ratio.
+/// Contradictory options, or bounds within which the stages cannot reach the ratio.
 pub fn run(options: &options::Split) -> Result<Answer<'static>> {
     let view = split::View {
         train: &train(options)?,
@@ -61,7 +61,7 @@ fn train(options: &options::Split) -> Result<RatioSplit> {
     })
 }
 
-/// One value for each stage, from one for all or one for each.
+/// One value per stage, from a single value or one for each.
 fn each(given: &[f64], stages: usize, option: &str) -> Result<Vec<f64>> {
     match given {
         [all] => Ok(vec![*all; stages]),

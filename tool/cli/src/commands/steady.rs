@@ -1,4 +1,4 @@
-//! `jred steady`: the cycle that repeats, and the flywheel that smooths it.
+//! `jred steady`: the steady cycle, and the flywheel that smooths it.
 
 use miette::{Result, miette};
 
@@ -18,7 +18,7 @@ use jred_report::list;
 use jred_report::page;
 use jred_report::table::output::Format;
 
-/// Positions over a turn that the report draws at least.
+/// Smallest number of positions per turn in the report.
 const DRAWN: usize = 360;
 
 /// Runs the command.
@@ -66,7 +66,7 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     Ok(Done::Holds)
 }
 
-/// The mean speed that is asked for.
+/// The requested mean speed.
 fn mean_speed(speed: Option<f64>, options: &options::Steady) -> Result<Option<MeanSpeed>> {
     let by = match &options.scale {
         Some(name) => Level::Load(name.clone()),
@@ -74,7 +74,7 @@ fn mean_speed(speed: Option<f64>, options: &options::Steady) -> Result<Option<Me
     };
     match speed {
         Some(0.0) => Err(miette!(
-            help = "give the speed at which the machine runs; a machine that stands has no cycle",
+            help = "give the speed at which the machine runs; a machine at rest has no cycle",
             "--mean-speed is zero"
         )),
         Some(speed) => Ok(Some(MeanSpeed { speed, by })),
@@ -82,10 +82,10 @@ fn mean_speed(speed: Option<f64>, options: &options::Steady) -> Result<Option<Me
     }
 }
 
-/// That of the file, with the torque of the command line instead of its own.
+/// The simulation of the file, with the torque of the command line if given.
 fn simulation(options: &options::Steady, file: &MachineFile) -> Result<Simulation> {
     let own = file.simulation.as_ref();
-    // A mean speed asks for no motor: how large its torque is, is found.
+    // With a mean speed the motor torque may be unknown; it is computed.
     let unknown = options.mean_speed.is_some() && options.scale.is_none();
     let unknown = unknown && own.is_none_or(|own| own.torque.is_none());
     let Some(torque) = options.torque.or(unknown.then_some(1.0)) else {

@@ -45,7 +45,7 @@ pub fn tolerance(options: &Options) -> Result<Done> {
         options.seed,
     );
     let mut plan = options.rows.plan();
-    // Without a file the summary is what is printed; rows go to a file.
+    // Without a file only the summary is printed.
     let format = match plan.form {
         RowFormat::Table => Format::Table,
         RowFormat::Csv => Format::Csv,

@@ -21,13 +21,13 @@ use jred_sizing::study::common::Study;
 use jred_sizing::study::grid::{GridStudy, Verdict};
 use jred_sizing::study::task::Task as _;
 
-/// Most drives that are judged at once: their results take 170 MB.
+/// Largest number of drives judged at once: their results take 170 MB.
 const MOST_DRIVES: usize = 2_000_000;
 
-/// The catalogue that the options name, thinned by a filter.
+/// The catalogue of the options, filtered.
 ///
 /// # Errors
-/// Files that cannot be used; nothing left.
+/// Unusable files; an empty catalogue.
 pub fn catalogue(supply: &SizingOptions, filter: &Filter) -> Result<Catalogue> {
     let mut catalogue = supply.catalogue.open()?;
     filter.thin(&mut catalogue)?;
@@ -41,10 +41,10 @@ pub fn catalogue(supply: &SizingOptions, filter: &Filter) -> Result<Catalogue> {
     Ok(catalogue)
 }
 
-/// The machines that a command line is about: those of a machine file, over the catalogue, thinned by a filter.
+/// The study of a machine file over the filtered catalogue.
 ///
 /// # Errors
-/// Files that cannot be used; a machine that cannot be sized; nothing left.
+/// Unusable files; a machine that cannot be sized; an empty catalogue.
 pub fn study(
     file: &Path,
     supply: &SizingOptions,
@@ -56,7 +56,7 @@ pub fn study(
 }
 
 impl Rows {
-    /// The plan that the options make.
+    /// The plan of these options.
     pub fn plan(&self) -> Plan {
         Plan {
             out: self.out.clone(),
@@ -156,7 +156,7 @@ impl Counts {
 /// Exit status of a finished run.
 ///
 /// # Errors
-/// None.
+/// None at present.
 pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
     if ended.is_complete() {
         return Ok(Done::Holds);
@@ -178,7 +178,7 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
 /// Runs `jred merge`.
 ///
 /// # Errors
-/// Shares that do not make one study.
+/// Shares that do not form one study.
 pub fn run_merge(options: &Merge) -> Result<Done> {
     let rows = merge(&options.out, &options.parts)?;
     print(&format!(

@@ -16,20 +16,20 @@ use jred_report::list::inspection::Format;
 pub struct Balance {
     /// Machine file.
     pub file: PathBuf,
-    /// What is to be least.
+    /// Quantity to minimise.
     #[arg(long, value_parser = word::<Goal>(), default_value_t)]
     pub least: Goal,
-    /// A link that may carry a counterweight, the most it may weigh, and how far its parts may be from the origin of the link's frame, e.g.
+    /// A link that may carry a counterweight, its largest mass, and the largest distance of its parts from the origin of the link's frame, e.g.
     /// "crank, 20 kg, 250 mm"; may be repeated.
     #[arg(long, value_name = "LINK, MASS, REACH")]
     pub counterweight: Vec<String>,
-    /// A `[[spring]]` of the machine file by its name: its ends stay, its stiffness and its free length are sought; may be repeated.
+    /// A `[[spring]]` of the machine file by its name: its ends are kept, its stiffness and free length are computed; may be repeated.
     #[arg(long, value_name = "NAME")]
     pub spring: Vec<String>,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// How finely the motion is sampled.
+    /// Sampling of the motion.
     #[command(flatten)]
     pub sampling: SamplingOptions,
 }

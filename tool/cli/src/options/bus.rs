@@ -15,7 +15,7 @@ pub struct Bus {
     /// Machine files, one for each axis; at least one of them describes the common bus in its `[supply]`.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// What drives are made of.
+    /// Parts of drives.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
     /// Drive of an axis instead of the best suitable one: number of the axis from 1 and MOTOR+GEARBOX (or MOTOR), e.g.
@@ -26,7 +26,7 @@ pub struct Bus {
     /// All axes start their cycles together, as in the files: check only this case.
     #[arg(long)]
     pub in_step: bool,
-    /// How finely the motion is sampled.
+    /// Sampling of the motion.
     #[command(flatten)]
     pub sampling: SamplingOptions,
     /// Output format; CSV contains power and voltage over time with all axes in step.

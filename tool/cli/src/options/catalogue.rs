@@ -26,7 +26,7 @@ pub struct CatalogueFiles {
 }
 
 impl CatalogueFiles {
-    /// The options that are given.
+    /// The given options.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("--catalogue", !self.catalogue.is_empty()),

@@ -12,12 +12,12 @@ use jred_machine::read;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
-/// The reserve that is asked for.
+/// The requested reserve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// A share of torque and speed.
     Share(f64),
-    /// What the rules ask for.
+    /// The share that the rules require.
     Rules,
 }
 
@@ -31,7 +31,7 @@ fn asked(text: &str) -> Result<Asked, String> {
 /// `jred fastest`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` (with --reserve rules), loses a contact, or keeps a part of the file that is beyond a limit; 2 bad input, or there is no motion within the limits.\ndocs/motion/theory.md says what is found, and why it is the fastest."
+    after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` (with --reserve rules), loses a contact, or keeps a part of the file that is beyond a limit; 2 bad input, or there is no motion within the limits.\ndocs/motion/theory.md explains the result, and why it is the fastest."
 )]
 pub struct Fastest {
     /// Machine file. The moves are those of its `[motion]`, whose pauses are kept, unless --from and --to are given.
@@ -79,18 +79,19 @@ pub struct Fastest {
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
     #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
-    /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": the motion keeps what the rules of `jred size` ask of motor,
-    /// gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; nothing if not given.
+    /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": the motion satisfies the rules of `jred size`
+    /// for motor, gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; no reserve if not
+    /// given.
     #[arg(long, value_name = "SHARE|rules", value_parser = asked, allow_hyphen_values = true)]
     pub reserve: Option<Asked>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
-    /// Largest speed of a point of the tool in a part of the way: a named point or a link, the speed, and two positions of the drive link, e.g.
-    /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere. Several times: for several parts.
+    /// Largest speed of a point of the tool over a range of positions: a named point or a link, the speed, and two positions of the drive link, e.g.
+    /// "slider, 60 mm/s, 300 deg, 360 deg" for a press that is slow through the work and fast elsewhere; may be repeated for several ranges.
     #[arg(long, value_name = "POINT, SPEED, FROM, TO")]
     pub max_tool_speed: Vec<String>,
-    /// Largest force in a joint, e.g. "crank pin=2 kN"; `jred check` lists the joints. Several times: for several joints.
+    /// Largest force in a joint, e.g. "crank pin=2 kN"; `jred check` lists the joints; may be repeated for several joints.
     #[arg(long, value_name = "JOINT=FORCE")]
     pub max_reaction: Vec<String>,
     /// Largest acceleration of the drive link while its speed grows, e.g. "120 rad/s^2" ("3 m/s^2").
@@ -99,33 +100,33 @@ pub struct Fastest {
     /// Largest deceleration; that of --max-acceleration if not given.
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
     pub max_deceleration: Option<String>,
-    /// Largest rate of the drive link's acceleration, e.g. "2000 rad/s^3" ("50 m/s^3"): the acceleration has no jumps, and none at the ends.
+    /// Largest rate of the drive link's acceleration, e.g. "2000 rad/s^3" ("50 m/s^3"): the acceleration has no jumps, also at the ends.
     #[arg(long, value_name = "JERK", allow_hyphen_values = true)]
     pub max_jerk: Option<String>,
     /// Largest rate of the motor's torque, e.g. "500 N m/s" ("5 kN/s" of a linear motor).
     #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
     pub max_torque_rate: Option<String>,
-    /// How the motion begins and ends; zero with --max-jerk or --max-torque-rate, without them free.
+    /// Acceleration at the ends of the motion; zero with --max-jerk or --max-torque-rate, otherwise free.
     #[arg(long, value_parser = word::<Ends>())]
     pub ends: Option<Ends>,
     /// Largest RMS torque over the motion with its pauses, e.g. "2 N m"; "s1": the motor's S1 torque at the mean speed, without the reserve
     /// of --reserve rules.
     #[arg(long, value_name = "TORQUE|s1", allow_hyphen_values = true)]
     pub max_rms: Option<String>,
-    /// Highest temperature of the motor's winding when the motion with its pauses repeats for ever, e.g. "120 degC": its mean and its ripple, from the
-    /// thermal figures of the motor.
+    /// Highest temperature of the motor's winding when the motion with its pauses repeats endlessly, e.g. "120 degC": its mean and its ripple, from
+    /// the thermal figures of the motor.
     #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
     pub max_winding_temperature: Option<String>,
     /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]
     pub profile: Option<PathBuf>,
-    /// Write the motion as an electronic cam's table over a master that turns once in the length of the motion.
+    /// Write the motion as the table of an electronic cam, over a master that makes one turn during the motion.
     #[arg(long, value_name = "CSV", value_parser = super::output_file())]
     pub cam: Option<PathBuf>,
     /// Number of rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
     pub rows: u32,
-    /// Unit in which the cam table counts its master, which turns once in the length of the motion; the derivatives are by that unit.
+    /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
     #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
     pub master: Master,
     /// Write a report as one self-contained HTML page: phase plane with the limit that binds, motion and torque over the time.

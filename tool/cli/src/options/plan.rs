@@ -1,4 +1,4 @@
-//! `--plan` of the commands that make a motion.
+//! `--plan` of the commands that compute a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -7,31 +7,31 @@ use clap::builder::TypedValueParser;
 
 use super::output_file;
 
-/// Where the plan goes, and how exact it is.
+/// File and accuracy of the plan.
 #[derive(Debug, Args)]
 pub struct PlanFile {
     /// Write the motion of the drive link as a plan that firmware follows (docs/table-image.md): Rust source if the name ends in .rs, source of C
     /// and C++ if in .h, .hh, .hpp, .hxx, .c, .cc, .cpp or .cxx, a binary image if in .jred, .bin, .img or .dat.
     #[arg(long, value_name = "FILE", value_parser = plan_file())]
     pub plan: Option<PathBuf>,
-    /// Share of the greatest speed and acceleration by which the plan may be off, of the way a tenth of it.
+    /// Largest error of the plan as a share of the greatest speed and acceleration; for the position a tenth of this share of the distance.
     #[arg(long, value_name = "SHARE", default_value = "0.1 %", requires = "plan", value_parser = share)]
     pub plan_error: f64,
 }
 
-/// What a plan is written as.
+/// Format of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// Rust source.
     Rust,
     /// Source of C and C++.
     C,
-    /// The words as they are.
+    /// The words as binary.
     Image,
 }
 
 impl Form {
-    /// That of a file's ending, in any case.
+    /// The format for a file extension, case-insensitive.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_ascii_lowercase();
         match ending.to_str()? {
@@ -49,7 +49,7 @@ fn plan_file() -> impl TypedValueParser<Value = PathBuf> {
             return Ok(path);
         }
         Err(
-            "its ending says what is written: .rs is Rust source; .h, .hh, .hpp, .hxx, .c, .cc, .cpp and .cxx are source of C and C++; .jred, .bin, .img and .dat are a binary image",
+            "its extension selects the form: .rs is Rust source; .h, .hh, .hpp, .hxx, .c, .cc, .cpp and .cxx are source of C and C++; .jred, .bin, .img and .dat are a binary image",
         )
     })
 }

@@ -14,9 +14,9 @@ use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
 jred_machine::words! {
-    /// How a move begins and ends.
+    /// Acceleration at the ends of a move.
     pub enum Ends default Free {
-        /// The acceleration jumps at rest: the least of all motions.
+        /// The acceleration may jump at rest, which gives the best result.
         Free = "free",
         /// The acceleration is zero at rest and continuous: for machines that must not be shaken.
         Zero = "zero",
@@ -31,10 +31,10 @@ jred_machine::words! {
 pub struct Retime {
     /// Machine file.
     pub file: PathBuf,
-    /// What is to be least.
+    /// Quantity to minimise.
     #[arg(long, value_parser = word::<Goal>(), default_value_t)]
     pub objective: Goal,
-    /// How a move begins and ends.
+    /// Acceleration at the ends of a move.
     #[arg(long, value_parser = word::<Ends>(), default_value_t)]
     pub ends: Ends,
     /// With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given.
@@ -43,16 +43,16 @@ pub struct Retime {
     /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".
     #[arg(long, value_name = "CSV", value_parser = output_file())]
     pub profile: Option<PathBuf>,
-    /// Write it to this file as a table for an electronic cam.
+    /// Write the motion to this file as a table for an electronic cam.
     #[arg(long, value_name = "CSV", value_parser = output_file())]
     pub cam: Option<PathBuf>,
     /// Rows of the cam table.
     #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub rows: u32,
-    /// Unit in which the cam table counts its master, which turns once in the length of the motion; the derivatives are by that unit.
+    /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
     #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
     pub master: Master,
-    /// Write a report as one self-contained HTML page: the motion and its torque beside that of the file and the best laws.
+    /// Write a report as one self-contained HTML page: the motion and its torque, with that of the file and the best laws.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// Plan for firmware.
@@ -61,21 +61,21 @@ pub struct Retime {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// How finely the motion is sampled.
+    /// Sampling of the motion.
     #[command(flatten)]
     pub sampling: SamplingOptions,
-    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the torque is that at the input of the drive train.
+    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the torque is at the input of the drive train.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,
-    /// What drives are made of.
+    /// Parts of drives.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
 }
 
-/// The ramp where none is given.
+/// Default ramp.
 pub const RAMP: f64 = 0.1;
 
-/// A ramp's share of a move.
+/// A ramp as a share of a move.
 fn ramp(text: &str) -> Result<f64, String> {
     let parsed = match text.strip_suffix('%') {
         Some(percent) => percent.trim().parse::<f64>().map(|x| x / 100.0),

@@ -1,15 +1,15 @@
-//! How finely a cycle is sampled.
+//! Sampling of a cycle.
 
 use clap::Args;
 use jred_machine::analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
 
-/// Largest error that can be asked for.
+/// Largest allowed tolerance.
 const MOST_TOLERANCE: f64 = 1e-2;
 
 /// Error of the integrals.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Accuracy {
-    /// Error of the integrals over the cycle (RMS, mean, energy, losses) as a share of themselves, 1e-12 to 0.01.
+    /// Relative error of the integrals over the cycle (RMS, mean, energy, losses), 1e-12 to 0.01.
     #[arg(long, default_value_t = TOLERANCE, value_parser = tolerance)]
     pub tolerance: f64,
 }
@@ -17,7 +17,7 @@ pub struct Accuracy {
 /// Instants of the course.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Steps {
-    /// Instants at which the course of a cycle is known, at least, about; where the torque bends there are more.
+    /// Approximate least number of instants in a cycle; there are more where the torque bends.
     #[arg(long, default_value_t = STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
     pub steps: u32,
 }

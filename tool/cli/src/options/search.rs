@@ -1,4 +1,4 @@
-//! The options of searching: what is considered, what comes first, and studies of many machines.
+//! Options of searches and studies: filters, ranking, rows.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ use jred_sizing::study::shard::Shard;
 /// Which catalogue.
 #[derive(Clone, Debug, Args)]
 pub struct SizingOptions {
-    /// What drives are made of.
+    /// Parts of drives.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
     /// Rule set instead of that in the machine file: a name from `jred rules`, or a file; other entries of `[rules]` still
@@ -66,7 +66,7 @@ pub struct Search {
 }
 
 impl SizingOptions {
-    /// The rule set that is named instead of the machine file's.
+    /// The rule set of `--rules`, which replaces that of the machine file.
     ///
     /// # Errors
     /// Unknown set, or an error in its file.
@@ -79,7 +79,7 @@ impl SizingOptions {
 }
 
 impl Search {
-    /// Removes drives that do not pass the filter and ranks the rest; returns a sentence for each decision that lacked data.
+    /// Removes drives that do not pass the filter and ranks the rest; returns a sentence for each decision without data.
     pub fn apply(&self, filter: &Filter, selection: &mut Selection) -> Vec<String> {
         let unknown = filter.sift(selection);
         let mut gaps = Vec::new();
@@ -107,10 +107,10 @@ impl Search {
         gaps
     }
 
-    /// Checks that prices to be compared are in one currency.
+    /// Checks that compared prices are in one currency.
     ///
     /// # Errors
-    /// They are not.
+    /// Different currencies.
     pub fn check(
         &self,
         catalogue: &Catalogue,
@@ -143,7 +143,7 @@ impl Search {
         names.join(", ")
     }
 
-    /// The filter these options describe.
+    /// The filter of these options.
     pub fn filter(&self) -> Filter {
         Filter {
             makers: self.maker.clone(),

@@ -11,24 +11,25 @@ use jred_report::table::output::Format;
 /// `jred simulate`
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Machine file, with a `[simulation]`. Further ones are machines on the same motor shaft, each behind its own drive train, whose drive links start
-    /// where their `[simulation]` says.
+    /// Machine file, with a `[simulation]`. Further ones are machines on the same motor shaft, each with its own drive train, whose drive links start
+    /// as in their own `[simulation]`.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// By how much a further machine's drive link is ahead of that start, e.g. "180 deg"; one for each of them, in their order.
+    /// Lead of a further machine's drive link over that start, e.g. "180 deg"; one for each of them, in order.
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
     pub phase: Vec<f64>,
-    /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
-    /// full torque.
+    /// The drive instead of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its full torque.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,
-    /// Say when the drive link, or the axis, first reaches this speed, e.g. "120 rpm", either way.
+    /// Report when the drive link, or the axis, first reaches this speed, e.g. "120 rpm", in either direction.
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub to_speed: Option<String>,
-    /// Switch the motor off at this many instants over the last cycle before the `stop` of the file, and name the longest way and time to rest.
+    /// Switch the motor off at this many instants over the last cycle before the `stop` of the file, and report the longest distance and time to
+    /// rest.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub stops: Option<u32>,
-    /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry friction.
+    /// Add columns of the parts of the drive torque: acceleration, change of the inertia, weight and springs, process loads, viscous and dry
+    /// friction.
     #[arg(long)]
     pub torques: bool,
     /// Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations.

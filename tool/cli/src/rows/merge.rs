@@ -14,7 +14,7 @@ use crate::output::{self, Output};
 use jred_report::table::rows::{RowFormat, with_study};
 use jred_sizing::study::header::Header;
 
-/// The largest share that comes from a pipe (bytes); files are read line by line.
+/// Largest share from a pipe (bytes); files are read line by line.
 const MAX_PIPE: u64 = 64 << 20;
 
 /// A share, read line by line.
@@ -23,10 +23,10 @@ struct Part {
     form: RowFormat,
     /// `None`: a share without rows, in CSV.
     header: Option<Header>,
-    /// The names of the columns of CSV.
+    /// Column names of CSV.
     names: String,
     reader: BufReader<Box<dyn Read>>,
-    /// The row that was read with the header.
+    /// The row read with the header.
     first: Option<String>,
     /// Lines read.
     lines: u64,
@@ -102,10 +102,10 @@ impl Part {
     }
 }
 
-/// Merges shares into the file `out`; the number of rows.
+/// Merges shares into the file `out`; returns the number of rows.
 ///
 /// # Errors
-/// Shares of different studies; rows that are missing or there twice; a file that exists already.
+/// Shares of different studies; missing or duplicate rows; an existing file.
 pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
     let mut parts = paths
         .iter()
@@ -196,7 +196,7 @@ fn rows(parts: &mut [Part], header: &Header, study: &str, out: &mut impl Write) 
                 path.unwrap_or_default()
             ));
         }
-        // The first row of a share names the share's study, the first of all that of the whole.
+        // The first row of each share names its study; the first row of the whole names the whole study.
         let line = match RowFormat::study_of(&line) {
             Some((_, cells)) if is_csv => with_study(cells, (index == 0).then_some(study)),
             _ => line + "\n",

@@ -1,4 +1,4 @@
-//! Rows of a study: computed in parallel, written in order, continued and merged.
+//! Rows of a study: computed in parallel, written in order, resumed and merged.
 
 pub mod merge;
 pub mod run;

@@ -17,30 +17,30 @@ use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
 use jred_sizing::study::task::Task;
 
-/// Output of the rows, and which rows.
+/// Output of a run, and its rows.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// File to write; `None`: standard output.
     pub out: Option<PathBuf>,
-    /// How rows are written.
+    /// Format of the rows.
     pub form: RowFormat,
-    /// Whether the file is continued.
+    /// Whether the file is resumed.
     pub resume: bool,
-    /// Which rows.
+    /// The share of the rows.
     pub shard: Option<Shard>,
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ended {
-    /// Rows of this share that are there.
+    /// Completed rows of this share.
     pub rows: u64,
-    /// Rows that the share has.
+    /// All rows of the share.
     pub of: u64,
 }
 
 impl Ended {
-    /// Whether every row is there.
+    /// Whether every row is complete.
     pub const fn is_complete(self) -> bool {
         self.rows == self.of
     }
@@ -49,12 +49,12 @@ impl Ended {
 /// Set by the first Ctrl-C (or SIGTERM): rows in progress are finished, no others are started.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Lets Ctrl-C end a run after the rows that are begun; a second one ends it at once.
+/// Lets Ctrl-C end a run after the rows in progress; a second one ends it at once.
 fn heed_signals() {
     static ONCE: Once = Once::new();
     static COUNT: AtomicU32 = AtomicU32::new(0);
     ONCE.call_once(|| {
-        // Without a handler the signal ends the program, and the file keeps what was written: nothing else is lost.
+        // Without a handler the signal ends the program; the file keeps the rows written so far.
         let _ = ctrlc::set_handler(|| {
             STOP.store(true, Ordering::Relaxed);
             if COUNT.fetch_add(1, Ordering::Relaxed) > 0 {
@@ -64,13 +64,13 @@ fn heed_signals() {
     });
 }
 
-/// Rows that each thread works on between two writings.
+/// Rows that each thread computes between two writes.
 const BLOCK: u64 = 16;
 
-/// Runs a study. `seen` is shown every row of the share in order, those of a continued file included.
+/// Runs a study. `seen` gets every row of the share in order, including rows of a resumed file.
 ///
 /// # Errors
-/// Files that cannot be written or are not those of this study.
+/// Files that cannot be written, or that belong to another study.
 pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) -> Result<Ended> {
     heed_signals();
     let mut header = task.header();
@@ -134,7 +134,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
     Ok(Ended { rows: done, of })
 }
 
-/// A bar on standard error; none if that is not a terminal.
+/// A bar on standard error; hidden if that is not a terminal.
 fn bar(of: u64, done: u64) -> ProgressBar {
     let style = "{bar:40} {pos}/{len}, {per_sec}, {eta} left";
     let bar = ProgressBar::new(of).with_style(

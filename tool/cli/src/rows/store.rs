@@ -1,10 +1,9 @@
 //! The file of a study's rows: a header that identifies the study, then one line per row, in order.
 //!
-//! The header is a JSON object: in JSON the first line, in CSV the cell `study` of the first row, so that spreadsheets and data
-//! frames read the file as it is. It contains digests of machine and catalogue, so that
-//! rows of different studies are never mixed. A file that was cut off while it was written is one of fewer rows. So it is
-//! written where it belongs, unlike other outputs; it begins only where no file is, and is continued only if it is of this
-//! study.
+//! The header is a JSON object: the first line in JSON, the cell `study` of the first row in CSV, so that spreadsheets and data frames read the file
+//! as it is. It contains digests of machine and catalogue, so that rows of different studies are never mixed. A file that was cut off while it was
+//! written is a valid file with fewer rows. Therefore it is written in place, unlike other outputs: a new file must not exist, and a resumed one must
+//! belong to this study.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
@@ -29,15 +28,15 @@ fn no_rows(path: &Path) -> Report {
 /// The header as text.
 ///
 /// # Errors
-/// None that can be provoked.
+/// None in practice.
 pub fn study(header: &Header) -> Result<String> {
     serde_json::to_string(header).into_diagnostic()
 }
 
-/// How the rows of a file are written, by its first line.
+/// The row format of a file, from its first line.
 ///
 /// # Errors
-/// A line that begins no file of rows.
+/// A line that does not start a file of rows.
 pub fn form(line: &str, path: &Path) -> Result<RowFormat> {
     match line {
         _ if line.starts_with('{') => Ok(RowFormat::Json),
@@ -49,10 +48,10 @@ pub fn form(line: &str, path: &Path) -> Result<RowFormat> {
 /// Reads a header.
 ///
 /// # Errors
-/// A text that is none.
+/// Text that is not a header.
 pub fn parse(json: &str, path: &Path) -> Result<Header> {
     let header: Header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
-    // Otherwise no row that is written below it could be read again.
+    // Otherwise the rows below it could not be read again.
     if header.columns.iter().all(|name| is_clean(name)) {
         Ok(header)
     } else {
@@ -60,15 +59,15 @@ pub fn parse(json: &str, path: &Path) -> Result<Header> {
     }
 }
 
-/// Whether a text contains nothing that no row does.
+/// Whether a text contains only characters that rows may contain.
 fn is_clean(text: &str) -> bool {
     !text.contains(|c: char| c.is_control() || c == char::REPLACEMENT_CHARACTER)
 }
 
-/// The longest line of a file of rows (bytes).
+/// Longest line of a file of rows (bytes).
 const MAX_LINE: u64 = 1 << 20;
 
-/// Reads a line; whether there was one.
+/// Reads a line; returns whether there was one.
 ///
 /// # Errors
 /// The file cannot be read, or its line is longer than any row.
@@ -87,12 +86,12 @@ pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> R
             plain::path(path)
         ));
     }
-    // What is no UTF-8 becomes a character that no row has.
+    // Invalid UTF-8 becomes a character that no row contains.
     line.push_str(&String::from_utf8_lossy(&bytes));
     Ok(length > 0)
 }
 
-/// Begins a file of rows, which must not exist yet; a pipe or a device may.
+/// Starts a file of rows, which must not exist yet; a pipe or a device may.
 ///
 /// # Errors
 /// A file that exists or cannot be written.
@@ -106,7 +105,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     let mut file = file.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
             help = "name the file itself, or remove the link",
-            "{} is a symbolic link that leads nowhere: no file begins behind it",
+            "{} is a dangling symbolic link: no file is created through it",
             plain::path(path)
         ),
         std::io::ErrorKind::AlreadyExists => miette!(
@@ -121,12 +120,12 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     Ok(file)
 }
 
-/// The number and the cells of a line; `None`: it is no row of these columns, or contains what no row does.
+/// The number and the cells of a line; `None`: not a row of these columns, or characters that rows do not contain.
 pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
     is_clean(line).then(|| form.row(line, columns))?
 }
 
-/// What is said of a line that is no row; `what` names the file and what cannot be done with it.
+/// Report of a line that is not a row; `what` names the file and the failed operation.
 pub fn damaged(what: &str, line: u64, text: &str) -> Report {
     miette!(
         help = format!("delete line {line} and all lines after it: --resume computes them again"),
@@ -135,11 +134,10 @@ pub fn damaged(what: &str, line: u64, text: &str) -> Report {
     )
 }
 
-/// Opens a file of rows to continue it: the file, cut after its last whole row, and number of rows in it. Each row is
-/// shown to `seen`.
+/// Opens a file of rows to resume it: the file, cut after its last complete row, and its number of rows. Each row is passed to `seen`.
 ///
 /// # Errors
-/// A file of another study, a line that is no row of it, or rows out of order.
+/// A file of another study, a line that is not one of its rows, or rows out of order.
 pub fn resume(
     path: &Path,
     header: &Header,
@@ -206,7 +204,7 @@ pub fn resume(
         end += line.len() as u64;
     }
     drop(reader);
-    // A first line that was cut off is written again.
+    // An incomplete first line is written again.
     if number == 0 && !front.starts_with(&line) {
         return Err(no_rows(path));
     }

@@ -51,7 +51,7 @@ fn two_presses_on_one_bus() {
     assert_eq!(two["axes"].as_array().unwrap().len(), 2);
     let peak = |answer: &Value| figure(answer, &["bounds", "peak drawn [W]"]);
     assert!((peak(&two) - 2.0 * peak(&one)).abs() <= 1e-9 * peak(&two));
-    // In step two presses draw twice what one does.
+    // In step, two presses draw twice the power of one.
     let supplied = |answer: &Value| {
         figure(answer, &["in step", "supplied [J]"]) - figure(answer, &["in step", "burnt [J]"])
     };
@@ -75,7 +75,7 @@ fn two_presses_on_one_bus() {
             "\none bus compared with a bus for each axis, with 1/2 of the capacitance and the same brake resistor, it saves ",
         ],
     );
-    // There is nothing to share with one axis.
+    // With one axis there is nothing to share.
     assert!(figure(&two, &["saved by sharing [W]"]) >= 0.0);
     assert_eq!(one["saved by sharing [W]"], Value::Null);
     let alone = jred([&"bus", &file, &steps[0], &steps[1]]).ends(0);
@@ -109,7 +109,7 @@ fn one_where_a_limit_is_passed_and_two_for_bad_input() {
     let file = folder.file("low.toml", press_text() + &low);
     let run = jred([&"bus", &file, &"--steps", &"200", &"--in-step"]).ends(1);
     says(&run, &["against 781 V: FAIL"]);
-    // Without a supply nothing is known; another supply, a wrong drive, a machine without a motion.
+    // Refused: different supplies, a wrong drive, a machine without a motion.
     let other = folder.file("other.toml", press_text() + &SUPPLY.replace("470", "680"));
     let good = folder.file("good.toml", press_text() + SUPPLY);
     jred([&"bus", &good, &other])
@@ -129,7 +129,7 @@ fn one_where_a_limit_is_passed_and_two_for_bad_input() {
     jred([&"bus", &still]).ends(2);
 }
 
-/// Memory for all axes together has a limit: eleven of the most steps are refused before a file is read, with what would do.
+/// Memory for all axes together has a limit: eleven times the most steps are refused before a file is read, with the allowed number.
 #[test]
 fn more_steps_than_memory_is_meant_for_are_refused() {
     let mut words = vec!["bus"];
@@ -141,7 +141,7 @@ fn more_steps_than_memory_is_meant_for_are_refused() {
     ]);
 }
 
-/// A bus of which little is known: what is not checked is said, with what is missing, and nothing passes in silence.
+/// A bus with few data: each unchecked rule is reported with its missing data.
 #[test]
 fn what_is_not_checked_is_said() {
     let folder = Folder::new();
@@ -173,7 +173,7 @@ fn what_is_not_checked_is_said() {
     );
     assert_eq!((named(&json), &json["holds"]), (1, &Value::Bool(true)));
     assert_eq!(keys(&json, 0), serde_json::json!([["max_voltage"]]));
-    // Of the mains alone: what is not known, and which key says it; nothing is printed as zero.
+    // With the mains alone: the missing figures, with their keys; nothing is printed as zero.
     let (text, json) = run("bare.toml", press_text(), "");
     let text = text.ends(0);
     says(
@@ -199,7 +199,7 @@ fn what_is_not_checked_is_said() {
     assert_eq!(keys(&json, 1), serde_json::json!([["max_voltage"]]));
     assert_eq!(keys(&json, 2), serde_json::json!([["chopper_voltage"]]));
     assert_eq!(json["in step"]["supplied [J]"], Value::Null);
-    // The supply gives what is drawn, less at most what comes back.
+    // The supply delivers at most the drawn energy, and at least the drawn minus the regenerated one.
     let [drawn, back] = ["drawn [J]", "fed back [J]"].map(|key| figure(&json["axes"][0], &[key]));
     let period = figure(&json, &["period [s]"]);
     let words = text.out.split("supply ").nth(1).unwrap();
@@ -212,7 +212,7 @@ fn what_is_not_checked_is_said() {
     near("most", words[1], drawn / period, budget::SHORT);
     let (_, json) = run("top.toml", press_text(), "max_voltage = \"820 V\"\n");
     assert_eq!(json["checks"][0]["holds"], Value::Null);
-    // A load that drives the machine feeds back more than is drawn.
+    // A load that drives the machine feeds back more than the machine draws.
     let driven = edited_press("\"-10 kN\"", "\"60 kN\"");
     let (text, json) = run("driven.toml", driven, "capacitance = \"470 uF\"\n");
     let text = text.ends(1);
@@ -233,7 +233,7 @@ fn what_is_not_checked_is_said() {
     assert!(!words.contains("capacitance"), "{words}");
 }
 
-/// The amplifier says what its chopper may switch.
+/// The brake resistor must not be below the amplifier's least resistance.
 #[test]
 fn the_amplifier_bounds_the_resistance() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Voltages of a bus that come from several places and stand in the wrong order: nothing is said to mend what it does not.
+//! Contradictory bus voltages from several sources: only cures that work are offered.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::cures::{Keys, keys, mend, run};
 use crate::support::{Folder, jred};
 
-/// A motor that states the voltage of its bus, and an amplifier that states the rest, if it does.
+/// A motor with a bus voltage, and an amplifier with further figures if given.
 fn catalogue(folder: &Folder, amplifier: &str) -> PathBuf {
     let text = format!(
         r#"
@@ -47,7 +47,7 @@ fn speaks_of_resistors(answer: &Value) -> bool {
         || answer["cures"].to_string().contains("brake_resistor.")
 }
 
-/// The chopper's voltage is that of the file, the highest that of the amplifier, and below it.
+/// The chopper's voltage is from the file, the highest one from the amplifier and below it.
 #[test]
 fn a_chopper_above_the_highest_voltage() {
     let folder = Folder::new();
@@ -71,7 +71,7 @@ fn a_chopper_above_the_highest_voltage() {
         assert!(!speaks_of_resistors(&answer), "{answer:#}");
         let expected = serde_json::json!(["chopper_voltage", "max_voltage"]);
         assert_eq!(answer["conflict"]["any of"], expected);
-        // What is said to do does.
+        // The offered cure works.
         assert_eq!(
             mend(&folder, before, &[], &more),
             ["capacitance", "regenerative"]
@@ -85,7 +85,7 @@ fn a_chopper_above_the_highest_voltage() {
         ("brake_resistor.power", "5 kW"),
     ]));
     check(&with);
-    // What is advised mends it.
+    // The offered cure works.
     before[1].1 = "740 V".to_owned();
     let (text, answer) = run(&folder, &before, &[], &more, 1);
     assert!(text.contains("resistor     required: "), "{text}");
@@ -95,7 +95,7 @@ fn a_chopper_above_the_highest_voltage() {
     assert_eq!(kinds[0], "brake_resistor.resistance", "{kinds:?}");
 }
 
-/// The bus of the motor's data sheet stands above the highest voltage of the file: nothing mends that but another voltage.
+/// The data sheet's bus voltage is above the highest voltage of the file: only another voltage is a cure.
 #[test]
 fn a_supply_above_the_highest_voltage() {
     let folder = Folder::new();
@@ -126,8 +126,7 @@ const BUS: [(&str, &str); 5] = [
     ("brake_resistor.power", "1 kW"),
 ];
 
-/// A resistor that never comes on only must be one that the chopper may switch: because nothing comes back, or because the
-/// capacitor takes all of it.
+/// A resistor that never switches on only has to suit the chopper: because nothing is regenerated, or the capacitor takes all of it.
 #[test]
 fn a_resistance_too_small_that_is_never_used() {
     const ONLY: &str = "- brake_resistor.resistance at least 40 Ohm\n";

@@ -1,4 +1,4 @@
-//! What is said to mend a bus that passes a limit: each of the changes is made in the machine file, and the bus must hold.
+//! Cures for a bus beyond a limit: each change is made in the machine file, and the bus must then satisfy every rule.
 
 use serde_json::Value;
 
@@ -73,7 +73,7 @@ pub(super) fn run(
     (of("table").out, of("json").json())
 }
 
-/// Makes every change of every cure in turn, and wants the bus to hold. Returns the first words of each.
+/// Makes every change of every cure in turn and checks the bus. Returns the first words of each.
 pub(super) fn mend(
     folder: &Folder,
     before: &Keys<'static>,
@@ -96,7 +96,7 @@ pub(super) fn mend(
             let key = change["key"].as_str().unwrap();
             let least = change["at least"].as_f64();
             let value = least.or(change["at most"].as_f64()).unwrap();
-            // Of a range the upper end: the smallest resistance is given in the file.
+            // The upper end of a range: the smallest resistance is given in the file.
             if key == "brake_resistor.resistance"
                 && least.is_some()
                 && changes
@@ -115,7 +115,7 @@ pub(super) fn mend(
             .into_iter()
             .find(|known| *known == key)
             .unwrap_or_else(|| panic!("{key} in {words}"));
-            // The figure to the last digit, and a little beyond: roundings.
+            // The figure in full and slightly beyond, for roundings.
             let safe = value
                 * if least.is_some() {
                     1.0 + 1e-9
@@ -133,7 +133,7 @@ pub(super) fn mend(
             after.retain(|(key, _)| !key.starts_with("brake_resistor"));
             after.push(("regenerative", "true".to_owned()));
         } else if !cure["phases [s]"].is_null() {
-            // The same file cannot be shifted: the figures are those of the bus in step, with these phases.
+            // Axes with the same file cannot be shifted: the figures are those of the bus in step, with these phases.
             let most = figure(&answer, &["most room", "figures", "highest voltage [V]"]);
             assert_eq!(cure["phases [s]"], answer["most room"]["phases [s]"]);
             assert!(most <= 820.0, "{most}");
@@ -153,7 +153,7 @@ const BARE: [(&str, &str); 4] = [
     ("max_voltage", "820 V"),
 ];
 
-/// A lift and a press without a resistor: a resistor, a capacitor or another supply; no phases do.
+/// A lift and a press without a resistor: a resistor, a capacitor or another supply are cures; phases are not.
 #[test]
 fn a_bus_without_a_resistor() {
     let folder = Folder::new();
@@ -169,7 +169,7 @@ fn a_bus_without_a_resistor() {
         );
         assert_eq!(kinds.last().unwrap(), "regenerative", "{kinds:?}");
     }
-    // Where the voltage of the chopper is not known, the resistor is that which is enough whatever comes back when.
+    // With unknown chopper voltage the resistor is sized for any timing of the regenerated energy.
     let before: Keys = keys(&BARE)
         .into_iter()
         .filter(|(key, _)| *key != "chopper_voltage")
@@ -185,7 +185,7 @@ fn a_bus_without_a_resistor() {
     assert!((largest * back - 820.0 * 820.0).abs() < 1e-6, "{largest}");
 }
 
-/// A resistor that is there is not asked for: what it lacks is said, and what would do.
+/// An existing resistor is not proposed again: its shortage and the required one are reported.
 #[test]
 fn a_resistor_that_is_too_weak() {
     let folder = Folder::new();
@@ -222,7 +222,7 @@ fn a_resistor_that_is_too_weak() {
         assert_eq!(kinds[0], "brake_resistor.power");
         assert!(kinds.contains(&"capacitance".to_owned()), "{kinds:?}");
     }
-    // A resistance too large lets the voltage rise; what the chopper may not switch is no cure.
+    // Too large a resistance lets the voltage rise; too small a one for the chopper is not a cure.
     let mut before = keys(&BARE);
     before.extend(keys(&[
         ("brake_resistor.resistance", "3 kOhm"),
@@ -240,7 +240,7 @@ fn a_resistor_that_is_too_weak() {
     assert!(!keys.contains("brake_resistor.resistance"), "{keys}");
 }
 
-/// Phases alone can do: two presses at once raise the bus too far, half a cycle apart they do not.
+/// Phases alone can be a cure: two presses in step raise the bus too far, half a cycle apart they do not.
 #[test]
 fn phases_that_do() {
     let folder = Folder::new();

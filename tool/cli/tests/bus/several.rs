@@ -1,5 +1,4 @@
-//! `jred bus` with several axes: three and more, periods that do not meet, named drives, resistors of a catalogue, and whose
-//! `[supply]` counts.
+//! `jred bus` with several axes: three and more, no common period, named drives, resistors of a catalogue, and the file that gives `[supply]`.
 
 // A check repeats the figure that it judges.
 #![allow(clippy::float_cmp)]
@@ -15,7 +14,7 @@ fn lift() -> PathBuf {
     shipped("ball-screw.toml")
 }
 
-/// The command with a few steps only.
+/// The command with few steps.
 fn bus(files: &[&PathBuf], more: &[&str]) -> Run {
     let files: Vec<&str> = files.iter().map(|file| file.to_str().unwrap()).collect();
     let all = [&["bus", "--steps", "100"], files.as_slice(), more].concat();
@@ -26,8 +25,7 @@ fn json(files: &[&PathBuf], more: &[&str]) -> Value {
     bus(files, &[more, &["--format", "json"]].concat()).json()
 }
 
-/// Three axes, the supply in the file of the last: every sum is that of the three alone, every figure between that in step and
-/// its bound.
+/// Three axes, the supply in the last file: every sum is that of the three, every figure between the one in step and its bound.
 #[test]
 fn three_axes() {
     let folder = Folder::new();
@@ -79,7 +77,7 @@ fn three_axes() {
         &["axis 3 Servo press", "with the highest mean brake power"],
     );
     assert!(!text.out.contains("More than three axes"));
-    // A fourth: found one phase at a time, which is said.
+    // With a fourth axis the phases are found one at a time, which is reported.
     let four = [&press, &lift(), &third, &press];
     let answer = json(&four, &[]);
     assert_eq!(answer["worst"]["exhaustive"], Value::Bool(false));
@@ -89,7 +87,7 @@ fn three_axes() {
     );
 }
 
-/// The supply may stand in any one of the files, or the same in several; two that differ are named.
+/// Any one file may give the supply, or several the same; two that differ are named.
 #[test]
 fn whose_supply() {
     let folder = Folder::new();
@@ -113,7 +111,7 @@ fn whose_supply() {
     ]);
 }
 
-/// Cycles that meet late, and cycles that never do: each is said to be what it is, and judged by what holds at any phases.
+/// Cycles that meet late, or never: each case is named, and judged by bounds for any phases.
 #[test]
 fn periods_that_do_not_meet() {
     let folder = Folder::new();
@@ -144,7 +142,7 @@ fn periods_that_do_not_meet() {
         assert_eq!(answer["common period"]["kind"], kind);
         assert_eq!(answer["period [s]"], Value::Null);
         assert!(answer["worst"].is_null() && answer["in step"].is_null());
-        // Judged by the bounds, and the pulse, for which there is none, is not.
+        // Judged by the bounds; the pulse has no bound and is not judged.
         let check = |name: &str| {
             let checks = answer["checks"].as_array().unwrap();
             let found = checks.iter().find(|check| check["check"] == name);
@@ -257,7 +255,7 @@ pulse_energy = "50 kJ"
 source = "Sheet"
 "#;
 
-/// Each axis takes the drive that it is told, amplifier included, by its keys or as tables have the name.
+/// Each axis takes its named drive with amplifier, by keys or by the name as printed.
 #[test]
 fn drives_are_named() {
     let folder = Folder::new();
@@ -274,7 +272,7 @@ fn drives_are_named() {
     assert_eq!(answer["axes"][1]["drive"], "m, direct on a");
     let again = run(["2=m+direct on a", "1=m + g on b"]);
     assert_eq!(again["axes"], answer["axes"]);
-    // The amplifiers differ in 500 W: of the same motor and gearbox that much more is drawn all the time.
+    // The amplifiers differ by 500 W, which the same motor and gearbox draw in addition all the time.
     let other = run(["1=m+g on a", "2=m, direct on a"]);
     let drawn = |answer: &Value| {
         figure(&answer["axes"][0], &["drawn [J]"]) - figure(&answer["axes"][0], &["fed back [J]"])
@@ -285,7 +283,7 @@ fn drives_are_named() {
         250.0,
         budget::CURVES,
     );
-    // Without an amplifier in the name it is one that suits.
+    // Without an amplifier in the name a suitable one is taken.
     let any = run(["1=m+g", "2=m"]);
     for (axis, name) in [(0, "m + g on "), (1, "m, direct on ")] {
         let drive = any["axes"][axis]["drive"].as_str().unwrap();
@@ -305,7 +303,7 @@ fn drives_are_named() {
         .says(&["N=MOTOR+GEARBOX on AMPLIFIER"]);
 }
 
-/// The smallest resistor of the catalogue that bears what is needed is connected; what is needed is that of the worst phases.
+/// The smallest sufficient resistor of the catalogue is connected; the requirement is that of the worst phases.
 #[test]
 fn a_resistor_of_the_catalogue() {
     let folder = Folder::new();
@@ -340,7 +338,7 @@ fn a_resistor_of_the_catalogue() {
         let one = figure(&in_step, &["brake resistor needed", key]);
         assert!(need(key) >= one * (1.0 - 1e-12), "{key}");
     }
-    // With the one proposed the bus holds, and its worst figures are those that were asked for.
+    // With the proposed resistor the bus satisfies every rule, and its worst figures are those required.
     let with = bare.replace("470", "47")
         + "brake_resistor = { resistance = \"47 Ohm\", power = \"3 kW\", peak_power = \"40 kW\", pulse_energy = \"50 kW s\" }\n";
     let file = folder.file("with.toml", press_text() + &with);

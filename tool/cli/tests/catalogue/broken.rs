@@ -1,4 +1,4 @@
-//! Catalogues with broken rows: what a user reads of them.
+//! Catalogues with broken rows: messages to the user.
 
 use std::fmt::Write as _;
 
@@ -62,7 +62,7 @@ fn the_header_again() {
     );
 }
 
-/// Marks and line ends that spreadsheets write do not shift the place shown.
+/// Byte order marks and line ends of spreadsheets do not shift the position shown.
 #[test]
 fn places_behind_marks_and_other_line_ends() {
     for text in [
@@ -113,7 +113,7 @@ fn files_and_folders_that_hold_nothing() {
     refused(&folder.path(""), &["is empty"]);
     folder.file("list.toml", "[[resistor]]\nkey = \"r\"\nmaker = \"M\"\nmodel = \"M\"\nresistance = \"9 Ohm\"\nrated_power = \"9 W\"\nsource = \"S\"\n");
     refused(&folder.path(""), &["is empty", "motors"]);
-    // A table whose name says nothing is said to be left aside.
+    // A table with an unknown name is reported as ignored.
     folder.file("motors.csv", format!("{HEADER}\n{FIRST}\n"));
     let run = jred([
         &"size",

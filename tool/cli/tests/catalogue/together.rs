@@ -1,5 +1,5 @@
-//! What is wrong is said at once: all faults of a row, keys that clash beside rows that are broken; and what was named twice, or
-//! is no catalogue.
+//! All faults are reported at once: those of a row, and duplicate keys next to broken rows. Also duplicate file names and files that are not a
+//! catalogue.
 
 use super::{refuses, size_with};
 use crate::support::catalogue::{FIRST, HEADER, SECOND};
@@ -38,7 +38,7 @@ fn every_fault_of_a_row() {
             run.err
         );
     }
-    // What two cells say together is looked at once each can be read.
+    // Checks across two cells run as soon as each can be read.
     let file = folder.file(
         "g.csv",
         format!("{GEARBOX}g1,M,G,3,50,40,6000,1,97,S\ng2,M,G,0,50,40,6000,1,97,S\n"),
@@ -62,7 +62,7 @@ fn every_fault_of_a_row() {
         "{}",
         run.err
     );
-    // In TOML keys and units come first, and the key clashes all the same.
+    // In TOML keys and units come first; the duplicate key is still reported.
     let toml = "[[gearbox]]\nkey = \"g1\"\nmaker = \"M\"\nmodel = \"G\"\nratios = 3\nrated_output_torque = \"50 kg\"\n\
                 max_input_speed = 6000\n";
     let folder = Folder::new();
@@ -82,7 +82,7 @@ fn every_fault_of_a_row() {
         "`max_input_speed` in [[gearbox]] number 1 has no unit: 6000",
         "duplicate key \"g1\"",
     ]);
-    // A motor: words and figures alike.
+    // A motor: words and figures.
     refuses(
         &format!("{HEADER}\nm1,,Model,eight,2000,36,-8.5,\n"),
         None,
@@ -110,7 +110,7 @@ fn keys_that_clash_are_found_beside_broken_rows() {
             "duplicate key \"m3\"",
         ],
     );
-    // Left out, a broken row holds no key: its mended copy is used.
+    // A skipped broken row does not reserve its key: its corrected copy is used.
     let mended = FIRST.replace("m1", "m3");
     let folder = Folder::new();
     let file = folder.file("m.csv", format!("{HEADER}\n{broken}\n{mended}\n"));
@@ -168,7 +168,7 @@ fn given_twice() {
     size(built_in, built_in)
         .ends(2)
         .says(&["built-in is given twice"]);
-    // A copy is another file: then the keys clash.
+    // A copy is another file, so its keys are duplicates.
     let copy = Folder::new();
     copy.file("motors.csv", format!("{HEADER}\n{FIRST}\n"));
     size(&plain, &copy.path(""))

@@ -1,4 +1,4 @@
-//! What a result looks like as CSV and JSON.
+//! Results as CSV and JSON.
 
 use std::collections::HashSet;
 
@@ -37,7 +37,7 @@ fn csv_and_json_carry_every_digit() {
         for (a, b) in cells.iter().zip(&numbers) {
             assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{a:?} and {b:?}");
         }
-        // Numbers of full precision, not rounded ones: most need sixteen or seventeen digits.
+        // Numbers of full precision: most need sixteen or seventeen digits.
         let long = text("csv")
             .split([',', '\n'])
             .filter(|cell| cell.chars().filter(char::is_ascii_digit).count() >= 15)
@@ -176,7 +176,7 @@ fn positions_and_times() {
     }
 }
 
-/// Two drives that differ in nothing but the amplifier are told apart: no row of CSV is there twice.
+/// Two drives that differ only in the amplifier have distinct rows in CSV.
 #[test]
 fn rows_tell_amplifiers_apart() {
     let (press, folder) = (press_file(), Folder::new());
@@ -201,7 +201,7 @@ fn rows_tell_amplifiers_apart() {
     assert!(count > 100, "{count} rows");
 }
 
-/// Every command's CSV is read by a strict reader: as many cells in every row as in the first.
+/// Every command's CSV is valid for a strict reader: all rows have as many cells as the first.
 #[test]
 fn every_command_writes_csv_that_reads_back() {
     let press = press_file();

@@ -1,4 +1,4 @@
-//! What a user is told who made a mistake.
+//! Messages about mistakes.
 
 use super::{export, run};
 use crate::support::{Folder, jred, press_file, press_text};
@@ -23,7 +23,7 @@ fn two_for_bad_input() {
         .ends(2)
         .says(&["cannot read the machine file"]);
     assert!(!out.exists());
-    // Not bigger than the reader allows.
+    // Larger than the reader allows.
     let large = folder.file("large.toml", "# filler\n".repeat(1_200_000));
     jred([&"reduce", &large])
         .ends(2)
@@ -170,7 +170,7 @@ fn wrong_quantities_on_the_command_line() {
         done.says(words);
         assert!(!out.exists());
     }
-    // A negative number is a value, not an option that is unknown.
+    // A negative number is a value, not an unknown option.
     for number in ["-1", "0x123456789", "4294967296", "press"] {
         let more = [&ok[..], &["--machine-id", number]].concat();
         let done = export(&press_file(), &more, &out).ends(2);
@@ -178,7 +178,7 @@ fn wrong_quantities_on_the_command_line() {
     }
 }
 
-/// An acceleration that is no acceleration must not silently become another one.
+/// An invalid acceleration is refused, not replaced.
 #[test]
 fn an_acceleration_must_be_a_number_not_below_zero() {
     let folder = Folder::new();
@@ -211,7 +211,7 @@ fn output_that_cannot_be_written() {
     }
 }
 
-/// A slip on the command line must not cost the user his machine.
+/// A mistake on the command line never overwrites the machine file.
 #[test]
 fn the_machine_file_is_never_overwritten() {
     let folder = Folder::new();

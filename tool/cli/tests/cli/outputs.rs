@@ -1,10 +1,10 @@
-//! `jred size`: options that have nothing to show, or that get in each other's way, are refused before anything is written.
+//! `jred size`: options without effect or in conflict are refused before anything is written.
 
 use serde_json::Value;
 
 use crate::support::{Folder, jred, jred_with, press_file};
 
-/// The built-in catalogue has no masses of motors: a filter by mass leaves nothing, and no page is written about nothing.
+/// The built-in catalogue has no masses of motors: a filter by mass leaves nothing, and no page is written.
 #[test]
 fn a_filter_that_leaves_nothing_is_an_error() {
     let folder = Folder::new();
@@ -28,7 +28,7 @@ fn a_filter_that_leaves_nothing_is_an_error() {
     assert!(run.out.is_empty() && !page.exists(), "{}", run.out);
 }
 
-/// The front has neither a list nor one drive to explain.
+/// The front has neither a list nor a drive to explain.
 #[test]
 fn the_front_refuses_what_it_does_not_do() {
     let folder = Folder::new();
@@ -54,7 +54,7 @@ fn the_front_refuses_what_it_does_not_do() {
     assert!(!folder.path("r.html").exists());
 }
 
-/// Where drives fit but a figure of none of them is known, the answer is not an empty front.
+/// If no suitable drive has data for an objective, the answer names it instead of an empty front.
 #[test]
 fn the_front_names_what_is_known_of_none() {
     let press = press_file();
@@ -79,11 +79,11 @@ fn the_front_names_what_is_known_of_none() {
     assert!(!run.message().contains("energy is"), "{}", run.err);
 }
 
-/// In CSV the drive asked for comes first, with its rank, whether the list has it or not, and only once.
+/// In CSV the requested drive comes first with its rank, in the list or not, and only once.
 #[test]
 fn csv_begins_with_the_drive_asked_for() {
     let press = press_file();
-    // Motors of every class of certainty; the whole catalogue as JSON is a hundred megabytes.
+    // Motors of every class of certainty; the whole catalogue would be 100 MB of JSON.
     let some = ["size", press.to_str().unwrap(), "--steps", "64"];
     let motors = ["--motor", "fxm*", "--motor", "sgm7a*", "--motor", "mc20-1*"];
     let size = |more: &[&str]| jred_with(&[&some, &motors[..], more].concat()).ends(0);
@@ -112,7 +112,7 @@ fn csv_begins_with_the_drive_asked_for() {
         ranks.dedup();
         ranks.into_iter().map(str::to_owned).collect::<Vec<_>>()
     };
-    // The first of each class of certainty stands below the list.
+    // The first of each class of certainty is below the list.
     let firsts = json["certainties"].as_array().unwrap().iter();
     let below = firsts.map(|class| class["rank"].as_u64().unwrap());
     let below: Vec<String> = below
@@ -122,13 +122,13 @@ fn csv_begins_with_the_drive_asked_for() {
     assert_eq!(below.len(), 2);
     let with =
         |listed: &[&'static str]| -> Vec<&str> { [listed, &[&below[0], &below[1], ""]].concat() };
-    // In the list, behind it, and refused: the others keep their ranks.
+    // In the list, after it, or refused: the other drives keep their ranks.
     assert_eq!(asked(&json["fit"][1], "2"), with(&["1", "3"]));
     assert_eq!(asked(&json["fit"][4], "5"), with(&["1", "2", "3"]));
     assert_eq!(asked(&json["refused"][9], ""), with(&["1", "2", "3"]));
 }
 
-/// Two outputs are two files, and stdout is none.
+/// Two outputs must be two files; stdout is not one of them.
 #[test]
 fn outputs_are_files_of_their_own() {
     let folder = Folder::new();
@@ -154,7 +154,7 @@ fn outputs_are_files_of_their_own() {
     run.says(&["stdout is used for the result"]);
 }
 
-/// A drive that a filter took out is not said to be missing from the catalogue.
+/// A drive removed by a filter is not reported as missing from the catalogue.
 #[test]
 fn a_drive_that_the_filter_took_out() {
     let press = press_file();
@@ -169,8 +169,8 @@ fn a_drive_that_the_filter_took_out() {
     assert!(jred_with(&why).ends(0).err.is_empty());
 }
 
-/// `--top 1` in CSV: the rules of one ranked drive and of the first ones of the two other classes of certainty, then of the closest
-/// refused ones; `--nearest 0` leaves these out.
+/// `--top 1` in CSV: the rules of one ranked drive, of the first drives of the two other classes of certainty, and of the closest refused drives,
+/// which `--nearest 0` leaves out.
 #[test]
 fn the_closest_refused_drives_can_be_left_out() {
     let press = press_file();

@@ -1,11 +1,11 @@
-//! `jred size --why`: the drive that was asked for, its rules, and its place.
+//! `jred size --why`: the requested drive, its rules, and its rank.
 
 use serde_json::Value;
 
 use super::forms::AMPLIFIERS;
 use crate::support::{Folder, Run, edited_press, jred, jred_with, press_file};
 
-/// A few motors, with all gearboxes: the whole catalogue as JSON is a hundred megabytes.
+/// A few motors with all gearboxes; the whole catalogue would be 100 MB of JSON.
 const MOTORS: &str = "fxm*";
 
 fn size(more: &[&str]) -> Run {
@@ -30,7 +30,7 @@ fn all() -> Value {
     size(&["--all", "--format", "json"]).ends(0).json()
 }
 
-/// A drive that fits is shown with its own rules and its rank, one that is refused with the rules that it breaks.
+/// A suitable drive is shown with its own rules and its rank, a refused one with the rules that it violates.
 #[test]
 fn the_drive_asked_for_is_shown_and_placed() {
     let all = all();
@@ -58,7 +58,7 @@ fn the_drive_asked_for_is_shown_and_placed() {
             "{text}"
         );
         assert!(!text.contains("Best drive:"), "{text}");
-        // Its rules, not those of the best.
+        // Its own rules, not those of the best drive.
         let check = &fit[k]["checks"][0];
         let note = check["note"].as_str().unwrap();
         let unbroken = text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -90,7 +90,7 @@ fn the_drive_asked_for_is_shown_and_placed() {
     assert!(text.contains("FAIL"), "{text}");
 }
 
-/// Every way in which a name is printed or documented is understood.
+/// Every printed or documented form of a name is accepted.
 #[test]
 fn names_as_printed_are_understood() {
     let all = all();
@@ -120,7 +120,7 @@ fn names_as_printed_are_understood() {
     folder.file("amplifiers.csv", AMPLIFIERS);
     for amplifier in ["small", "large"] {
         let own = format!("{} on {amplifier}", name(geared, " + ", ""));
-        // A motor of which no current is known is combined with every amplifier.
+        // A motor without a current is combined with every amplifier.
         let mine = folder.path("");
         let catalogues = [
             "--catalogue",
@@ -135,7 +135,7 @@ fn names_as_printed_are_understood() {
     }
 }
 
-/// Where no drive holds there is no best one, and the exit code says so.
+/// If no drive is suitable there is no best one, and the exit code is 1.
 #[test]
 fn asked_for_among_drives_of_which_none_holds() {
     let folder = Folder::new();

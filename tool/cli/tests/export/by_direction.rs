@@ -1,4 +1,4 @@
-//! Friction by the direction of travel: in the tables of every number type, exact in both directions.
+//! Friction by direction of motion: exact in both directions in the tables of every number type.
 
 use jred::number::{Number, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
@@ -8,21 +8,21 @@ use super::{export_of, words_of};
 use crate::support::{Folder, shipped};
 
 const TABLE: &str = include_str!("friction_by_direction.toml");
-/// A motion in both directions, in place of one that turns.
+/// A motion in both directions.
 const BOTH_WAYS: &str = "type = \"cycle\"\n\
     [[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"90 deg\"\nduration = \"0.5 s\"\n\
     [[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"-90 deg\"\nduration = \"0.5 s\"";
 /// m·d²/8 of the table.
 const INERTIA: f64 = 20.0 * 0.3 * 0.3 / 8.0;
 const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
-/// Of a slider, whose friction depends on the position.
+/// Curves of a slider whose friction depends on the position.
 const SLIDER: Set = curves::LOAD | curves::COULOMB;
 
 fn of<Q: Quantity>(value: f64) -> Q {
     Q::of(Q::Number::from_f64(value).unwrap())
 }
 
-/// The largest error of the torque (N·m) of a model, beside `exact` of phase, speed and acceleration, over both directions.
+/// The largest torque error (N·m) of a model against `exact` (of phase, speed and acceleration) over both directions.
 fn worst<F: Format, const SET: Set>(
     words: &[u32],
     [omega, alpha]: [f64; 2],
@@ -83,7 +83,7 @@ fn a_joint_has_its_friction_in_both_directions() {
     assert!(worst::<Rows16, SET>(&image("i16", "rows"), most, exact) < 0.01);
 }
 
-/// Of a slider by F·|dx/dφ| of the closed form: x = r·cos φ + √(l² − r²·sin² φ).
+/// A slider: F·|dx/dφ| in closed form with x = r·cos φ + √(l² − r²·sin² φ).
 #[test]
 fn a_slider_has_its_friction_in_both_directions() {
     let folder = Folder::new();
@@ -128,7 +128,7 @@ fn a_slider_has_its_friction_in_both_directions() {
     };
     let found = worst::<jred::Cubic<f32>, SLIDER>(&words_of(&out), [1e-3, 0.0], exact);
     assert!(found < 0.01, "{found}");
-    // The closed form holds one friction.
+    // The closed form has only one friction.
     let more = [
         "--torque-error",
         "0.01 N m",
@@ -144,7 +144,7 @@ fn a_slider_has_its_friction_in_both_directions() {
         .says(&["loads go by the direction of travel"]);
 }
 
-/// What helps the motion is no friction, and b is one of both directions.
+/// A load that helps the motion is not friction; b has no direction.
 #[test]
 fn what_is_no_friction_is_refused() {
     let folder = Folder::new();

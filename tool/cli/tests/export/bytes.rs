@@ -1,4 +1,4 @@
-//! A limit of bytes, and the tables of the example press of docs/performance.md.
+//! A limit in bytes, and the tables of the example press in docs/performance.md.
 
 use jred::Image;
 
@@ -38,7 +38,7 @@ fn the_best_table_of_so_many_bytes() {
             let error = f64::from(Image::new(words).unwrap().validity().torque_error);
             assert!(error < before, "more bytes, and no less error");
             before = error;
-            // Asked for that error, it is there; for a little less, it is not.
+            // The stated error can be reached; a slightly smaller one cannot.
             let bytes = bytes.to_string();
             let exact = format!("{} N m", error * (1.0 + 1e-6));
             of(&bytes, &["--torque-error", &exact]).0.ends(0);
@@ -61,7 +61,7 @@ fn the_layout_is_the_fastest_the_smallest_or_the_most_exact() {
         export_of(&press_file(), &more, None).ends(0).json()
     };
     for number in ["f32", "i32"] {
-        // By instructions, if an error is asked for: the smallest of those within a tenth of the fastest.
+        // With a given error, by instructions: the smallest of those within a tenth of the fastest.
         let asked = ["--type", number, "--torque-error", "0.5 N m"];
         let value = json(&asked);
         let least = |value: &serde_json::Value, name: &str, most: f64| {
@@ -80,13 +80,13 @@ fn the_layout_is_the_fastest_the_smallest_or_the_most_exact() {
             value["image_bytes"].as_f64(),
             Some(least(&value, "image_bytes", most))
         );
-        // By bytes, if they are limited.
+        // With a limit in bytes, by bytes.
         let value = json(&[&asked[..], &["--max-bytes", "100000"]].concat());
         assert_eq!(
             value["image_bytes"].as_f64(),
             Some(least(&value, "image_bytes", f64::INFINITY))
         );
-        // By error, if only bytes are.
+        // With only a limit in bytes, by error.
         let value = json(&["--type", number, "--max-bytes", "2000"]);
         let all = value["alternatives"].as_array().unwrap().iter();
         let own = all.filter(|a| a["type"] == number);
@@ -95,8 +95,8 @@ fn the_layout_is_the_fastest_the_smallest_or_the_most_exact() {
     }
 }
 
-/// The press that tables are compared with: λ = 0.25, J = J₀ + m·x′² with max/min 5.25, the weight of the slider. At full
-/// speed and acceleration its torque is largest; errors are shares of that.
+/// The press for comparing tables: λ = 0.25, J = J₀ + m·x′² with max/min 5.25, the weight of the slider. Its torque is largest at full speed and
+/// acceleration; errors are shares of it.
 const COMPARED: &str = r#"
 title = "Slider-crank, lambda 0.25"
 gravity = ["-9.81 m/s^2", "0 m/s^2"]
@@ -115,7 +115,7 @@ inertia = "0 kg m^2"
 mass = "4 kg"
 "#;
 
-/// Number type, error as a share of the largest torque, and the most bytes that the rows of the smallest table may take.
+/// Number type, error as a share of the largest torque, and the limit in bytes for the rows of the smallest table.
 const SIZES: [(&str, f64, u64); 5] = [
     ("f32", 1e-3, 256),  // 216
     ("f32", 1e-4, 480),  // 424

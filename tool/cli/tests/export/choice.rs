@@ -1,4 +1,4 @@
-//! Which layout is taken: one of the fastest on the core, as benches/ceilings.txt has them.
+//! Choice of the layout: one of the fastest on the core, by benches/ceilings.txt.
 
 use serde_json::Value;
 
@@ -11,7 +11,7 @@ fn chosen(file: &str, more: &[&str]) -> Value {
     export_of(&file, &more, None).ends(0).json()
 }
 
-/// The figures of the file, found anew.
+/// The figures, read from the file again.
 fn ceiling(core: &str, name: &str) -> u64 {
     let text = include_str!("../../../../benches/ceilings.txt");
     let line = text
@@ -25,8 +25,8 @@ fn ceiling(core: &str, name: &str) -> u64 {
         .unwrap()
 }
 
-/// A slider-crank without loads over a part of the turn gets a table, which takes fewer instructions than its closed form, and the form
-/// if it is asked for, or for fewer bytes.
+/// A slider-crank without loads over a part of the turn gets a table, which takes fewer instructions than its closed form; it gets the form on
+/// request, or for fewer bytes.
 #[test]
 fn a_bare_slider_crank_gets_the_faster_table() {
     let asked = ["--torque-error", "0.1 N m"];

@@ -1,4 +1,4 @@
-//! A slider-crank in closed form: chosen, loaded, ticked; and refused where there is none.
+//! A slider-crank in closed form: selected, loaded, ticked; refused if there is no such form.
 
 use jred::slider_crank::terms;
 use jred::{Image, ImageError, Phase, Reducible as _, Set, SliderCrankForm, Spline, curves};
@@ -46,7 +46,7 @@ fn a_plain_slider_crank_is_taken_as_its_form() {
             |phase, omega: f32, alpha| model.torque(phase, omega, alpha),
             |phase, omega, torque| model.acceleration(phase, omega, torque),
         );
-        // Roundings are at random: between 16,381 places there may be a larger one.
+        // Roundings are random: between 16,381 positions there may be a larger one.
         assert!(
             torque <= 1.5 * stated && torque > stated / 4.0,
             "{torque} of {stated}"
@@ -59,13 +59,13 @@ fn a_plain_slider_crank_is_taken_as_its_form() {
             Err(ImageError::Layout(7))
         ));
     }
-    // Below the floor of single precision no table is better, and the floor is named.
+    // No table is more accurate than single precision; the message names that floor.
     let run = export_of(&path, &["--torque-error", "1e-7 N m"], None).ends(1);
     run.says(&[
         "slider-crank: 12 coefficients reach ",
         "the rounding floor of f32",
     ]);
-    // A table, if it is asked for; in fixed point there is no form.
+    // A table on request; in fixed point there is no form.
     for (kind, layout) in [
         (["--layout", "spline"], "f32, layout spline"),
         (["--type", "i32"], "i32, layout "),
@@ -77,7 +77,7 @@ fn a_plain_slider_crank_is_taken_as_its_form() {
     }
 }
 
-/// The source text in Rust is compiled here.
+/// The Rust source is compiled here.
 #[test]
 fn the_rust_file_of_a_form_is_a_program() {
     let folder = Folder::new();
@@ -102,7 +102,7 @@ fn the_rust_file_of_a_form_is_a_program() {
     assert!((f64::from(found) - exact.total()).abs() < 2e-5, "{found}");
 }
 
-/// In C a form with a family of its own has its functions, another those for any set.
+/// In C a form with its own family has its functions, others those for any set.
 #[test]
 fn the_c_file_names_the_functions_of_the_form() {
     let folder = Folder::new();
@@ -169,7 +169,7 @@ fn what_has_no_form_is_refused_with_its_reason() {
     let run = export_of(&file(sprung), &asked, None).ends(2);
     println!("{}", run.message());
     run.says(&["\"return\" is a spring or a damper", "--layout harmonic"]);
-    // Of single precision only, and of a whole turn.
+    // Single precision and a full turn only.
     let path = shipped("shaking-feeder.toml");
     let number = export_of(&path, &[&asked[..], &["--type", "i32"]].concat(), None);
     number
@@ -179,14 +179,14 @@ fn what_has_no_form_is_refused_with_its_reason() {
     pieces
         .ends(2)
         .says(&["a closed form describes a whole turn"]);
-    // As long as the root has its digits: (25 + 108)/140 = 0.95.
+    // While the root keeps its digits: (25 + 108)/140 = 0.95.
     for (offset, ends) in [("107 mm", 0), ("109 mm", 1)] {
         let steep = feeder.replace("offset = \"20 mm\"", &format!("offset = \"{offset}\""));
         let run = export_of(&file(steep.clone()), &asked, None).ends(ends);
         if ends == 1 {
             run.says(&["the rod is too short for the closed form", "use a table"]);
         }
-        // Without --layout there is a table then.
+        // Without --layout a table is written.
         export_of(&file(steep), &asked[2..], None).ends(0);
     }
     // Too few bytes.
@@ -196,7 +196,7 @@ fn what_has_no_form_is_refused_with_its_reason() {
     export_of(&path, &more, None).ends(0);
 }
 
-/// What the summary says of instructions, and the table beside it, is no less than what the document has, and no tenth more.
+/// Instruction counts in the summary, of form and table, are at least those of the document and at most a tenth more.
 #[test]
 fn instructions_are_those_of_the_document() {
     let document = include_str!("../../../../docs/performance.md");

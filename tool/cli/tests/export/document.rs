@@ -9,7 +9,7 @@ use super::reader::{Read, Reader};
 use super::{KINDS, image, images_of};
 use crate::support::{Folder, budget, shipped};
 
-/// The library's reading of the same image at these places.
+/// The library's values of the same image at these positions.
 fn library(words: &[u32], kind: (&str, &str), places: &[u32]) -> Vec<Read> {
     let image = Image::new(words).unwrap();
     match kind {
@@ -87,7 +87,7 @@ fn compare(words: &[u32], kind: (&str, &str)) {
         ("i32", _) => budget::DOCUMENT_I32,
         _ => budget::DOCUMENT_I16,
     };
-    // Units of fixed point are those of the bases, however small a curve is.
+    // Units of fixed point follow from the bases, even for a small curve.
     let fixed = f64::from(u8::from(kind.0 != "f32"));
     let [torque, speed, inertia] = [7, 8, 9].map(|word| fixed * reader.float(word));
     let per_position = f64::from(reader.words[4]) / reader.range();
@@ -131,7 +131,7 @@ fn the_document_gives_the_curves_of_every_type_and_layout() {
     }
 }
 
-/// Strokes, and friction that is a curve, a constant, or both kinds.
+/// Strokes, and friction as a curve, a constant, or both.
 #[test]
 fn the_document_gives_the_curves_of_other_machines() {
     for (machine, range) in [
@@ -146,7 +146,7 @@ fn the_document_gives_the_curves_of_other_machines() {
     }
 }
 
-/// The curve of 1/J is J_m/J: their product is the same power of two everywhere.
+/// The curve of 1/J is J_m/J: the product with J is the same power of two everywhere.
 #[test]
 fn the_reciprocal_is_a_power_of_two_over_the_inertia() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! What an export is written as: image, source text, JSON, and the words on the terminal.
+//! Forms of an export: image, source text, JSON, and the terminal.
 
 use jred::Image;
 
@@ -6,8 +6,7 @@ use super::{KINDS, export, export_of, image, press_table, words_of};
 use crate::support::skip::skip;
 use crate::support::{Folder, edited_press, press_file};
 
-/// The hexadecimal words of a source text.
-/// Those of the rows; the identifier of the machine stands alone before them.
+/// The hexadecimal words of the rows in a source text; the identifier of the machine before them is on a line of its own.
 fn words_in(source: &str) -> Vec<u32> {
     source
         .lines()
@@ -50,12 +49,12 @@ fn source_texts_hold_the_image() {
         let machine = format!("0x{:08x}", Image::new(&words).unwrap().machine());
         assert!(rust.contains(&format!("pub const MACHINE: u32 = {machine};")));
         assert!(c.contains(&format!("#define PRESS_MACHINE {machine}u")));
-        // Of the title; by its option it is any number.
+        // From the title; the option sets any number.
         assert_eq!(machine, "0x3d4c7e82");
         let given = image(&folder, &[&kind[..], &["--machine-id", "0x1A2b"]].concat());
         assert_eq!(Image::new(&given).unwrap().machine(), 0x1a2b);
         for text in [&rust, &c] {
-            // Outside the comment: a declaration, words, and a closing bracket; as many open as close.
+            // Outside comments: a declaration, words, and a closing bracket; brackets are balanced.
             let is_code = |line: &&str| !line.starts_with(['/', '#']);
             let code: String = text.lines().filter(is_code).collect();
             let count = |c: char| code.matches(c).count();
@@ -72,7 +71,7 @@ fn source_texts_hold_the_image() {
                 text.lines()
                     .all(|line| line.is_ascii() || line.starts_with("//"))
             );
-            // The comment says what to load it as.
+            // The comment names the type to load.
             assert!(text.contains(&format!("// {number}, layout {layout}, ")));
             let set = "{ curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }";
             let call = match (number, layout) {
@@ -90,7 +89,7 @@ fn source_texts_hold_the_image() {
     }
 }
 
-/// The source text in Rust is compiled here; of another type it would not be.
+/// The Rust source is compiled here; with another type it would not compile.
 #[test]
 fn the_rust_file_is_a_program() {
     let folder = Folder::new();
@@ -120,7 +119,7 @@ fn the_rust_file_is_a_program() {
     ));
 }
 
-/// A file of C is compiled as C and as C++, also where it is included twice; another one sees its names.
+/// A C file compiles as C and as C++, even if included twice; its names are visible to another file.
 #[cfg(unix)]
 #[test]
 fn the_c_file_is_c_and_cpp() {
@@ -169,7 +168,7 @@ fn the_c_file_is_c_and_cpp() {
                     .output();
                 let run = run.expect("a C compiler is what Rust links with");
                 let words = String::from_utf8_lossy(&run.stderr);
-                // A C compiler need not bring one for C++ along.
+                // A C compiler may come without one for C++.
                 if language == "c++" && words.contains("cc1plus") {
                     skip("a table in C was not compiled as C++: no C++ compiler");
                     continue;
@@ -180,7 +179,7 @@ fn the_c_file_is_c_and_cpp() {
     }
 }
 
-/// Compiles a program of C that includes these files, and returns what the compiler says if it fails.
+/// Compiles a C program that includes these files; returns the compiler's message on failure.
 #[cfg(unix)]
 fn compiled(folder: &Folder, files: &[&str]) -> Result<(), String> {
     let include = |file: &&str| format!("#include \"{file}\"\n");
@@ -207,7 +206,7 @@ fn compiled(folder: &Folder, files: &[&str]) -> Result<(), String> {
     }
 }
 
-/// Two tables in one program: by the names of their files, or by those that are given. Two of one name do not compile, whatever made them equal.
+/// Two tables in one program: named after their files, or by option. Two with the same name do not compile, for any reason of the clash.
 #[cfg(unix)]
 #[test]
 fn two_tables_of_one_name_do_not_compile() {
@@ -226,7 +225,7 @@ fn two_tables_of_one_name_do_not_compile() {
         ];
         export_of(file, &[&fixed[..], more].concat(), Some(&folder.path(out))).ends(0);
     };
-    // Machine files of one name, each in a folder of its own; two tables of one machine.
+    // Machine files with one name in two folders; two tables of one machine.
     let machine = folder.file(
         "machine.toml",
         std::fs::read_to_string(press_file()).unwrap(),
@@ -234,7 +233,7 @@ fn two_tables_of_one_name_do_not_compile() {
     write(&machine, "axis1.h", &[]);
     write(&four_bar, "axis2.h", &[]);
     write(&press_file(), "coarse.h", &["--layout", "cubic"]);
-    // Names in Chinese of equal length.
+    // Chinese names of equal length.
     write(&press_file(), "\u{51b2}\u{5e8a}.h", &[]);
     write(&four_bar, "\u{538b}\u{673a}.h", &[]);
     let all = [
@@ -250,7 +249,7 @@ fn two_tables_of_one_name_do_not_compile() {
     write(&press_file(), "press-1.h", &[]);
     write(&four_bar, "press_1.h", &[]);
     write(&four_bar, "four.h", &["--name", "axis1"]);
-    // The same machine and name, another layout.
+    // The same machine and name with another layout.
     write(
         &press_file(),
         "other.h",
@@ -268,7 +267,7 @@ fn two_tables_of_one_name_do_not_compile() {
         let words = compiled(&folder, &files).unwrap_err();
         assert!(words.contains(&says), "{files:?}: {words}");
     }
-    // A name tells them apart; the same table twice is one.
+    // A name makes them distinct; the same table twice is one.
     write(&four_bar, "press_1.h", &["--name", "bar"]);
     assert_eq!(
         compiled(&folder, &["press-1.h", "press_1.h", "press-1.h"]),
@@ -297,7 +296,7 @@ fn a_name_that_is_no_word_is_refused_with_one_that_is() {
     named("press", "image")
         .ends(2)
         .says(&["--format image has no names", "remove --name"]);
-    // In Rust a module: two tables in one file.
+    // In Rust the name is a module: two tables in one file.
     named("press", "rust").ends(0);
     let text = std::fs::read_to_string(&out).unwrap();
     assert!(
@@ -308,7 +307,7 @@ fn a_name_that_is_no_word_is_refused_with_one_that_is() {
     );
 }
 
-/// A title goes into a comment, and must not leave it.
+/// A title in a comment cannot end the comment.
 #[test]
 fn a_title_stays_in_its_comment() {
     let folder = Folder::new();
@@ -322,7 +321,7 @@ fn a_title_stays_in_its_comment() {
         Some(&out),
     );
     if run.code == 2 {
-        return; // Refused as a title: just as good.
+        return; // Refusing the title is just as good.
     }
     let source = std::fs::read_to_string(out).unwrap();
     for line in source.lines() {
@@ -365,7 +364,7 @@ fn json_says_everything() {
         let base = value["scale"][name].as_f64().unwrap();
         assert_eq!(base as f32, f32::from_bits(words[word]), "{name}");
     }
-    // Headroom: the parts of the sum add up to it in each cell, so that the sum of the largest is not below it.
+    // Headroom: the parts of the sum add up to it in each cell, so the sum of the largest parts is not below it.
     let share = |name: &str| 0.5f64.powf(value["bits_unused"][name].as_f64().unwrap());
     let parts = ["inertia", "velocity", "load", "viscous", "coulomb"].map(share);
     assert!(
@@ -402,7 +401,7 @@ fn without_a_file_nothing_is_written() {
         });
         assert!(row, "{number} {layout} is not in\n{}", run.out);
     }
-    // Bits unused are those of fixed point.
+    // Unused bits exist in fixed point only.
     assert!(!run.out.contains("unused bits"));
     let fixed = export_of(
         &press_file(),

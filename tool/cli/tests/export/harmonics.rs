@@ -1,4 +1,4 @@
-//! Harmonics: exported, loaded, ticked; and refused where a table is needed.
+//! Harmonics: exported, loaded, ticked; refused if a table is needed.
 
 use jred::harmonic::terms;
 use jred::{Harmonic, Image, ImageError, Phase, Reducible as _, Set, Spline, curves};
@@ -7,7 +7,7 @@ use super::images::{machine, random};
 use super::{export, export_of, number_after, words_of};
 use crate::support::{Folder, budget, press_file, shipped};
 
-/// The press without its pressing force, whose edges need a table.
+/// The press without its pressing force, whose steep edges need a table.
 fn smooth(folder: &Folder) -> std::path::PathBuf {
     let text = std::fs::read_to_string(press_file()).unwrap();
     let (before, rest) = text.split_once("# Pressing force").unwrap();
@@ -16,7 +16,7 @@ fn smooth(folder: &Folder) -> std::path::PathBuf {
     folder.file("smooth.toml", format!("{before}[[load]]{after}"))
 }
 
-/// J is even, the weight's load and the friction F·x′ odd.
+/// J is even; the load of the weight and the friction F·x′ are odd.
 const SET: Set = curves::LOAD
     | curves::COULOMB
     | curves::CONSTANT_VISCOUS
@@ -115,7 +115,7 @@ fn the_most_exact_harmonics_for_their_bytes() {
     }
 }
 
-/// Coefficients can be found for any error, but ticks in single precision have a floor.
+/// Coefficients reach any error, but ticks in single precision have a floor.
 #[test]
 fn the_floor_of_single_precision_is_named() {
     let folder = Folder::new();
@@ -138,7 +138,7 @@ fn what_has_an_edge_or_a_stroke_is_refused() {
     export_of(&stroke, &arguments, None)
         .ends(1)
         .says(&["stroke", "use a table"]);
-    // Of single precision only.
+    // Single precision only.
     let (run, _) = export(&folder, &[&harmonic[..], &["--type", "i32"]].concat());
     run.ends(2).says(&["i32 tables have no layout harmonic"]);
 }

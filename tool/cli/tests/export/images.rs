@@ -1,4 +1,4 @@
-//! Every exported type and layout, loaded and ticked as firmware does it, against the exact reduction.
+//! Every exported type and layout, loaded and ticked like in firmware, against the exact reduction.
 
 use jred::number::{Number, Quantity};
 use jred::table::Format;
@@ -31,8 +31,7 @@ pub(super) fn machine(file: &MachineFile) -> jred::Machine<AnyMechanism> {
     file.with_drive_train().unwrap()
 }
 
-/// The largest errors of torque (N·m) and, times J, of the acceleration that it gives, at random states; `spread` makes a phase
-/// of a number from 0 to 1.
+/// The largest errors of torque (N·m), and of acceleration times J, at random states; `spread` maps a number from 0 to 1 to a phase.
 pub(super) fn errors<N: Number>(
     machine: &jred::Machine<AnyMechanism>,
     image: &Image<'_>,
@@ -66,7 +65,7 @@ pub(super) fn errors<N: Number>(
         let drive = quantity::<N::Torque>(expected.total() / torque_base);
         let back = acceleration(phase, omega, drive);
         if back.saturated {
-            continue; // Only 16 bits may: their base is that of the range itself.
+            continue; // 16 bits only: their base is that of the range itself.
         }
         let expected = exact.acceleration(speed, value(drive) * torque_base);
         let off = (value(back.value) * acceleration_base - expected).abs();
@@ -75,7 +74,7 @@ pub(super) fn errors<N: Number>(
     worst
 }
 
-/// The nearest in machine units.
+/// The nearest value in machine units.
 fn quantity<Q: Quantity>(value: f64) -> Q {
     Q::of(Q::Number::from_f64(value).unwrap())
 }
@@ -149,9 +148,9 @@ fn every_type_and_layout_holds_its_error() {
             );
             let most = stated * (1.0 + budget::BETWEEN_PLACES);
             assert!(torque <= most, "{number} {layout}: {torque} above {stated}");
-            // The statement is not idle.
+            // The stated error is not excessive.
             assert!(torque > stated / 4.0, "{torque} far below {stated}");
-            // J·δα is the torque's error, but for that of J itself.
+            // J·δα is the torque error, up to the error of J itself.
             assert!(
                 acceleration <= most,
                 "{number} {layout}: {acceleration} above {stated}"
@@ -160,7 +159,7 @@ fn every_type_and_layout_holds_its_error() {
                 assert!(image.cells() > before, "a smaller error needs more cells");
                 before = image.cells();
             }
-            // What is printed is what the header says.
+            // The printed error is that of the header.
             let printed = number_after(&run.out, "torque error reached ");
             assert!(
                 (printed / stated - 1.0).abs() < 1e-5,
@@ -176,7 +175,7 @@ fn every_type_and_layout_holds_its_error() {
     }
 }
 
-/// The same of every machine there is, with whatever curves and range it has: the torque made of the table's curves.
+/// The same for every example machine, with its own curves and range: the torque from the table's curves.
 #[test]
 fn every_machine_holds_its_error() {
     let folder = Folder::new();
@@ -190,7 +189,7 @@ fn every_machine_holds_its_error() {
     let mut checked = 0;
     for (k, path) in files.iter().enumerate() {
         let file = jred_machine::read::read(path).unwrap();
-        // What goes by the motion is in no table.
+        // Parts that follow the motion are in no table.
         if file.variator.is_some() || file.scheduled().next().is_some() {
             continue;
         }
@@ -224,7 +223,7 @@ fn every_machine_holds_its_error() {
     assert!(checked >= 20, "{checked}");
 }
 
-/// The largest torque error at random states, the torque summed in double precision from the table's curves.
+/// The largest torque error at random states; the torque is summed in double precision from the table's curves.
 fn of_curves(image: &Image<'_>, file: &MachineFile, kind: (&str, &str)) -> f64 {
     let machine = machine(file);
     let domain = machine.domain();
@@ -300,7 +299,7 @@ fn no_smaller_table_would_do() {
     }
 }
 
-/// Loads the words and ticks them once; an error wherever it is noticed.
+/// Loads the words and ticks once; returns an error wherever it is detected.
 fn load(words: &[u32]) -> Result<f32, ImageError> {
     let image = Image::new(words)?;
     let model = image.model::<Spline<f32>, SET>()?;
@@ -328,7 +327,7 @@ fn a_damaged_file_is_refused() {
         flipped[bit / 32] ^= 1 << (bit % 32);
         assert!(load(&flipped).is_err(), "bit {bit}");
     }
-    // Bytes that do not lie on words.
+    // Bytes that are not aligned to words.
     let mut padded = vec![0u32; words.len() + 1];
     let shifted: &mut [u8] = bytemuck::cast_slice_mut(&mut padded);
     shifted[1..=whole.len()].copy_from_slice(whole);
@@ -337,7 +336,7 @@ fn a_damaged_file_is_refused() {
     Image::from_bytes(whole).unwrap();
     let error = Image::from_bytes(&whole[..whole.len() - 1]).unwrap_err();
     assert_eq!(error, ImageError::Misaligned);
-    // Another number type, layout or set is refused, not misread.
+    // Another number type, layout or set is refused.
     let image = Image::new(&words).unwrap();
     assert!(matches!(
         image.model::<Spline<Q31>, SET>(),
@@ -357,7 +356,7 @@ fn a_damaged_file_is_refused() {
     ));
 }
 
-/// Rotor and gearbox of 0.01 kg m² in front of a belt of ratio 3 add 0.09 kg m² at the crank.
+/// Rotor and gearbox of 0.01 kg m² before a belt of ratio 3 add 0.09 kg m² at the crank.
 #[test]
 fn the_rotor_comes_into_the_table() {
     let folder = Folder::new();

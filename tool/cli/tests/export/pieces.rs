@@ -1,4 +1,4 @@
-//! `jred export --pieces`: a table for each piece between the edges of loads, put together as firmware does it.
+//! `jred export --pieces`: a table for each piece between the edges of loads, assembled as in firmware.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ use crate::support::{Folder, Run, budget, edited_press, press_file, shipped};
 /// The curves of the press.
 const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// The press with a pressing force that sets in within half a degree.
+/// The press with a pressing force that rises within half a degree.
 fn steep(folder: &Folder) -> PathBuf {
     let text = edited_press("ramp = \"15 deg\"", "ramp = \"0.5 deg\"");
     folder.file("steep.toml", text)
@@ -36,7 +36,7 @@ fn exported(folder: &Folder, kind: (&str, &str), more: &[&str]) -> Run {
     export_of(&steep(folder), &[&arguments[..], more].concat(), None)
 }
 
-/// The tables of all types and layouts for 0.5 N m, cut at the edges of the loads.
+/// The tables of all types and layouts for 0.5 N m, split at the edges of the loads.
 fn searched(file: &MachineFile) -> Export {
     let task = Task {
         number: Number::F32,
@@ -59,7 +59,7 @@ fn searched(file: &MachineFile) -> Export {
 /// The phases at which pieces start, and their images.
 type Tables = Vec<(u32, Vec<u32>)>;
 
-/// As the command writes them.
+/// The tables as the command writes them.
 fn written(value: &serde_json::Value) -> Tables {
     let pieces = value["pieces"].as_array().unwrap().iter();
     pieces
@@ -67,7 +67,7 @@ fn written(value: &serde_json::Value) -> Tables {
         .collect()
 }
 
-/// The largest errors of four pieces, a quarter of the states in each of them, and close to both of its ends.
+/// The largest errors of four pieces, with a quarter of the states in each, many close to its ends.
 fn errors_of<F: Format>(file: &MachineFile, tables: &Tables) -> [f64; 2] {
     let image = |k: usize| Image::new(&tables[k].1).unwrap();
     let start = |k: usize| tables[k % 4].0;
@@ -142,7 +142,7 @@ fn pieces_of_every_type_and_layout_hold_their_error() {
     assert_eq!(export.answers.len(), KINDS.len());
 }
 
-/// A single table needs as many cells as the steep edge asks for, all over the turn.
+/// A single table needs the cell size of the steep edge over the whole turn.
 #[test]
 fn pieces_take_a_fraction_of_one_table() {
     let folder = Folder::new();
@@ -153,12 +153,12 @@ fn pieces_take_a_fraction_of_one_table() {
     };
     let (one, four) = (bytes(&[]), bytes(&["--pieces", "auto"]));
     assert!(four > 500 && 30 * four < one, "{four} and {one} bytes");
-    // Named by hand, in another order and turn, they are the same.
+    // Given by hand, in another order and turn, the edges are the same.
     let named = bytes(&["--pieces", "-45 deg, 720 deg, 359.5 deg, 315.5 deg"]);
     assert_eq!(named, four);
 }
 
-/// Firmware finds a piece by phases of whole units, to which such edges must be rounded.
+/// Firmware selects a piece by integer phases, to which such edges must be rounded.
 #[test]
 fn steep_edges_that_are_no_whole_phases_hold_their_error() {
     let folder = Folder::new();
@@ -190,11 +190,11 @@ fn steep_edges_that_are_no_whole_phases_hold_their_error() {
     );
 }
 
-/// A turn with one edge is one piece that begins there, and a stroke with its ends alone is not cut.
+/// A turn with one edge is one piece that starts there; a stroke with only its ends is not split.
 #[test]
 fn a_single_piece_begins_at_its_edge() {
     let folder = Folder::new();
-    // Where a turn from the edge on is rounded up, and where not.
+    // With the turn from the edge rounded up, and not.
     for degrees in [60, 104] {
         let edge = format!("{degrees} deg");
         let arguments = [
@@ -265,7 +265,7 @@ fn a_single_piece_begins_at_its_edge() {
     assert!(export_of(&gripper, &ends, None).ends(0).json()["words"].is_array());
 }
 
-/// A stroke is cut inside, from its start to its end.
+/// A stroke is split inside, from its start to its end.
 #[test]
 fn a_stroke_in_pieces_holds_its_error() {
     let gripper = shipped("linear-gripper.toml");
@@ -320,7 +320,7 @@ fn a_stroke_in_pieces_holds_its_error() {
     );
 }
 
-/// A load between two of the places at which curves and machine units are chosen, in every number type.
+/// A load between two of the positions from which curves and machine units are chosen, in every number type.
 #[test]
 fn a_narrow_load_has_its_curve_and_its_units() {
     let folder = Folder::new();
@@ -353,7 +353,7 @@ fn a_narrow_load_has_its_curve_and_its_units() {
     assert!(!run.message().contains("rounding floor"));
 }
 
-/// What is in the repository is compiled with this test.
+/// The source in the repository is compiled with this test.
 #[test]
 fn the_source_text_is_a_program() {
     let folder = Folder::new();

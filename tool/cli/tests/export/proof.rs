@@ -1,4 +1,4 @@
-//! `jred export --prove`: what it prints, writes and ends with.
+//! `jred export --prove`: output, files and exit codes.
 
 use jred::Image;
 use serde_json::Value;
@@ -60,7 +60,7 @@ fn what_is_not_proven_is_named_and_ends_with_1() {
     );
 }
 
-/// The best table of so many bytes meets its own estimate; its proven error, with the roundings of all ticks, is larger.
+/// The best table of a given size meets its own estimate; its proven error, with the roundings of all ticks, is larger.
 #[test]
 fn a_proven_error_above_the_one_allowed_ends_with_1() {
     let table = ["--type", "i16", "--layout", "rows", "--max-bytes", "2000"];

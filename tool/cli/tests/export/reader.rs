@@ -1,8 +1,8 @@
-//! A reader of images written from docs/table-image.md alone: it knows nothing of the library but that page.
+//! A reader of images written from docs/table-image.md alone, without the library.
 
 use std::f64::consts::TAU;
 
-/// An image, taken apart.
+/// A parsed image.
 pub(super) struct Reader {
     pub(super) words: Vec<u32>,
 }

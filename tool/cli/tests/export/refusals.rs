@@ -1,9 +1,9 @@
-//! What `jred export` says when there is no table, word by word.
+//! Messages of `jred export` without a table, verbatim.
 
 use super::{export_of, number_after};
 use crate::support::{Folder, edited_press, press_file, shipped};
 
-/// What goes by the motion is in no table over the position.
+/// Parts that follow the motion cannot be in a table over the position.
 #[test]
 fn what_goes_by_the_motion_is_refused() {
     let lift = shipped("pick-and-place.toml");
@@ -14,7 +14,7 @@ fn what_goes_by_the_motion_is_refused() {
     ]);
 }
 
-/// A table too coarse for its machine is a request that cannot be met, and says how many cells meet it; the machine is sound.
+/// A request that the table is too coarse for fails with the number of cells that meets it; the machine is valid.
 #[test]
 fn a_table_too_coarse_names_the_cells() {
     let coarse = [
@@ -50,7 +50,7 @@ fn a_table_too_coarse_names_the_cells() {
             "in the table, not in the machine",
             "use --max-cells ",
         ]);
-        // So many cells make a table.
+        // That number of cells gives a table.
         let message = run.message();
         let cells = message.split_once("use --max-cells ").unwrap().1;
         let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
@@ -92,7 +92,7 @@ fn too_few_cells_name_the_load_and_the_cures() {
         "or a longer ramp of the load \"pressing force\" in the machine file",
     ]);
     assert!(run.out.is_empty());
-    // The number of cells that is named is enough.
+    // The number of cells in the message is sufficient.
     let message = run.message();
     let cells = message.split_once("--max-cells ").unwrap().1;
     let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
@@ -107,7 +107,7 @@ fn too_few_cells_name_the_load_and_the_cures() {
     export_of(&press_file(), &more, None).ends(0);
 }
 
-/// A ramp makes the kink: with a longer one the same number of cells does.
+/// A ramp causes the bend: with a longer one the same number of cells is sufficient.
 #[test]
 fn the_ramp_is_a_cure() {
     let folder = Folder::new();
@@ -138,7 +138,7 @@ fn the_floor_of_single_precision_is_named_with_what_is_below_it() {
         "increase the allowed error",
         "or give a smaller range with --omega and --alpha",
     ]);
-    // 16 bits end far above; what the message offers does it.
+    // 16 bits fail by far; the cure in the message works.
     let more = ["--torque-error", "0.02 N m", "--type", "i16"];
     let run = export_of(&press_file(), &more, None).ends(1);
     run.says(&[
@@ -280,7 +280,7 @@ fn a_layout_that_the_type_has_not() {
     }
 }
 
-/// A drive link that slides has forces and speeds in m/s.
+/// A sliding drive link has forces and speeds in m/s.
 #[test]
 fn quantities_of_a_link_that_slides() {
     let hoist = shipped("excavator-bucket.toml");
@@ -302,7 +302,7 @@ fn quantities_of_a_link_that_slides() {
     run.ends(2).says(&["--alpha \"3 m/s^2\" cannot be used"]);
 }
 
-/// A load of a thousandth of a degree, which none of the even places meets: the table misses all of it, and says so.
+/// A load over a thousandth of a degree between all even positions: the error includes it, and the message reports it.
 #[test]
 fn a_narrow_load_is_not_stepped_over() {
     let folder = Folder::new();
@@ -318,11 +318,11 @@ fn a_narrow_load_is_not_stepped_over() {
         "the largest error is at φ = 300.0005 deg: the load \"pressing force\"",
         "or a longer ramp of the load \"pressing force\"",
     ]);
-    // Twice the height of the load is an error that every table meets.
+    // With an allowed error of twice the load's height every table is accepted.
     let run = export_of(&file, &["--torque-error", "300 N m"], None).ends(0);
     let reached = number_after(&run.out, "torque error reached ");
     assert!((280.0..300.0).contains(&reached), "{reached}");
-    // A ramp that no table can tell from a jump is refused where it is written.
+    // A ramp too steep for any table is refused in the machine file.
     let steeper = folder.file(
         "steeper.toml",
         text.replace("0.0004999995 deg", "0.0003 deg"),
@@ -393,7 +393,7 @@ fn pieces_that_are_not_possible() {
         &both,
         &["harmonics describe a whole turn", "remove --pieces"],
     );
-    // Machine units of i32 go with the width of a cell, of which these pieces have none in common.
+    // The machine units of i32 depend on the width of a cell; these pieces have none in common.
     let irrational = ["--type", "i32", "--pieces", "0 deg, 0.0582492235949962 deg"];
     refused(
         &press,

@@ -3,8 +3,8 @@
 use super::{PRESS_DRIVE, run};
 use crate::support::{Folder, edited, press_file};
 
-/// Torque rates that ask for a motion many times as long as the fastest one, the smaller one behind the larger: each is found, kept, and takes
-/// longer. One test for each machine, so that they run beside each other.
+/// Torque rates whose motion takes many times as long as the fastest one, in falling order: each is found, satisfied, and takes longer. One test per
+/// machine, so that they run in parallel.
 fn found_at(machine: &str, drive: &str, rates: [&str; 2]) {
     let file = format!(
         "{}/../../machines/{machine}.toml",
@@ -56,7 +56,7 @@ fn small_torque_rates_of_a_cam_are_found() {
     );
 }
 
-/// The force in a joint that `fastest` limits is the one that `reduce --reactions` finds in the motion that it wrote.
+/// The joint force that `fastest` limits is that of `reduce --reactions` for the written motion.
 #[test]
 fn a_limited_force_is_that_of_the_reactions() {
     let folder = Folder::new();
@@ -113,7 +113,7 @@ fn a_limited_force_is_that_of_the_reactions() {
     }
 }
 
-/// Where a guide turns round its friction does, too: the largest force is that of the side on which the motion is.
+/// Where a guide reverses, its friction does, too: the largest force is that of the motion's side.
 #[test]
 fn the_largest_force_has_the_friction_of_its_own_side() {
     let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -139,7 +139,7 @@ fn the_largest_force_has_the_friction_of_its_own_side() {
     );
 }
 
-/// A limit that is satisfied by far lags behind where the torque bends; at this RMS torque that once stopped the search.
+/// A limit that is far from active lags where the torque has a bend; with this RMS torque that once stopped the search.
 #[test]
 fn a_limit_far_away_does_not_stop_the_search() {
     let press = press_file();

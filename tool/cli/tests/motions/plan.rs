@@ -1,9 +1,9 @@
-//! A motion that was made as the plan that firmware follows.
+//! A computed motion as a plan for firmware.
 
 use super::run;
 use crate::support::{Folder, press_text};
 
-/// Firmware that follows the plan is where the motion is, within what the plan says of itself; as Rust source it has the same words, and the identifier of the table.
+/// Firmware that follows the plan matches the motion within the stated errors; the Rust source has the same words, and the identifier of the table.
 #[test]
 fn a_plan_is_the_motion() {
     let folder = Folder::new();
@@ -62,7 +62,7 @@ fn a_plan_is_the_motion() {
             .map(|rest| u32::from_str_radix(&rest[..8], 16).unwrap());
         assert_eq!(hexadecimal.collect::<Vec<_>>(), words);
     }
-    // Every ending of C and C++, small or capital, has the same text.
+    // Every C and C++ extension, in any case, gives the same text.
     for ending in ["hh", "hpp", "hxx", "c", "cc", "cpp", "CPP", "cxx"] {
         let other = folder.path(&format!("press_plan.{ending}"));
         fastest(&other, "table");
@@ -101,13 +101,13 @@ fn a_plan_is_the_motion() {
             "{t}: {speed_error:e}"
         );
         let error = (f64::from(place.motion.alpha) - acceleration).abs();
-        // An instant may lie on a corner.
+        // An instant may be on a corner.
         beyond += usize::from(error > 1.05 * f64::from(errors.acceleration) + 1e-3);
     }
     assert!(beyond <= 2, "{beyond}");
 }
 
-/// An error that is no share is refused; one that whole numbers cannot keep is said.
+/// An error that is not a share is refused; one that the integers cannot keep is reported.
 #[test]
 fn the_error_of_a_plan_is_looked_at() {
     let folder = Folder::new();
@@ -119,7 +119,7 @@ fn the_error_of_a_plan_is_looked_at() {
         run(&arguments).ends(2).says(&[says]);
     };
     refused(&["--plan-error", "1 %"], "--plan");
-    // Finer than whole numbers: it is written, and says so.
+    // Finer than the integers: written, with a warning.
     run(&[
         "fastest",
         press,
@@ -134,7 +134,7 @@ fn the_error_of_a_plan_is_looked_at() {
     ])
     .ends(0)
     .says(&[
-        "warning: the plan's acceleration is off by",
+        "warning: the error of the plan's acceleration is",
         "but --plan-error allows",
         "give a larger --plan-error",
     ]);
@@ -144,7 +144,7 @@ fn the_error_of_a_plan_is_looked_at() {
     );
 }
 
-/// An ending that says nothing of the form of a plan is refused before anything is computed.
+/// An unknown extension is refused before anything is computed.
 #[test]
 fn a_plan_has_a_known_ending() {
     let folder = Folder::new();

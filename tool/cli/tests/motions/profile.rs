@@ -1,11 +1,11 @@
-//! A motion that was made stands in a profile, which the other commands read, and beside the drives that it suits.
+//! A computed motion in a profile, which the other commands read, and with the drives for which it was made.
 
 use serde_json::Value;
 
 use super::{PRESS_DRIVE, run};
 use crate::support::{Folder, edited, press_text};
 
-/// The press, which rests for 1.5 s after each stroke.
+/// The press with a rest of 1.5 s after each stroke.
 fn rested() -> String {
     edited(&press_text(), "dwell = \"0.1 s\"", "dwell = \"1.5 s\"")
 }
@@ -132,7 +132,7 @@ fn an_axis_is_spoken_of_in_its_own_words() {
     assert!(listed.contains("x = 0 mm to x = 600 mm"), "{listed}");
 }
 
-/// A profile of the drive link under a [motion] of the tool: the cure is named.
+/// A profile of the drive link with a [motion] of the tool: the cure is named.
 #[test]
 fn a_profile_of_the_drive_link_does_not_go_with_a_motion_of_the_tool() {
     let folder = Folder::new();
@@ -156,7 +156,7 @@ fn a_profile_of_the_drive_link_does_not_go_with_a_motion_of_the_tool() {
         .says(&["positions of the drive link", "remove `of` from [motion]"]);
 }
 
-/// The drive that the motion is made for is the first of the list, and every drive that was tried stands with its own motion and what that saves.
+/// The drive that the motion is made for is first in the list; every tried drive is listed with its own motion and the saving.
 #[test]
 fn the_motion_is_that_of_the_first_drive() {
     let folder = Folder::new();
@@ -205,8 +205,8 @@ fn the_motion_is_that_of_the_first_drive() {
     );
 }
 
-/// A table that indexes 3,900 times an hour: with --reserve rules the motion keeps T2B at the shock factor of its own rate, T2N as cubic mean and the S1 torque, and `jred size` accepts
-/// it with the same drive. What is not asked for is named, with what keeps it.
+/// A table that indexes 3,900 times an hour: with --reserve rules the motion satisfies T2B at the shock factor of its own rate, T2N as cubic mean and
+/// the S1 torque, and `jred size` accepts it with the same drive. Limits that were not requested are named, with their options.
 #[test]
 fn size_accepts_a_gearbox_with_shock_factors() {
     let home = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../support/engineer");
@@ -259,7 +259,7 @@ fn size_accepts_a_gearbox_with_shock_factors() {
     let judged = folder.file("judged.toml", edited(&text, &text[begin..end], motion));
     let sized = run(&[&["size", judged.to_str().unwrap()][..], &drive].concat());
     sized.ends(0);
-    // A lift of the same torque all day: without --max-rms the RMS torque is named.
+    // A lift with continuous load: without --max-rms the RMS torque is named.
     let busy = folder.file(
         "busy.toml",
         edited(&text, "dwell = \"0.6 s\"", "dwell = \"0.01 s\""),
@@ -275,7 +275,7 @@ fn size_accepts_a_gearbox_with_shock_factors() {
     }
 }
 
-/// Without a largest speed the torque alone limits a move from rest to rest; a motion that turns for ever needs one.
+/// Without a largest speed only the torque limits a move from rest to rest; an endless motion needs a largest speed.
 #[test]
 fn a_torque_without_a_speed() {
     let folder = Folder::new();
@@ -288,7 +288,7 @@ fn a_torque_without_a_speed() {
         &["--from", "0 deg", "--to", "360 deg", "--format", "json"],
     ]
     .concat());
-    // 10 rad/s^2 over half of the way and back.
+    // 10 rad/s² over the first half, and back.
     let time = made.ends(0).json()["duration"].as_f64().unwrap();
     let expected = 2.0 * (std::f64::consts::TAU / 10.0).sqrt();
     assert!((time / expected - 1.0).abs() < 1e-9, "{time} {expected}");

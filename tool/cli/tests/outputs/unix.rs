@@ -1,4 +1,4 @@
-//! Links, owners, devices and pipes, as Unix has them.
+//! Links, owners, devices and pipes on Unix.
 
 use std::io::Read as _;
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt, symlink};
@@ -21,7 +21,7 @@ fn export_to(out: &Path) -> crate::support::Run {
     )
 }
 
-/// The new file is complete before it takes the place of the old one; permissions and links stay.
+/// The new file is complete before it replaces the old one; permissions and links stay.
 #[test]
 fn a_file_is_replaced_at_once() {
     let folder = Folder::new();
@@ -38,7 +38,7 @@ fn a_file_is_replaced_at_once() {
     assert_eq!(new.permissions().mode() & 0o777, 0o640);
     assert_ne!(new.ino(), kept.metadata().unwrap().ino());
     assert!(std::fs::read(&old).unwrap().starts_with(b"JRED"));
-    // A link that leads to no file yet.
+    // A dangling link.
     symlink("new.jred", folder.path("dangling")).unwrap();
     export_to(&folder.path("dangling")).ends(0);
     assert!(folder.path("new.jred").is_file());
@@ -46,7 +46,7 @@ fn a_file_is_replaced_at_once() {
     assert_eq!(names.count(), 5, "nothing is left behind");
 }
 
-/// Two outputs are two files: neither a symbolic link, to a file or to nothing yet, nor a hard link makes them one.
+/// Two outputs must be two files: symbolic links, also dangling ones, and hard links are followed.
 #[test]
 fn two_outputs_are_two_files() {
     let folder = Folder::new();
@@ -75,7 +75,7 @@ fn two_outputs_are_two_files() {
     assert_eq!(std::fs::read(&page).unwrap(), b"old");
 }
 
-/// A page that user 65534 writes over `old`, in a folder with `mode`; others write as themselves.
+/// Writes a report in a folder with `mode`, as user 65534 if the test runs as root; returns exit code and message.
 fn page_of_another_user(folder: &Folder, mode: u32) -> (i32, String) {
     let permit = |path: &Path, mode| {
         std::fs::set_permissions(path, PermissionsExt::from_mode(mode)).unwrap();
@@ -101,13 +101,13 @@ fn page_of_another_user(folder: &Folder, mode: u32) -> (i32, String) {
     (run.status.code().unwrap(), error)
 }
 
-/// A file keeps its owner: root gives the new one to the owner of the old; who may not do that writes into the old one.
+/// A file keeps its owner: root gives the new file to the owner of the old one; other users overwrite the old file in place.
 #[test]
 fn a_file_keeps_its_owner() {
     let folder = Folder::new();
     let old = folder.file("r.html", "old".repeat(1 << 20));
     if old.metadata().unwrap().uid() != 0 {
-        return; // Only root can give files away.
+        return; // Only root can change owners.
     }
     let owned = || {
         let file = old.metadata().unwrap();
@@ -129,7 +129,7 @@ fn a_file_keeps_its_owner() {
     assert_eq!(names.count(), 3, "nothing is left behind");
 }
 
-/// Where the folder must not be written, the message names it, and the old file stays.
+/// If the folder is not writable, the message names it, and the old file stays.
 #[test]
 fn the_folder_of_an_output_is_named() {
     let folder = Folder::new();
@@ -144,7 +144,7 @@ fn the_folder_of_an_output_is_named() {
     assert_eq!(std::fs::read(&old).unwrap(), b"old");
 }
 
-/// A full disk, here a limit on the size of files, leaves the old file and nothing else.
+/// A full disk, simulated by a limit on file size, leaves the old file and nothing else.
 #[test]
 fn a_full_disk_leaves_the_old_file() {
     let folder = Folder::new();
@@ -185,7 +185,7 @@ fn devices_are_written_directly() {
     export_to(Path::new("/dev/null")).ends(0);
 }
 
-/// What stdout is redirected to is no output file as well: the result would be lost.
+/// The file that stdout is redirected to is refused as an output: the result would be lost.
 #[test]
 fn the_file_behind_stdout_is_refused() {
     let folder = Folder::new();
@@ -202,7 +202,7 @@ fn the_file_behind_stdout_is_refused() {
     assert!(error.contains("stdout is redirected"), "{error}");
 }
 
-/// Every reader gives up what does not end: a device at its limit in bytes, a pipe that nobody writes after some seconds.
+/// Every reader stops at inputs without end: a device at its limit in bytes, a pipe without a writer after some seconds.
 #[test]
 fn what_does_not_end_is_given_up() {
     let folder = Folder::new();
@@ -264,7 +264,7 @@ fn what_does_not_end_is_given_up() {
     }
 }
 
-/// What comes from a pipe that ends is read.
+/// A pipe that ends is read.
 #[test]
 fn a_machine_may_come_from_a_pipe() {
     let run = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
@@ -280,7 +280,7 @@ fn a_machine_may_come_from_a_pipe() {
     );
 }
 
-/// A message that cannot be written is dropped: the exit code and the outputs stay.
+/// A message that cannot be written is dropped: exit code and outputs are unaffected.
 #[test]
 fn a_message_that_nobody_reads_is_dropped() {
     let folder = Folder::new();
@@ -307,7 +307,7 @@ fn a_message_that_nobody_reads_is_dropped() {
     for stderr in [Stdio::from(full()), closed()] {
         assert_eq!(run(&["check", "nosuch.toml"], stderr), Some(2));
     }
-    // It warns, and its report is written.
+    // It prints a warning and writes its report.
     let page = folder.path("page.html");
     let press = press_file();
     let arguments = [
@@ -324,7 +324,7 @@ fn a_message_that_nobody_reads_is_dropped() {
     assert!(page.is_file());
 }
 
-/// `jred reduce F >> F` leaves F as it is.
+/// `jred reduce F >> F` leaves F unchanged.
 #[test]
 fn an_input_is_not_appended_to() {
     let folder = Folder::new();
@@ -352,7 +352,7 @@ fn an_input_is_not_appended_to() {
     }
 }
 
-/// A pipe that nobody reads is given up.
+/// Writing to a pipe without a reader stops after some seconds.
 #[test]
 fn a_pipe_without_a_reader_is_given_up() {
     let folder = Folder::new();

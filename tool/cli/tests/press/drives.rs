@@ -72,7 +72,7 @@ impl AtMotor {
     }
 }
 
-/// What docs/sizing-rules.md says about a motor's limits.
+/// Limits of a motor by docs/sizing-rules.md.
 struct Limits {
     rated: f64,
     rated_speed: f64,
@@ -151,7 +151,7 @@ fn check_drive(drive: &Value, motor: &Row, gearbox: Option<&Row>, tolerances: [f
     }
     let checks = drive["checks"].as_array().unwrap();
     if gearbox.is_some() {
-        // A cycle of half a second, where T2B is for up to 1000 an hour.
+        // A cycle of half a second, where T2B is valid up to 1000 cycles an hour.
         let cycles = checks
             .iter()
             .find(|c| c["rule"] == "gearbox cycles")
@@ -166,7 +166,7 @@ fn check_drive(drive: &Value, motor: &Row, gearbox: Option<&Row>, tolerances: [f
         let what = format!("{name}: {rule}");
         near(&what, check["value"].as_f64().unwrap(), value, share);
         match limit {
-            // The peak's limit moves with the instant at which the duty comes closest.
+            // The peak's limit changes with the instant at which the duty is closest to it.
             Some(limit) => near(&what, check["limit"].as_f64().unwrap(), limit, share),
             None => assert!(check["limit"].is_null(), "{what}"),
         }
@@ -239,7 +239,7 @@ fn motor_rules(
         ),
         ("inertia ratio", largest(&seen.lambda), Some(10.0), peak),
     ];
-    // Beyond the largest speed there is no torque at all, and any point there is as far out as any other.
+    // Above the largest speed there is no torque, and all points there are equally far beyond.
     if fastest <= limits.max_speed {
         let points = seen.torque.iter().zip(&seen.speed);
         let used = points.map(|(t, n)| (t.abs(), limits.short_time(n.abs())));
@@ -261,7 +261,7 @@ fn the_drives() {
     let answer = size("2000", None, None);
     let fit = answer["fit"].as_array().unwrap();
     let refused = answer["refused"].as_array().unwrap();
-    // The best one, the others that fit now and then, and a sample of what is refused.
+    // The best one, every ninth of the other suitable ones, and a sample of the refused ones.
     let some = fit.iter().step_by(9).chain(refused.iter().step_by(81));
     let mut direct = 0;
     for drive in some {

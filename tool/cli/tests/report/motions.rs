@@ -21,7 +21,7 @@ fn page(arguments: &[&str]) -> String {
     page
 }
 
-/// The phase plane names every limit that binds, in a colour of its own, and the speeds that cannot be passed.
+/// The phase plane names every active limit, in a colour of its own, and the speeds that cannot be exceeded.
 #[test]
 fn the_phase_plane_names_the_limits() {
     let page = page(&[
@@ -52,14 +52,14 @@ fn the_phase_plane_names_the_limits() {
     }
     assert!(!plane.contains("motor torque (braking)"));
     assert!(plane.contains("largest speed"));
-    // A key and a curve each.
+    // A legend key and a curve each.
     for colour in ["#0072B2", "#D55E00", "#009E73", "#CC79A7"] {
         assert!(plane.matches(colour).count() >= 2, "{colour}");
     }
     assert!(page.contains("without the acceleration limit"));
 }
 
-/// The gentlest motion stands beside that of the file and the laws.
+/// The gentlest motion is shown with that of the file and the laws.
 #[test]
 fn the_gentlest_motion_stands_beside_the_laws() {
     let page = page(&["retime"]);

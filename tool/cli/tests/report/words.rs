@@ -1,4 +1,4 @@
-//! Words and looks of a report: units of the motor's kind, axes, curves that end, colours.
+//! Texts and style of a report: units of the motor's kind, axes, clipped curves, colours.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak
 own-m,linear,Own,M,140,3,150,450,4,1.8,invented
 ";
 
-/// A linear motor has forces and masses; the words of a turning one are nowhere on its page.
+/// A linear motor has forces and masses; terms of rotation do not occur on its page.
 #[test]
 fn a_page_of_a_linear_motor_speaks_of_masses() {
     let folder = Folder::new();
@@ -39,7 +39,7 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
         }
     }
     let shown = page.split("<script").next().unwrap();
-    // Names of the machine file and sources of rules stay as they are.
+    // Names of the machine file and sources of rules are unchanged.
     let shown = shown.split("Rules and their sources").next().unwrap();
     for line in plain(shown).lines().chain(run.out.lines()) {
         for word in ["nertia", "orque", "rotor"] {
@@ -51,8 +51,8 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
     assert!(page.contains("m_red varies") && !page.contains("J_red varies"));
 }
 
-/// A slide that a turning motor drives through a screw: the drive link has newtons and metres per second, the motor newton metres
-/// and revolutions. The largest speed is that of a modified sine, 1.75960 times the mean: 80 mm in 0.15 s.
+/// A slide driven by a rotary motor through a screw: the drive link has newtons and metres per second, the motor newton metres and revolutions. The
+/// largest speed is that of a modified sine, 1.75960 times the mean: 80 mm in 0.15 s.
 #[test]
 fn a_slide_behind_a_screw_has_its_own_units() {
     let folder = Folder::new();
@@ -71,7 +71,7 @@ fn a_slide_behind_a_screw_has_its_own_units() {
     let force = answer["drive link force [N]"]["max"].as_f64().unwrap();
     assert!(answer.get("drive link speed [rad/s]").is_none());
     assert!(answer.get("drive link torque [N m]").is_none());
-    // The input makes a turn for each lead.
+    // The input makes one turn per lead.
     let input = answer["input speed [rad/s]"]["max"].as_f64().unwrap();
     within(
         "input",
@@ -98,8 +98,7 @@ fn a_slide_behind_a_screw_has_its_own_units() {
     assert!(page.contains("Parts of the reduced force"));
 }
 
-/// A plain number's axis has no empty brackets; a curve that leaves the chart is explained below it; no two curves of a chart
-/// look alike.
+/// An axis without a unit has no empty brackets; a curve that leaves the chart is explained below it; all curves of a chart differ in style.
 #[test]
 fn charts_explain_themselves() {
     let folder = Folder::new();
@@ -128,7 +127,7 @@ fn charts_explain_themselves() {
             );
         }
     }
-    // The script passes over points that do not lie to the right of the one before.
+    // The script skips points that are not to the right of the previous one.
     for chart in charts.iter().filter(|c| c["form"] != "plane") {
         for series in chart["series"].as_array().unwrap() {
             let x: Vec<f64> = series["x"]

@@ -1,4 +1,4 @@
-//! What the tests of the command share: the packages' own support, and the command itself.
+//! Shared by the tests of the command: the packages' own support, and the command itself.
 #![allow(dead_code)]
 
 pub(crate) mod json;
@@ -12,7 +12,7 @@ use serde_json::Value;
 
 pub(crate) use shared::*;
 
-/// What an invocation of `jred` gave.
+/// Output of a run of `jred`.
 pub(crate) struct Run {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -36,7 +36,7 @@ pub(crate) fn jred_in(folder: &std::path::Path, arguments: &[impl AsRef<std::ffi
     command
         .current_dir(folder)
         .env("NO_COLOR", "1")
-        // How long a command takes is nobody's message.
+        // Progress lines are not part of the messages.
         .env("JRED_PROGRESS", "never")
         .env_remove("CLICOLOR_FORCE")
         .env_remove("FORCE_COLOR");
@@ -55,7 +55,7 @@ pub(crate) fn jred_in(folder: &std::path::Path, arguments: &[impl AsRef<std::ffi
     run
 }
 
-/// A listing without its columns: each line with single spaces.
+/// A listing with single spaces between columns.
 pub(crate) fn squeezed(text: &str) -> String {
     let lines = text.lines();
     let lines = lines.map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ") + "\n");
@@ -73,13 +73,13 @@ impl Run {
         self
     }
 
-    /// The message without line breaks, bars and indentation, so that words can be looked up in it.
+    /// The message without line breaks, bars and indentation, for searching.
     pub(crate) fn message(&self) -> String {
         let mut message = String::new();
         for line in self.err.lines() {
             let words = line.split_whitespace().filter(|word| *word != "│");
             for (k, word) in words.enumerate() {
-                // Long lines, whose length goes with that of the file's path, are broken behind hyphens as well.
+                // Lines whose length depends on the file's path are also broken after hyphens.
                 let broken = k == 0 && message.ends_with('-') && !message.ends_with(" -");
                 if !message.is_empty() && !broken {
                     message.push(' ');
@@ -90,7 +90,7 @@ impl Run {
         message
     }
 
-    /// Checks that the message holds every one of `words`, and no word was printed as a result.
+    /// Checks that the message contains all of `words`, and that nothing was printed as a result.
     pub(crate) fn says(&self, words: &[&str]) {
         let message = self.message();
         for word in words {
@@ -110,7 +110,7 @@ impl Run {
 
 /// The machine files of `machines/` that can be sized with the built-in catalogue.
 pub(crate) fn sizeable_machines() -> Vec<std::path::PathBuf> {
-    // No drive of the catalogue slides, and no ratio over the time can be sized.
+    // The catalogue has no linear drive, and a time-dependent ratio cannot be sized.
     let refused = ["linear-gripper.toml", "variator-press.toml"];
     let files = std::fs::read_dir(shipped("")).unwrap();
     let files = files.map(|entry| entry.unwrap().path());

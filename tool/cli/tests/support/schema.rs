@@ -17,7 +17,7 @@ pub(crate) static VALIDATORS: LazyLock<Vec<(&str, Validator)>> = LazyLock::new(|
     .collect()
 });
 
-/// The faults of an answer against the schema of the form that it names.
+/// The schema violations of an answer, by the schema that it names.
 pub(crate) fn faults(answer: &Value) -> Vec<String> {
     let form = answer["schema"].as_str();
     let Some((_, validator)) = VALIDATORS.iter().find(|(name, _)| Some(*name) == form) else {

@@ -1,4 +1,4 @@
-//! Files of rows: shares, merging, continuing, threads, clusters.
+//! Files of rows: shares, merging, resuming, threads, clusters.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -40,7 +40,7 @@ fn read(folder: &Folder, name: &str) -> String {
     std::fs::read_to_string(folder.path(name)).unwrap()
 }
 
-/// Shares put together are the file of one run, byte by byte, in CSV and in JSON; missing and doubled rows are found.
+/// Merged shares equal the file of one run, byte by byte, in CSV and JSON; missing and duplicate rows are reported.
 #[test]
 fn shares_merge_to_the_whole() {
     for format in ["csv", "json"] {
@@ -73,7 +73,7 @@ fn shares_merge_to_the_whole() {
             .says(&["already exists"]);
         assert!(!again.exists() && !folder.path("again.part").exists());
 
-        // A share that was cut off in its last row.
+        // A share that was cut off within its last row.
         let text = read(&folder, "part-1");
         folder.file("part-1", &text[..text.len() - 9]);
         jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
@@ -107,13 +107,13 @@ fn shares_of_other_studies_are_refused() {
     run.says(&["is not a file of rows"]);
 }
 
-/// Wherever a run was cut off, continuing it gives the file of an undisturbed run.
+/// Resuming a run that was cut off anywhere gives the file of an uninterrupted run.
 #[test]
 fn a_run_that_was_cut_off_is_continued() {
     let folder = Folder::new();
     assert_eq!(study(&folder, "whole", &[]).0, 0);
     let whole = read(&folder, "whole");
-    // Nothing yet, inside the header, after it, inside a row, at the end of a row, all.
+    // Empty, inside the header, after it, inside a row, at the end of a row, complete.
     let header = whole.find('\n').unwrap();
     for length in [
         0,
@@ -128,13 +128,13 @@ fn a_run_that_was_cut_off_is_continued() {
         folder.file("cut", &whole[..length]);
         let (code, message) = study(&folder, "cut", &["--resume"]);
         if length == 20 {
-            // What is no header might be a file of somebody else's.
+            // A file without a valid header may belong to somebody else.
             assert_eq!(code, 0, "{message}");
         }
         assert_eq!(code, 0, "{length}: {message}");
         assert_eq!(read(&folder, "cut"), whole, "cut at {length}");
     }
-    // A file that is not there yet is begun.
+    // A missing file is started.
     assert_eq!(study(&folder, "new", &["--resume"]).0, 0);
     assert_eq!(read(&folder, "new"), whole);
     // Without --resume nothing is overwritten.
@@ -154,7 +154,7 @@ fn a_run_that_was_cut_off_is_continued() {
     assert_eq!(read(&folder, "new"), whole);
 }
 
-/// The row with one digit, in its middle, that became the next.
+/// The row with one digit in its middle incremented.
 fn flipped(row: &str) -> String {
     let place = row.len() / 2
         + row[row.len() / 2..]
@@ -164,7 +164,7 @@ fn flipped(row: &str) -> String {
     format!("{}{}{}", &row[..place], (digit + 1) % 10, &row[place + 1..])
 }
 
-/// Damage in the middle of a file is no row, whatever it looks like: nothing is taken over from it, and the file stays.
+/// Damage in the middle of a file makes its line invalid: nothing is taken over, and the file stays.
 #[test]
 fn damage_in_the_middle_is_named() {
     for format in ["csv", "json"] {
@@ -207,7 +207,7 @@ fn damage_in_the_middle_is_named() {
     }
 }
 
-/// Bytes that are no text are named with their line, too, and the file stays.
+/// Bytes that are not UTF-8 are reported with their line, and the file stays.
 #[test]
 fn bytes_that_are_no_text_are_named() {
     let folder = Folder::new();
@@ -224,7 +224,7 @@ fn bytes_that_are_no_text_are_named() {
     assert_eq!(std::fs::read(folder.path("hurt")).unwrap(), bytes);
 }
 
-/// No file begins behind a link, and the message does not recommend what fails as well.
+/// No file is started behind a dangling link, and the message does not recommend an option that fails, too.
 #[cfg(unix)]
 #[test]
 fn a_link_that_leads_nowhere_is_named() {
@@ -234,15 +234,14 @@ fn a_link_that_leads_nowhere_is_named() {
         let (code, message) = study(&folder, "link", more);
         assert_eq!(code, 2);
         assert!(
-            message.contains("link is a symbolic link that leads nowhere")
-                && !message.contains("--resume"),
+            message.contains("link is a dangling symbolic link") && !message.contains("--resume"),
             "{message}"
         );
     }
     assert!(!folder.path("rows.csv").exists());
 }
 
-/// The number of threads does not change a byte.
+/// The number of threads does not change the output.
 #[test]
 fn rows_do_not_depend_on_threads() {
     let folder = Folder::new();
@@ -284,7 +283,7 @@ fn cluster(mut command: Command, folder: &Folder, environment: &[(&str, String)]
     );
 }
 
-/// The scripts of machines/cluster, run as a cluster would run their tasks, merge to the file of one run.
+/// The scripts of machines/cluster, run as a cluster would, merge to the file of one run.
 #[test]
 #[cfg_attr(not(unix), ignore = "the scripts are for a Unix shell")]
 fn scripts_for_clusters() {

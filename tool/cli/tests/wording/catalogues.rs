@@ -1,4 +1,4 @@
-//! What is said of faults in catalogues.
+//! Messages about faults in catalogues.
 
 use std::fmt::Write as _;
 
@@ -29,7 +29,7 @@ fn faults(name: &str, catalogues: &[&[(&str, String)]]) {
             "--top",
             "0",
         ]);
-        // What is said; not the listing, where the catalogue can be used.
+        // The message without the listing, where the catalogue can be used.
         let said = message
             .split_once("--- stderr\n")
             .map_or("nothing\n", |(_, said)| said);
@@ -167,7 +167,7 @@ fn gearboxes_and_lists() {
     faults("catalogue-gearboxes", &catalogues);
 }
 
-/// Figures that can hardly be right are used, with a warning.
+/// Implausible figures are used, with a warning.
 #[test]
 fn implausible_figures() {
     let motors = format!(

@@ -29,7 +29,7 @@ fn help_of_every_command() {
     }
 }
 
-/// A command that is added must be added above.
+/// Every command must be in the list above.
 #[test]
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;

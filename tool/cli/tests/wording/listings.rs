@@ -1,4 +1,4 @@
-//! What the commands about a machine itself print: tables as a whole, and of all commands the heads of CSV and JSON.
+//! Output of the commands about a machine: full tables, and the heads of CSV and JSON of all commands.
 
 use super::{Desk, compare};
 
@@ -170,7 +170,7 @@ fn export() {
     );
 }
 
-/// The first lines of CSV, and of JSON the keys.
+/// The first lines of CSV, and the keys of JSON.
 #[test]
 fn csv_and_json() {
     let desk = Desk::new().with_machines(&["press.toml", "variator-press.toml"]);
@@ -216,7 +216,7 @@ fn csv_and_json() {
     compare("csv-and-json", &text);
 }
 
-/// The keys of objects in their order; of a list those of its first entry.
+/// The keys of objects in order; for a list those of its first entry.
 fn keys(value: &serde_json::Value, indent: &str, text: &mut String) {
     match value {
         serde_json::Value::Object(object) => {

@@ -1,4 +1,4 @@
-//! What is said of mistakes in machine files.
+//! Messages about mistakes in machine files.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! What is said of mistakes in mechanisms, linkages and tables in machine files.
+//! Messages about mistakes in mechanisms, linkages and tables in machine files.
 
 use super::machine_files::mistakes;
 

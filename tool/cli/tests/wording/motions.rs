@@ -1,8 +1,8 @@
-//! What the commands that follow a motion, or make one, print.
+//! Output of the commands that follow or compute a motion.
 
 use super::{Desk, compare};
 
-/// A screw that is not switched off before it comes to the end of its stroke.
+/// A screw that reaches the end of its stroke before it is switched off.
 const SCREW: &str = r#"title = "spindle"
 gravity = { inclination = "0 deg" }
 [mechanism]
@@ -150,7 +150,7 @@ fn steady() {
     );
 }
 
-/// Moves of a motion with a drive of the catalogue, a single move with plain limits, and the ways that cannot be gone.
+/// Moves of a motion with a drive of the catalogue, a single move with plain limits, and impossible moves.
 #[test]
 fn fastest() {
     let desk = Desk::new().with_machines(&[
@@ -241,7 +241,7 @@ fn fastest() {
     );
 }
 
-/// A press that is slow through the work, and what is no limit of a tool.
+/// A press that is slow through the work, and invalid limits of a tool.
 #[test]
 fn slow_through_the_work() {
     let desk = Desk::new().with_machines(&["press.toml"]);
@@ -285,8 +285,8 @@ fn slow_through_the_work() {
     );
 }
 
-/// On an axis in mm the part of the way is in mm or in degrees, either end first; a named drive and all options are in answer and page; limits in
-/// capitals; a motion that turns for ever holds no end.
+/// On an axis in mm the range is in mm or in degrees, either end first; a named drive and all options are in answer and page; limits may be in
+/// capitals; an endless motion has no end to hold.
 #[test]
 fn fastest_says_what_was_asked() {
     let press = Desk::machine("press.toml");
@@ -368,7 +368,7 @@ fn fastest_within_the_force_of_a_joint() {
     );
 }
 
-/// A motor of whose temperatures nothing is known, one of which all is, in other letters than the catalogue's.
+/// A motor without thermal data, and one with all, named in another case than the catalogue's.
 #[test]
 fn fastest_with_a_warm_winding() {
     let cat = include_str!("../../../../examples/data/thermal-drive.toml");

@@ -1,4 +1,4 @@
-//! What is said of wrong or contradictory options, and of files that cannot be read or written.
+//! Messages about wrong or contradictory options, and about files that cannot be read or written.
 
 use super::{Desk, compare};
 

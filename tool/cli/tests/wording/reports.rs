@@ -2,14 +2,14 @@
 
 use super::{Desk, compare};
 
-/// What a reader of the page reads, a line for each element.
+/// The visible text of the page, one line per element.
 fn read(html: &str) -> String {
     let mut text = String::new();
     let mut rest = html;
     while let Some(start) = rest.find('<') {
         text += &rest[..start];
         rest = &rest[start..];
-        // What is not read: rules of layout, programs, drawings.
+        // Hidden parts: styles, scripts, drawings.
         let hidden = ["style", "script", "svg"]
             .into_iter()
             .find(|tag| rest[1..].starts_with(tag));
@@ -34,7 +34,7 @@ fn read(html: &str) -> String {
         rest = &rest[after..];
     }
     text += rest;
-    // Rows of tables stand on one line.
+    // Rows of tables are on one line.
     let text = text.replace(" | \n", " | ");
     let lines: Vec<&str> = text
         .lines()

@@ -1,4 +1,4 @@
-//! What the commands that judge drives print: size, ratio, bus, vary, sensitivity, tolerance.
+//! Output of the commands that judge drives: size, ratio, bus, vary, sensitivity, tolerance.
 
 use super::listings::{press, sized};
 use super::{Desk, compare};
@@ -65,7 +65,7 @@ fn size() {
     );
 }
 
-/// Linear motors: force for torque, mass for inertia.
+/// Linear motors: force instead of torque, mass instead of inertia.
 #[test]
 fn size_linear() {
     let motors = "key,kind,maker,model,rated_force [N],rated_speed [m/s],peak_force [N],max_speed [m/s],moving_mass [kg],\
@@ -85,7 +85,7 @@ fn size_linear() {
     );
 }
 
-/// Winding data, thermal resistances and an amplifier: the rules that small catalogues leave open.
+/// Winding data, thermal resistances and an amplifier: for the rules that small catalogues leave unchecked.
 #[test]
 fn size_with_every_figure() {
     let motors = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],max_speed [rpm],rotor_inertia [kg cm^2],\
@@ -113,7 +113,7 @@ fn size_with_every_figure() {
     );
 }
 
-/// Motors and amplifiers of several voltages on one mains, and on none.
+/// Motors and amplifiers of several voltages with and without a mains voltage.
 #[test]
 fn size_by_voltage() {
     let motors = "key,maker,model,rated_torque [N m],rated_speed [rpm],max_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],rated_current [A rms],\

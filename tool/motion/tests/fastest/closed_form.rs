@@ -4,7 +4,7 @@ use jred_motion::fastest::{Binding, Limits};
 
 use super::{close, fastest, motor, table, task};
 
-/// The aim; what is left is rounding.
+/// Target accuracy; the remainder is rounding.
 const EXACT: f64 = 1e-10;
 
 #[test]
@@ -38,7 +38,7 @@ fn dry_friction() {
     close(found.time, top / 4.0 + top / 6.0, EXACT);
 }
 
-/// Limits of the drive link, each of which binds, and ends in motion.
+/// Limits of the drive link, each of which is active, and end speeds other than zero.
 #[test]
 fn limits_of_speed_and_acceleration_between_speeds() {
     let file = table(2.0, "");
@@ -77,7 +77,7 @@ fn a_falling_torque_and_viscous_friction() {
         let kappa = ((torque - end) / speed + viscous) / inertia;
         let alpha = torque / inertia;
         let (beta, gamma) = (alpha, (viscous - (torque - end) / speed) / inertia);
-        // Time and way of driving up to a speed, and of braking from it.
+        // Time and distance of driving up to a speed, and of braking from it.
         let up = |v: f64| {
             let t = -(-kappa * v / alpha).ln_1p() / kappa;
             (t, (alpha * t - v) / kappa)
@@ -86,7 +86,7 @@ fn a_falling_torque_and_viscous_friction() {
             let t = (gamma * v / beta).ln_1p() / gamma;
             (t, (v - beta * t) / gamma)
         };
-        // For small speeds both ways are differences of nearly equal numbers: then the series.
+        // For small speeds both distances are differences of nearly equal numbers: use the series.
         let way = |v: f64| {
             if v < 1e-2 {
                 let series = |a: f64, k: f64| {

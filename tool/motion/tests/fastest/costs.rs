@@ -1,4 +1,4 @@
-//! What limits cost, and what a reserve leaves.
+//! Cost of limits, and figures left by a reserve.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use jred_sizing::motor::envelope::Envelope;
 
 use super::{close, motor, table, task};
 
-/// With a tenth more motor speed the gearbox turns no faster: behind a motor of 3000 rpm a gearbox of 3050 rpm leaves a sixtieth.
+/// A tenth more motor speed does not raise the gearbox's limit: with a motor of 3000 rpm a gearbox of 3050 rpm leaves a sixtieth.
 #[test]
 fn more_motor_speed_is_not_more_gearbox_speed() {
     let file = table(0.5, "");
@@ -30,7 +30,7 @@ fn more_motor_speed_is_not_more_gearbox_speed() {
     let cost = (made.costs.iter())
         .find(|cost| cost.limit == Binding::MotorSpeed)
         .unwrap();
-    // A ramp at 40 rad/s² up and down, and the rest at the speed of the gearbox.
+    // A ramp at 40 rad/s² up and down, the rest at the gearbox's limit.
     let top = 3050.0 * rpm;
     close(cost.time, 4000.0 / top + top / 40.0, 1e-9);
     // Without the gearbox a tenth more speed.
@@ -40,7 +40,7 @@ fn more_motor_speed_is_not_more_gearbox_speed() {
     close(free.moves[0].costs[1].time, 4000.0 / top + top / 40.0, 1e-9);
 }
 
-/// A stretched envelope is the one of a motor that is as much faster, of points.
+/// A stretched envelope of points equals that of a motor with proportionally higher speed.
 #[test]
 fn a_tenth_more_speed_is_a_faster_motor() {
     let file = table(0.5, "");
@@ -55,7 +55,7 @@ fn a_tenth_more_speed_is_a_faster_motor() {
     close(time(&file, &stretched, &asked).unwrap(), faster, 1e-12);
 }
 
-/// The RMS torque with a reserve stays a millionth below what the reserve leaves, as torque and speed do.
+/// The RMS torque with a reserve stays a millionth below the remaining share, as torque and speed do.
 #[test]
 fn the_rms_torque_stays_below_its_reserve() {
     let motor = Motor {
@@ -83,8 +83,8 @@ fn the_rms_torque_stays_below_its_reserve() {
     assert!((1.0 - share - 1e-6).abs() < 1e-12, "{share}");
 }
 
-/// Full torque T all the time, T = 30 N m over t: with a pause the time τ of a cycle satisfies T²·t = C²·τ, where the S1 torque
-/// C = 12 − 4·(40/τ)/300 is that of the mean speed with the pause: 144·τ² − (12.8 + T²·t)·τ + 0.64/2.25 = 0.
+/// Full torque T throughout, T = 30 N m over t: with a pause the cycle time τ satisfies T²·t = C²·τ, where the S1 torque C = 12 − 4·(40/τ)/300 is
+/// that of the mean speed including the pause: 144·τ² − (12.8 + T²·t)·τ + 0.64/2.25 = 0.
 #[test]
 fn the_pause_is_that_of_the_mean_speed_with_it() {
     let motor = Motor {

@@ -1,4 +1,4 @@
-//! Motions that go on for ever.
+//! Endless motions.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -20,7 +20,7 @@ fn turn(from: f64) -> Task {
     }
 }
 
-/// Of a constant inertia it is the largest speed that friction leaves: P − S·v/V = C + b·v.
+/// With constant inertia: the largest speed that friction permits, P − S·v/V = C + b·v.
 #[test]
 fn a_constant_inertia_turns_evenly() {
     let found = solve(&table(2.0, ""), &motor([10.0; 2], 7.0), &turn(0.3)).unwrap();
@@ -41,7 +41,7 @@ const CRANK: &str = "title = \"crank\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[m
     [mechanism.rod]\nlength = \"200 mm\"\nmass = \"0.1 kg\"\ninertia = \"0.0005 kg m^2\"\ncom = [\"100 mm\", \"0 mm\"]\n\
     [mechanism.slider]\nmass = \"2 kg\"\n";
 
-/// It comes round with the speed that it began with, wherever the turn is cut; it keeps its limits, and no start is faster.
+/// It ends with its initial speed, wherever the turn is cut; it keeps its limits, and no start is faster.
 #[test]
 fn a_crank_comes_round_with_its_speed() {
     let file = machine(CRANK);
@@ -69,12 +69,12 @@ fn a_crank_comes_round_with_its_speed() {
     for time in &times {
         close(*time, times[0], 1e-7);
     }
-    // Slower than the largest speed all the time, faster than a turn from rest to rest.
+    // Always below the largest speed, faster than a turn from rest to rest.
     assert!(times[0] > TAU / 60.0 * 1.001, "{times:?}");
     assert!(times[0] < fastest(&file, &motor, &task(0.0, TAU)).time);
 }
 
-/// With no speed limit of its own that matters, a torque limit alone lets a machine without friction be as fast as its motor turns.
+/// Without an effective speed limit, a torque limit alone lets a frictionless machine reach the motor's speed.
 #[test]
 fn limits_of_the_drive_link_hold() {
     let limits = Limits {
@@ -89,7 +89,7 @@ fn limits_of_the_drive_link_hold() {
     close(found.time, TAU / 5.0, 1e-9);
 }
 
-/// However heavy the machine is, and however many turns it would take to come to the speed that repeats itself: M = b·ω.
+/// For any inertia, and any number of turns to reach the periodic speed: M = b·ω.
 #[test]
 fn a_heavy_table_turns_as_a_light_one() {
     for inertia in [1.0, 60.0, 600.0] {
@@ -98,12 +98,12 @@ fn a_heavy_table_turns_as_a_light_one() {
             "[[load]]\non = \"table\"\nviscous_moment = \"0.1 N m s/rad\"\n",
         );
         let found = solve(&file, &motor([1.0; 2], 100.0), &turn(0.0)).unwrap();
-        // A turn changes the speed by a ten-thousandth of what it is off.
+        // A turn changes the speed by a ten-thousandth of its deviation.
         close(found.time, TAU / 10.0, 1e-5);
     }
 }
 
-/// Machines that come with jred: steps so short that rounding makes another acceleration are no excess.
+/// Example machines: steps so short that rounding dominates their acceleration do not count as excess.
 #[test]
 fn machines_go_on_for_ever() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
@@ -125,13 +125,14 @@ fn machines_go_on_for_ever() {
     }
 }
 
-/// Symmetric about its dead centres: what drives it from the one brakes it to the other.
+/// Symmetric about its dead centres: the load that drives it from one brakes it to the other.
 const SYMMETRIC: &str = "title = \"symmetric\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
     [mechanism.crank]\nlength = \"30 mm\"\nmass = \"9 kg\"\ninertia = \"0.018 kg m^2\"\ncom = [\"0 mm\", \"0 mm\"]\n\
     [mechanism.rod]\nlength = \"180 mm\"\nmass = \"0.5 kg\"\ninertia = \"0.003 kg m^2\"\ncom = [\"55 mm\", \"0 mm\"]\n\
     [mechanism.slider]\nmass = \"20 kg\"\n";
 
-/// Where driving meets braking in a dead centre, the turn comes round with the speed that driving reaches there, and no shred of driving is left behind it. Its plan has no row for one.
+/// If driving meets braking in a dead centre, the turn ends with the speed that driving reaches there, without a remaining fragment of driving. The
+/// plan has no row for a fragment.
 #[test]
 fn a_turn_begins_where_driving_meets_braking() {
     let file = machine(SYMMETRIC);
@@ -172,13 +173,14 @@ fn a_turn_begins_where_driving_meets_braking() {
     close(f64::from(plan.most[1]), largest, 2.0 * SHARE);
 }
 
-/// A steep machine, whose acceleration bends more between two nodes than rounding of their speeds does: finer cells keep its torque.
+/// A steep machine, whose acceleration between two nodes varies more than by rounding of their speeds: finer cells keep its torque.
 #[test]
 fn a_steep_turn_is_accurate() {
     let file = machine(SYMMETRIC);
     let found = solve(&file, &motor([10.0; 2], 314.159), &turn(0.0)).unwrap();
     assert!(found.excess <= 1e-9, "{:e}", found.excess);
-    // It has 3000 rpm in the dead centres, where its inertia is least. Left alone it would keep its energy from there; 10 N m make it a little faster.
+    // It has 3000 rpm in the dead centres, where its inertia is smallest. Without a drive it would keep its energy from there; 10 N m make it
+    // slightly faster.
     let way = Way::new(&file, motor([10.0; 2], 314.159), 1.0);
     let least = way.place(0.0).unwrap().inertia;
     let parts = 3600;
@@ -193,7 +195,7 @@ fn a_steep_turn_is_accurate() {
     assert!(found.time < free, "{} {free}", found.time);
 }
 
-/// Near the inner dead centre the force of the crank pin hardly depends on the acceleration, and what it leaves of the speed changes within a degree.
+/// Near the inner dead centre the force of the crank pin hardly depends on the acceleration, and its speed limit changes within a degree.
 #[test]
 fn a_pin_at_its_dead_centre() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/shaking-feeder.toml");

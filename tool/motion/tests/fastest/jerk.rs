@@ -13,16 +13,16 @@ use jred_sizing::cycle::form::Coefficients;
 use super::{close, motor, table, task};
 use crate::support::{press_file, shipped};
 
-/// What is left of the time where pieces meet the switching points.
+/// Relative error of the time where pieces meet the switching points.
 pub(super) const NEAR: f64 = 1e-6;
 
-/// Limits hold between the nodes.
+/// Limits are satisfied between the nodes.
 pub(super) const WITHIN: f64 = 1e-6;
 
-/// Last digits of two speeds in what the accelerations between them change by.
+/// Roundings of two speeds in the change of the acceleration between them.
 pub(super) const ROUNDING: f64 = 12.0 * f64::EPSILON;
 
-/// Speed, acceleration and way at a share of a step: the speed is the cubic through both speeds and accelerations.
+/// Speed, acceleration and distance at a share of a step: the speed is the cubic through both speeds and accelerations.
 pub(super) fn cubic(a: &Node, b: &Node, share: f64) -> [f64; 3] {
     let (s, h) = (share, b.step);
     let [rise, first, last] = [b.omega - a.omega, a.alpha[1] * h, b.alpha[0] * h];
@@ -82,7 +82,7 @@ pub(super) fn smooth(
         "{} below {bound}",
         found.time
     );
-    // The acceleration has no jumps, and its slope is within the limit at both ends of a step, between which it changes evenly.
+    // The acceleration has no jumps, and its slope, which is linear within a step, satisfies the limit at both ends.
     let jerk = asked.limits.jerk.unwrap_or(f64::INFINITY);
     for pair in nodes.windows(2) {
         let [a, b] = [pair[0], pair[1]];
@@ -157,8 +157,8 @@ fn from_one_speed_to_another() {
     close(found.time, rise + steady + fall, NEAR);
 }
 
-/// A lift: the torque that is left to drive and to brake is 40 and 120 N·m of 80, so the accelerations differ; the jerk is the same.
-/// v = a·(t − a/j), t = v/a + a/j for each half, and d = v·(t₁ + t₂)/2.
+/// A lift: the torque available to drive and to brake is 40 and 120 N·m of 80, so the accelerations differ; the jerk is the same. v = a·(t − a/j), t
+/// = v/a + a/j for each half, and d = v·(t₁ + t₂)/2.
 #[test]
 fn a_weight_leaves_different_accelerations() {
     let text = "title = \"lift\"\ngravity = [\"0 m/s^2\", \"-10 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n\
@@ -189,7 +189,7 @@ fn a_weight_leaves_different_accelerations() {
     close(found.time, 2.0 * 20.0 / low, NEAR);
 }
 
-/// The more jerk, the nearer to the motion without a limit, from above.
+/// A larger jerk brings the time closer to that without a limit, from above.
 #[test]
 fn a_press_comes_near_the_motion_without_a_limit() {
     let file = jred_machine::read::read(&press_file()).unwrap();
@@ -212,8 +212,8 @@ fn a_press_comes_near_the_motion_without_a_limit() {
     assert!(last < 1.01 * bound, "{last}, {bound}");
 }
 
-/// A large limit is hardly one: a ramp of the acceleration a takes a/j and costs a time of its own order, so the excess over the motion
-/// without a limit falls with 1/j. Of a constant inertia it is that of the seven segments.
+/// With a large jerk limit a ramp to the acceleration a takes a/j and costs a time of that order, so the excess over the motion without a limit falls
+/// with 1/j. With constant inertia the time is that of the seven segments.
 #[test]
 fn a_large_jerk_tends_to_the_motion_without_a_limit() {
     let file = table(2.0, "");
@@ -232,8 +232,7 @@ fn a_large_jerk_tends_to_the_motion_without_a_limit() {
     close(last, 3.0 / 2.0 + 2.0 / 4.0, NEAR);
 }
 
-/// The same of a press whose drive loses power in its belt, and of the rate of its torque: never slower with a larger limit, and at last as
-/// fast as without one.
+/// The same for a press with losses in its belt, and for the torque rate: never slower with a larger limit, and finally as fast as without one.
 #[test]
 fn larger_limits_of_a_press_are_faster() {
     let file = jred_machine::read::read(&press_file()).unwrap();
@@ -270,7 +269,7 @@ fn larger_limits_of_a_press_are_faster() {
     }
 }
 
-/// The tool is as slow as without the limit of the jerk, and the motion slower than with either alone.
+/// The tool is as slow as without the jerk limit, and the motion slower than with either alone.
 #[test]
 fn a_tool_speed_with_a_limited_jerk() {
     let file = jred_machine::read::read(&press_file()).unwrap();
@@ -299,14 +298,14 @@ fn a_tool_speed_with_a_limited_jerk() {
         "{} {one} {other}",
         both.time
     );
-    // The node at the beginning of the part, where the tool is fastest, belongs to it.
+    // The node at the start of the range, where the tool is fastest, belongs to it.
     let limit = |phi: f64| tool.at(mechanism, phi + 1e-9).unwrap();
     let share = |node: &Node| node.omega / limit(node.phi);
     let most = both.trace.nodes().iter().map(share).fold(0.0, f64::max);
     assert!((most - 1.0).abs() <= WITHIN, "{most}");
 }
 
-/// A press behind a gearbox, whose borders lie close together.
+/// A press with a gearbox, whose limits are close together.
 #[test]
 fn the_jerk_is_kept_inside_the_steps() {
     let file = jred_machine::read::read(&press_file()).unwrap();
@@ -328,7 +327,7 @@ fn the_jerk_is_kept_inside_the_steps() {
     }
 }
 
-/// Where torque and acceleration have the same limit, the phase is one.
+/// If torque and acceleration have the same limit, the phase has one name.
 #[test]
 fn a_phase_at_two_limits_is_one() {
     let file = table(1.0, "");
@@ -340,7 +339,7 @@ fn a_phase_at_two_limits_is_one() {
     assert_eq!(found.phases.len(), 7, "{:?}", found.phases);
 }
 
-/// Where a torque is in the way of a limited jerk, the jerk is among the cures.
+/// If torque obstructs a limited jerk, the jerk is among the cures.
 #[test]
 fn the_cure_names_the_jerk() {
     let path = shipped("eccentric-press.toml");
@@ -361,7 +360,7 @@ fn the_cure_names_the_jerk() {
     );
 }
 
-/// Too little way to slow down in: the message names the limit and the place.
+/// Too short a distance to slow down: the message names the limit and the position.
 #[test]
 fn what_is_in_the_way_is_named() {
     let file = table(2.0, "");
@@ -386,7 +385,7 @@ fn what_is_in_the_way_is_named() {
     );
 }
 
-/// Masses, lengths and times in other units: the time of the move is the same number of its unit.
+/// Masses, lengths and times in other units: the time of the move has the same numerical value.
 #[test]
 fn other_units_of_a_limited_jerk() {
     let expected = seven(3.0, 2.0, 4.0, 20.0);

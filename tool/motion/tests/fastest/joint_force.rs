@@ -8,10 +8,10 @@ use jred_motion::trace::Trace;
 
 use super::{close, fastest, machine, motor, task};
 
-/// ϖ: a quarter turn under an unbalanced mass takes ϖ/√k, half of it for each end.
+/// ϖ: a quarter turn with an unbalanced mass takes ϖ/√k, half of it for each end.
 const LEMNISCATE: f64 = 2.622_057_554_292_119;
 
-/// A crank with 2 kg at 0.3 m from its axis, which moves a yoke without mass; no weight.
+/// A crank with 2 kg at 0.3 m from its axis, which moves a massless yoke; no weight.
 fn unbalanced() -> MachineFile {
     machine(
         "title = \"crank\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"scotch-yoke\"\n\
@@ -19,7 +19,7 @@ fn unbalanced() -> MachineFile {
     )
 }
 
-/// A Scotch yoke of 50 mm without weight and friction, whose yoke is all that its pin moves.
+/// A Scotch yoke of 50 mm without weight and friction, whose pin moves only the yoke.
 fn yoke(more: &str) -> MachineFile {
     machine(&format!(
         "title = \"yoke\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"scotch-yoke\"\n\
@@ -65,7 +65,7 @@ fn largest(file: &MachineFile, found: &Fastest, name: &str) -> f64 {
     let joint = joint(file, name);
     let mut most = 0.0f64;
     for pair in found.trace.nodes().windows(2) {
-        // At the places themselves friction that turns round has the sign of the one side or of the other.
+        // At the nodes themselves reversing friction may have either sign.
         for share in [0.03, 0.1, 0.35, 0.6, 0.9, 0.97] {
             let state = pair[1].after(&pair[0], share);
             if (pair[1].phi - pair[0].phi).abs() < 1e-9 {
@@ -86,7 +86,7 @@ fn limits(found: &Fastest) -> Vec<Binding> {
     found.phases.iter().map(|phase| phase.limit).collect()
 }
 
-/// m·e·|ω² + i·α| ≤ F leaves with k = F/(m·e): ω² = k·sin 2φ up to ω² = k after an eighth of a turn, which then stays.
+/// m·e·|ω² + i·α| ≤ F permits with k = F/(m·e): ω² = k·sin 2φ up to ω² = k after an eighth of a turn, then constant.
 #[test]
 fn an_unbalanced_mass() {
     let file = unbalanced();
@@ -107,7 +107,7 @@ fn an_unbalanced_mass() {
     }
 }
 
-/// The yoke's acceleration is at most F/m: over the way r to the dead centre and back it takes 4·√(r/a), whatever the crank.
+/// The yoke's acceleration is at most F/m: over the distance r to the dead centre and back it takes 4·√(r/a), for any crank.
 #[test]
 fn a_yoke_through_its_dead_centre() {
     let file = yoke("");
@@ -134,13 +134,13 @@ fn a_yoke_through_its_dead_centre() {
     }
 }
 
-/// With weight, friction and a load that sets in within a hundredth of a degree.
+/// With weight, friction and a load that rises within a hundredth of a degree.
 fn keeps_the_forces_of_its_joints(way: [f64; 2]) {
     let file = press();
     let drive = motor([260.0; 2], 30.0);
     let [from, to] = way.map(f64::to_radians);
     let free = solve(&file, &drive, &task(from, to)).unwrap();
-    // The load sets in within steps of 1e-7 s, in which rounding of the speeds is so much of the torque.
+    // The load rises within steps of 1e-7 s, where rounding of the speeds is this share of the torque.
     assert!(free.excess <= 1e-8, "{:e}", free.excess);
     let mut before = f64::INFINITY;
     for force in [1500.0, 3000.0, 1e5] {
@@ -174,7 +174,7 @@ fn a_press_that_turns_back_keeps_the_forces_of_its_joints() {
     keeps_the_forces_of_its_joints([500.0, 270.0]);
 }
 
-/// Weight and work alone exceed the limit: where and by how much.
+/// Weight and work alone exceed the limit; the message gives position and amount.
 #[test]
 fn a_force_that_needs_no_motion() {
     let file = press();
@@ -216,7 +216,7 @@ fn neither_jerk_nor_torque_rate_beside_it() {
     assert_eq!(why.map(|found| found.time), Err(NoMotion::JointForceAlone));
 }
 
-/// A yoke of 8 kg that goes down: its guide bears 30 N of the weight while it moves, and nothing of it in a pause.
+/// A yoke of 8 kg that goes down: its guide carries 30 N of the weight in motion, and none of it in a pause.
 #[test]
 fn the_largest_force_is_told_and_pauses_are_looked_at() {
     let text = "title = \"yoke\"\ngravity = [\"9.81 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"scotch-yoke\"\n\

@@ -1,4 +1,4 @@
-//! Ways of every length: between its nodes, too, a motion asks for no more torque than the motor has, in steps however short.
+//! Moves of every length: also between its nodes a motion stays within the motor's torque, in steps of any length.
 
 use jred_machine::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, NoMotion, solve};
@@ -23,8 +23,8 @@ impl Random {
     }
 }
 
-/// The largest share by which torque and speed exceed the limits of a motor whose torque falls in a straight line. The torque is the equation of
-/// motion, written here anew.
+/// The largest share by which torque and speed exceed the limits of a motor with linearly falling torque. The torque is computed here from the
+/// equation of motion.
 fn exceeded(
     file: &MachineFile,
     found: &Fastest,
@@ -52,7 +52,7 @@ fn exceeded(
     largest
 }
 
-/// A table, a table out of balance, an upright crank and a press, under random motors, over 0.001° to 10,000,000°.
+/// A table, an unbalanced table, an upright crank and a press, with random motors, over 0.001° to 10,000,000°.
 #[test]
 fn the_torque_keeps_its_limit_on_every_way() {
     let press = {
@@ -75,7 +75,7 @@ fn the_torque_keeps_its_limit_on_every_way() {
             random.between(1e-3, 3.0)
         );
         let constant = table(random.between(0.01, 10.0), &rubbing);
-        // The motor holds every load: 10 kN at 30 mm, and less.
+        // The motor can hold every load: 10 kN at 30 mm, and less.
         let (file, least) = match round % 3 {
             0 => (&constant, 5.0),
             1 => (&crank, 1.0),
@@ -113,7 +113,7 @@ fn the_torque_keeps_its_limit_on_every_way() {
     assert!(made >= 45 && refused >= 1, "{made} {refused}");
 }
 
-/// A table that turns for hours at its largest speed still starts and stops as over 90°.
+/// A table that turns for hours at its largest speed starts and stops as over 90°.
 #[test]
 fn a_long_run_does_not_hide_the_start() {
     let file = table(2.0, "");
@@ -131,7 +131,7 @@ fn a_long_run_does_not_hide_the_start() {
     }
 }
 
-/// A machine that changes within a turn is not computed over more turns than its cells can show, and says so at once.
+/// A machine that varies within a turn is refused at once for more turns than its cells can resolve.
 #[test]
 fn too_many_turns_are_refused() {
     let file = scales::lossless_press();

@@ -1,4 +1,4 @@
-//! What stands in the nodes of a motion: no step that is only rounding, and the limits up to the nodes themselves.
+//! Nodes of a motion: no step consists of rounding, and limits are satisfied up to the nodes.
 
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -27,7 +27,7 @@ fn level(torque: f64, rpm: f64, rotor: f64) -> Actuator {
     }
 }
 
-/// A speed of the slide between two positions (deg).
+/// A speed limit of the slide between two positions (deg).
 fn slide(file: &MachineFile, speed: f64, between: [f64; 2]) -> ToolSpeed {
     let mechanism = file.machine.mechanism();
     let names = mechanism.link_names();
@@ -43,8 +43,8 @@ fn shortest(trace: &Trace) -> f64 {
     steps.fold(f64::INFINITY, f64::min) / trace.duration()
 }
 
-/// Where the limit of the tool's speed meets an edge of the load, and where it hands over to the motor's: no step has a time of a few roundings, in which speeds
-/// and positions make any acceleration.
+/// Where the tool's speed limit meets an edge of the load, and where the motor's limit takes over: no step has a time of a few roundings, which would
+/// make its acceleration arbitrary.
 #[test]
 fn no_step_is_only_rounding() {
     let file = press();
@@ -64,7 +64,7 @@ fn no_step_is_only_rounding() {
     }
 }
 
-/// The largest share of the motor's torque by which a motion exceeds it, in 24 places of each step and in its nodes; and where.
+/// The largest share by which a motion exceeds the motor's torque, at 24 positions of each step and in its nodes, with its position.
 fn exceeded(file: &MachineFile, actuator: &Actuator, found: &Fastest, torque: f64) -> [f64; 2] {
     let way = Way::new(file, actuator.clone(), 1.0);
     let mut worst = [0.0, 0.0];
@@ -87,7 +87,7 @@ fn exceeded(file: &MachineFile, actuator: &Actuator, found: &Fastest, torque: f6
     worst
 }
 
-/// A motion that leaves a limit of its speed keeps the torque there as well.
+/// A motion that leaves a speed limit also satisfies the torque limit there.
 #[test]
 fn limits_hold_up_to_the_nodes() {
     let file = press();

@@ -1,4 +1,4 @@
-//! The press with drives of the catalogue, against a dynamic programme that knows nothing of sweeps.
+//! The press with drives of the catalogue, against a dynamic programme independent of the sweeps.
 
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -10,9 +10,9 @@ use jred_sizing::motor::envelope::Envelope;
 use super::task;
 use crate::support::press_file;
 
-/// Least time from each state (place, speed) to the end: every step goes from a node of a grid of speeds to any other whose acceleration,
-/// constant over the step, the motor can give in its middle. Time of a step: 2·Δx/(v₀ + v₁). The grid of speeds makes it a little slower
-/// than the fastest motion, the middle of a step a little faster.
+/// Least time from each state (position, speed) to the end. A step goes between any two nodes of a grid of speeds if the motor can give its constant
+/// acceleration at the middle of the step. Time of a step: 2·Δx/(v₀ + v₁). The speed grid makes the result slightly slower than the fastest motion,
+/// evaluation at the middle slightly faster.
 fn programme(
     file: &MachineFile,
     actuator: &Actuator,
@@ -52,7 +52,7 @@ fn programme(
     least[0]
 }
 
-/// About so many drives, spread over the catalogue.
+/// About `count` drives, spread over the catalogue.
 fn some(catalogue: &Catalogue, count: usize) -> impl Iterator<Item = (DriveId, Drive<'_>)> {
     catalogue.drives().step_by(catalogue.count() / count + 1)
 }
@@ -92,8 +92,8 @@ fn a_dynamic_programme_finds_the_same_time() {
     assert!(compared >= 2, "{compared}");
 }
 
-/// Moves there and back with drives from all over the catalogue: each is found or refused, each keeps its limits everywhere, and a longer
-/// way takes longer.
+/// Moves there and back with drives from all over the catalogue: each is found or refused, each satisfies its limits everywhere, and a longer
+/// distance takes longer.
 #[test]
 fn every_drive_keeps_its_limits_between_the_nodes() {
     let file = read::read(&press_file()).unwrap();

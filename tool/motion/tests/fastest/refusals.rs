@@ -1,4 +1,4 @@
-//! Where there is no motion, and where one passes what it could not hold.
+//! Cases without a motion, and motions past positions that the motor cannot hold.
 
 use std::convert::Infallible;
 
@@ -9,7 +9,7 @@ use jred_sizing::motor::envelope::Envelope;
 
 use super::{close, fastest, machine, motor, table, task};
 
-/// A slider-crank that stands upright: a pendulum of its slider, whose dead centres are at the top and at the bottom.
+/// An upright slider-crank: a pendulum of its slider, with dead centres at the top and at the bottom.
 fn upright() -> jred_machine::model::machine::MachineFile {
     machine(
         "title = \"upright\"\ngravity = [\"-10 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\nflywheel = \"1 kg m^2\"\n\
@@ -17,7 +17,7 @@ fn upright() -> jred_machine::model::machine::MachineFile {
     )
 }
 
-/// Where the weight resists most on the way up, from π to 2π, and its torque there.
+/// Position of the weight's largest torque on the way up, from π to 2π, and that torque.
 fn steepest() -> (f64, f64) {
     let file = upright();
     let torque = |phi: f64| file.bare_reduction(phi).unwrap().load_torque();
@@ -49,8 +49,7 @@ fn a_machine_that_cannot_start_says_what_is_missing() {
     close(given, 0.9 * needed, 1e-12);
 }
 
-/// Half of the largest torque of the weight starts the machine at the bottom and lifts it until its work is used up: where
-/// T·x = ΔU.
+/// Half of the weight's largest torque starts the machine at the bottom and lifts it until the work is used up: T·x = ΔU.
 #[test]
 fn a_machine_that_stops_on_the_way_says_where() {
     let file = upright();
@@ -81,7 +80,7 @@ fn a_machine_that_stops_on_the_way_says_where() {
     close(phi, low, 1e-8);
 }
 
-/// The same with a start in motion goes over the place at which the motor could not hold.
+/// The same with an initial speed passes the position at which the motor could not hold.
 #[test]
 fn kinetic_energy_carries_over_a_place_that_cannot_be_held() {
     let (_, needed) = steepest();
@@ -96,7 +95,7 @@ fn kinetic_energy_carries_over_a_place_that_cannot_be_held() {
     assert_eq!(limits, [Binding::Driving, Binding::Braking]);
 }
 
-/// A limit that keeps the machine from taking the kinetic energy that would carry it over is named, not the motor.
+/// A limit that prevents the kinetic energy for passing is named instead of the motor.
 #[test]
 fn what_keeps_the_machine_slow_is_named() {
     let (_, needed) = steepest();
@@ -110,7 +109,7 @@ fn what_keeps_the_machine_slow_is_named() {
         solve(&upright(), &motor([0.5 * needed; 2], 100.0), &asked)
     };
     assert!(with(Limits::default()).is_ok());
-    // At 8 rad/s it passes; from rest no limit is in the way.
+    // From 8 rad/s it passes; from rest no limit is the obstacle.
     let slow = Limits {
         acceleration: Some(1e-3),
         ..Limits::default()
@@ -124,7 +123,7 @@ fn what_keeps_the_machine_slow_is_named() {
         matches!(motor_alone, Err(NoMotion::Stops { eased: None, .. })),
         "{motor_alone:?}"
     );
-    // With a motor that passes from rest a limit is.
+    // With a motor that passes from rest a limit is the obstacle.
     for (limits, named) in [
         (slow, Slowing::Acceleration),
         (
@@ -148,7 +147,7 @@ fn what_keeps_the_machine_slow_is_named() {
     }
 }
 
-/// Down the steepest place a weak brake cannot stop.
+/// On the steepest descent a weak brake cannot stop.
 #[test]
 fn a_load_that_runs_away_is_named() {
     let (phi, needed) = steepest();
@@ -198,7 +197,7 @@ fn speeds_that_the_way_does_not_allow_are_named_with_the_largest_one() {
     ));
 }
 
-/// Friction brakes harder than the deceleration that is allowed, once the motor has no more torque.
+/// Friction brakes harder than the permitted deceleration when the motor has no more torque.
 #[test]
 fn limits_that_leave_no_acceleration_are_named() {
     let file = table(
@@ -251,7 +250,8 @@ fn a_motor_without_a_known_peak_is_refused() {
     );
 }
 
-/// Viscous friction that is very large for the inertia: its time is a 10⁷th of the motion's, and the motion is refused after some steps, not sought for minutes.
+/// Viscous friction that is very large for the inertia: its time constant is a 10⁷th of the motion's time, and the motion is refused after some
+/// steps, without a search of minutes.
 #[test]
 fn a_stiff_machine_is_refused() {
     let file = table(

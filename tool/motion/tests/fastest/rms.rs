@@ -11,7 +11,7 @@ use jred_motion::way::Way;
 use super::{close, motor, table, task};
 use crate::support::{edited_press, press_file};
 
-/// Of a constant inertia without friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls in a straight line.
+/// With constant inertia and no friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls linearly.
 #[test]
 fn a_torque_that_falls_in_a_straight_line() {
     let file = table(2.0, "");
@@ -35,7 +35,7 @@ fn a_torque_that_falls_in_a_straight_line() {
         );
         close(load.peaks[0], 6.0 * inertia * way / (time * time), 1e-3);
     }
-    // With a pause in the cycle more torque is left.
+    // With a pause in the cycle more torque is available.
     let parts = [
         Part::Move(Move {
             from: 0.0,
@@ -68,8 +68,8 @@ fn a_torque_that_falls_in_a_straight_line() {
     close(found.trace.duration() - dwell, low, 1e-6);
 }
 
-/// With a torque limit: constant torque, a straight line, constant torque. Of the line from +P to −P in the share s of the time t:
-/// ∫T² = P²·t·(1 − 2·s/3), D = P·t²/J·(1/4 − s²/12).
+/// With a torque limit: constant torque, a line, constant torque. With the line from +P to −P in the share s of the time t: ∫T² = P²·t·(1 − 2·s/3), D
+/// = P·t²/J·(1/4 − s²/12).
 #[test]
 fn a_torque_limit_cuts_the_line() {
     let file = table(2.0, "");
@@ -87,8 +87,8 @@ fn a_torque_limit_cuts_the_line() {
     assert!(found.moves[0].fastest.excess <= 1e-6);
 }
 
-/// Two moves share what the cycle allows: the same price of the torque in both. Of constant inertia ∫T²ᵢ = 12·J²·Dᵢ²/tᵢ³, and the sum
-/// of the times is least where Dᵢ²/tᵢ⁴ is the same: tᵢ ∝ √Dᵢ.
+/// Two moves share the heat of the cycle, with the same price of the torque in both. With constant inertia ∫T²ᵢ = 12·J²·Dᵢ²/tᵢ³, and the sum of the
+/// times is least where Dᵢ²/tᵢ⁴ is equal: tᵢ ∝ √Dᵢ.
 #[test]
 fn moves_share_the_heat() {
     let file = table(2.0, "");
@@ -114,7 +114,7 @@ fn moves_share_the_heat() {
     close(times[1], second, 1e-5);
 }
 
-/// Friction above the limit: no motion is slow enough; and a limit that does not bind changes nothing.
+/// Friction above the limit: no motion is slow enough; an inactive limit changes nothing.
 #[test]
 fn friction_above_the_limit_is_refused() {
     let file = table(
@@ -158,8 +158,8 @@ fn with_a_limited_jerk() {
     );
 }
 
-/// A weight held all along the way: J constant against G takes ∫T² = 12·J²·D²/t³ + G²·t, so t⁴ = 12·J²·D²/(R² − G²), also below 1.155·G, where
-/// a slower motion takes more of ∫T² and has less RMS torque.
+/// A weight held throughout: J constant against G takes ∫T² = 12·J²·D²/t³ + G²·t, so t⁴ = 12·J²·D²/(R² − G²), also below 1.155·G, where a slower
+/// motion has a larger ∫T² and a smaller RMS torque.
 #[test]
 fn a_held_weight_bears_a_limit_near_itself() {
     let text = "title = \"lift\"\ngravity = [\"0 m/s^2\", \"-10 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n\
@@ -193,7 +193,7 @@ fn a_held_weight_bears_a_limit_near_itself() {
     );
 }
 
-/// A peak torque and a speed that are far away change nothing: a belt's bends are rounded over the loads that occur.
+/// Peak torque and speed limits far from active change nothing: a belt's bends are rounded over the loads that occur.
 #[test]
 fn a_torque_that_does_not_bind_changes_nothing() {
     let text = edited_press("efficiency = \"97 %\"", "efficiency = \"60 %\"");
@@ -225,7 +225,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
     close(times[2], times[0], 1e-6);
 }
 
-/// A press with losses, friction and a falling torque: a tighter limit takes longer, and one that hardly acts takes as long as none.
+/// A press with losses, friction and a falling torque: a tighter limit takes longer, and one that is hardly active takes as long as none.
 #[test]
 fn a_tighter_limit_of_a_press_takes_longer() {
     let file = jred_machine::read::read(&press_file()).unwrap();

@@ -1,4 +1,4 @@
-//! Motions that the rules of sizing accept: judged by the profile that is read back.
+//! Motions that the sizing rules accept, judged from the profile read back.
 
 use std::path::{Path, PathBuf};
 
@@ -79,11 +79,11 @@ fn made(
     Ok((cycle, judged))
 }
 
-/// The rules of a machine file whose motion is the profile of a cycle, read as `jred size` reads it.
+/// The rules of a machine file with the profile of a cycle as its motion, read like in `jred size`.
 fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
     let text = std::fs::read_to_string(path).unwrap();
     let own = read::read(path).unwrap();
-    // `of` goes with a profile of the tool.
+    // A profile of the tool needs `of`.
     let of_tool = own.axis() != Axis::of_drive(own.machine.mechanism().coordinate());
     let mut lines: Vec<&str> = Vec::new();
     let mut of_motion = false;
@@ -116,7 +116,7 @@ fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
     Context::new(&cycle, &file.site, drive, &prepared).checks(&file.rules)
 }
 
-/// A rotary table whose cycles per hour rise with its speed: T2B, the shock factor at the rate that the motion makes and T2N, all three from the data sheet.
+/// A rotary table whose cycles per hour rise with its speed: T2B, the shock factor at the rate of the motion, and T2N, all from the data sheet.
 #[test]
 fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
     let catalogue = catalogue();
@@ -138,8 +138,8 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
         let used = mean.unwrap().use_of_limit();
         assert!(used <= 1.0 && used > 0.998, "{used}");
     }
-    // Without the rule for T2N the fixed point of the shock factor is left: one inertia, a constant friction, a torque of the gearbox output ±T with
-    // the belt's losses on the side on which they are.
+    // Without the rule for T2N only the fixed point of the shock factor remains: constant inertia and friction, a torque of the gearbox output of ±T
+    // with the belt's losses on their side.
     let mut changes = file.rules.clone();
     changes.set(Rule::GearboxCubicMean, Limit::default());
     file.rules = changes;
@@ -159,7 +159,7 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
         torque <= allowed && torque > 0.998 * allowed,
         "{torque} {allowed}"
     );
-    // The time of that torque: with x of the way driven and the rest braked, 1/a₁ + 1/a₂ = t²/(2·way).
+    // The time with that torque: with x of the distance driven and the rest braked, 1/a₁ + 1/a₂ = t²/(2·way).
     let i = 4.0;
     let parts = 12.0 * (4.2 * 0.42 * 0.42 + 0.012);
     let belt = 0.9 * 0.16 * 0.16;
@@ -173,7 +173,7 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
     close(time, moving + 0.6, 1e-3);
 }
 
-/// Whatever machine, whatever drive: what is named as kept is kept, by the profile that is read back.
+/// For any machine and drive, the rules reported as satisfied are satisfied by the profile read back.
 #[test]
 fn what_is_named_as_kept_is_kept() {
     let catalogue = catalogue();

@@ -3,7 +3,7 @@
 use super::{close, fastest, machine, motor, table, task};
 use crate::support::{edited, press_text};
 
-/// Masses, lengths and times in other units: the time of the move is the same number of its unit.
+/// Masses, lengths and times in other units: the time of the move has the same numerical value.
 #[test]
 fn the_result_does_not_depend_on_units() {
     let viscous =
@@ -30,7 +30,7 @@ fn the_result_does_not_depend_on_units() {
     }
 }
 
-/// Without friction and losses, and with as much torque for braking as for driving, the way back is the same motion backwards.
+/// Without friction and losses, and with equal torque for braking and driving, the way back is the same motion in reverse.
 #[test]
 fn the_way_back_takes_as_long_without_losses() {
     let file = lossless_press();
@@ -54,8 +54,8 @@ pub(super) fn lossless_press() -> jred_machine::model::machine::MachineFile {
     ))
 }
 
-/// The press is symmetrical about the axis of its guide, but for the pressing force: both ways round from bottom dead centre take as
-/// long, with friction, weight, losses and a motor whose torque falls.
+/// The press is symmetrical about the axis of its guide, except for the pressing force: both directions from bottom dead centre take equal time, with
+/// friction, weight, losses and a falling motor torque.
 #[test]
 fn both_ways_round_take_as_long() {
     let text = press_text();

@@ -1,12 +1,12 @@
-//! A limit of the tool's speed in a part of the way.
+//! A limit of the tool's speed in a range.
 
 use jred::machine::Mechanism as _;
 use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed, ToolSpeeds};
 
 use super::{close, fastest, machine, motor, task};
 
-/// At constant inertia: from rest over the way a to the speed w, the way b at that speed, and over the rest to rest. With the acceleration α driving
-/// and braking the peak before is v² = α·a + w²/2.
+/// Constant inertia: from rest over the distance a to the speed w, over b at that speed, and over the remainder to rest. With the acceleration α for
+/// driving and braking the peak before is v² = α·a + w²/2.
 #[test]
 fn a_tool_is_slow_in_a_part_of_its_way() {
     let file = machine(
@@ -55,8 +55,8 @@ fn a_tool_is_slow_in_a_part_of_its_way() {
     }
 }
 
-/// Through the work of a press, to its dead centre: the slide's speed is that of the limit where it is followed, which takes its way through v; nowhere
-/// in the part is it faster, and beyond the part it is.
+/// Through the work of a press, to its dead centre: where the limit is followed the slide has its speed and takes distance over v; it is nowhere
+/// faster in the range, but faster outside.
 #[test]
 fn a_press_is_slow_through_the_work() {
     let file = machine(
@@ -84,7 +84,7 @@ fn a_press_is_slow_through_the_work() {
     let press = motor([400.0; 2], 100.0);
     let free = fastest(&file, &press, &asked(ToolSpeeds::default()));
     let x = |phi: f64| mechanism.frames(phi).unwrap()[slider].x;
-    // A slow tool asks for a speed of the crank that grows a thousandfold within a cell at the dead centre.
+    // A slow tool needs a crank speed that grows a thousandfold within a cell at the dead centre.
     for speed in [0.06, 0.01, 0.001, 0.0001] {
         let limit = ToolSpeed::new(mechanism, (slider, [0.0; 2]), speed, between).unwrap();
         let found = fastest(&file, &press, &asked(limit.unwrap().into()));
@@ -125,8 +125,8 @@ fn a_press_is_slow_through_the_work() {
     }
 }
 
-/// At constant inertia, through parts of two speeds one after the other, of which the second comes with the second turn alone: α·(s + o) = slow² is
-/// the braking between them.
+/// Constant inertia, through two adjacent ranges with different speeds, the second in the second turn only: α·(s + o) = slow² is the braking between
+/// them.
 #[test]
 fn a_programme_of_speeds_over_two_turns() {
     let file = machine(
@@ -145,7 +145,7 @@ fn a_programme_of_speeds_over_two_turns() {
     let turn = std::f64::consts::TAU;
     let [fast, slower] = [0.8, 0.5];
     let [a, b, c, end] = [2.0, 3.5, turn + 1.0, turn + 3.0];
-    // The two overlap: from b on the slower one rules.
+    // The two overlap: from b on the slower one applies.
     let both = ToolSpeeds::from(slow(fast, [a, c])).with(slow(slower, [c, b]));
     let asked = Task {
         limits: Limits {
@@ -159,7 +159,7 @@ fn a_programme_of_speeds_over_two_turns() {
         let peak = (alpha * way + 0.5 * speed * speed).sqrt();
         (2.0 * peak - speed) / alpha
     };
-    // Before b it brakes from the one to the other.
+    // Before b it brakes from one to the other.
     let braking = (fast * fast - slower * slower) / (2.0 * alpha);
     let time = beside(a, fast)
         + (b - a - braking) / fast
@@ -167,7 +167,7 @@ fn a_programme_of_speeds_over_two_turns() {
         + (c - b) / slower
         + beside(end - c, slower);
     close(found.time, time, 1e-9);
-    // Of a turn that comes again the second turn is slow as well.
+    // With a repeating range the second turn is slow as well.
     let again = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * fast, [2.0, 3.0]);
     let again = again.unwrap().unwrap();
     let at = |limit: ToolSpeed, phi: f64| limit.at(mechanism, phi).unwrap();

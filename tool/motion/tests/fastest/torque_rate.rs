@@ -11,10 +11,11 @@ use super::jerk::{NEAR, ROUNDING, WITHIN, cubic, seven, smooth};
 use super::{close, motor, table, task};
 use crate::support::{edited_press, press_file, shipped};
 
-/// What is left of the time where a limit that does not bind changes the way in which the search comes to its end [3e-8].
+/// Relative change of the time by an inactive limit, which changes the convergence of the search [3e-8].
 const CHANGES_NOTHING: f64 = 1e-6;
 
-/// Of a constant inertia the torque is the acceleration: the same profile from the torque and its rate, without the limits of the drive link.
+/// With constant inertia the torque is proportional to the acceleration: the same profile from the torque and its rate, without limits of the drive
+/// link.
 #[test]
 fn a_torque_rate_is_a_jerk() {
     let file = table(2.0, "");
@@ -33,7 +34,7 @@ fn a_torque_rate_is_a_jerk() {
     }
 }
 
-/// The torque of the press changes as fast as allowed, from above, and never as fast as without a limit.
+/// The torque of the press changes at the permitted rate; the time approaches that without a limit from above, and never reaches it.
 #[test]
 fn a_press_with_a_torque_rate() {
     let file = jred_machine::read::read(&press_file()).unwrap();
@@ -55,7 +56,7 @@ fn a_press_with_a_torque_rate() {
     keeps_the_rate(&file, &motor, &found, 1e3);
 }
 
-/// The rate of the torque all through each step of the written profile: its speed is the cubic through both speeds and accelerations.
+/// The torque rate throughout each step of the written profile: its speed is the cubic through both speeds and accelerations.
 fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: f64) {
     let way = Way::new(file, motor.clone(), 1.0);
     let parts = 16;
@@ -70,7 +71,7 @@ fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: 
         for k in 1..=parts {
             let [before, after] = [k - 1, k].map(torque);
             let change = (after.torque - before.torque).abs();
-            // Last digits of the speeds and of the torque.
+            // Roundings of the speeds and of the torque.
             let digits = after.per_acceleration * (a.omega + b.omega) / b.step + after.torque.abs();
             let rounding = ROUNDING * digits;
             assert!(
@@ -84,7 +85,7 @@ fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: 
     }
 }
 
-/// The press behind a drive with losses and a belt of its own, and one that loses much more.
+/// The press with a lossy drive and belt, and one with much larger losses.
 #[test]
 fn the_rate_is_kept_inside_the_steps() {
     let drive = Actuator {
@@ -117,8 +118,8 @@ fn rate(limit: f64, to: f64) -> Task {
     }
 }
 
-/// A motion that bears the load with its inertia takes half the time of one that follows it with the torque. Half a per cent of efficiency
-/// must not decide between them: another method (linear programmes over a spline of the time) needs 0.370 s with 97 %.
+/// A motion whose inertia carries the load takes half the time of one whose torque follows it. Half a per cent of efficiency must not select between
+/// them: another method (linear programmes over a spline of the time) needs 0.370 s with 97 %.
 #[test]
 fn losses_do_not_hide_the_fast_motion() {
     let mut last = 0.0;
@@ -138,7 +139,7 @@ fn losses_do_not_hide_the_fast_motion() {
     assert!(last < 0.38, "{last}");
 }
 
-/// A larger limit of the rate, and of the speed, is never slower.
+/// A larger limit of the rate, or of the speed, is never slower.
 #[test]
 fn a_larger_rate_is_faster() {
     let file = press(97);
@@ -150,7 +151,7 @@ fn a_larger_rate_is_faster() {
     }
 }
 
-/// A peak torque that is far away changes nothing: bends are rounded over the loads that occur.
+/// A peak torque limit far from active changes nothing: bends are rounded over the loads that occur.
 #[test]
 fn a_torque_that_does_not_bind_changes_nothing() {
     let file = press(85);
@@ -162,7 +163,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
     close(times[2], times[0], CHANGES_NOTHING);
 }
 
-/// Where two parabolas of a cam meet the torque jumps; a limited jerk bears it.
+/// Where two parabolas of a cam meet the torque jumps; a limited jerk permits that.
 #[test]
 fn a_load_that_jumps_has_no_torque_rate() {
     let text = std::fs::read_to_string(shipped("cam-translating.toml")).unwrap();
@@ -200,8 +201,8 @@ fn a_load_that_jumps_has_no_torque_rate() {
     );
 }
 
-/// A slow motion follows the loads: dT/dt = T′·ω with T the torque at no speed, so a limit r that is small is met everywhere, and the
-/// motion takes t = ∫|T′| dφ/r. What inertia and viscous friction add falls with r. A gearbox behind a belt turns the flow of power twice.
+/// A slow motion follows the loads: dT/dt = T′·ω with T the torque at zero speed, so a small limit r is active everywhere, and the motion takes t =
+/// ∫|T′| dφ/r. The effect of inertia and viscous friction falls with r. With a gearbox and a belt the power reverses twice.
 #[test]
 fn a_small_rate_follows_the_loads() {
     let file = jred_machine::read::read(&press_file()).unwrap();

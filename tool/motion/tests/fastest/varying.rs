@@ -5,7 +5,7 @@ use jred_motion::fastest::Binding;
 use super::scales::lossless_press;
 use super::{close, fastest, motor, task};
 
-/// Without friction and losses the energy is the work of a constant torque: E = T·x from the start, T·(L − x) to the end, so the motor turns
+/// Without friction and losses the energy is the work of a constant torque: E = T·x from the start, T·(L − x) to the end, so the torque reverses
 /// half-way, and the time is ∫√(J/2E) dφ.
 #[test]
 fn the_work_of_a_constant_torque_is_the_energy() {

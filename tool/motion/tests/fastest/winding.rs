@@ -1,4 +1,4 @@
-//! The winding's temperature as a limit, against closed forms and an integration of the heat.
+//! The winding temperature as a limit, against closed forms and a numerical integration of the heat.
 
 use jred_machine::model::machine::MachineFile;
 use jred_motion::fastest::cycle::{Cycle, cycle};
@@ -11,15 +11,15 @@ use jred_sizing::motor::envelope::Envelope;
 
 use super::{close, machine, table};
 
-/// °C; the default of machine files.
+/// Ambient temperature (°C), the default of machine files.
 const AMBIENT: f64 = 40.0;
 
-/// Torque constant (N·m/A), resistance (Ω) at 20 °C of a winding on direct current, and copper's coefficient (1/K).
+/// Torque constant (N·m/A), resistance (Ω) at 20 °C of a DC winding, and the temperature coefficient of copper (1/K).
 const KT: f64 = 0.5;
 const R20: f64 = 2.0;
 const COPPER: f64 = 0.003_93;
 
-/// Steps in which a cycle is integrated: where the torque jumps inside one, the heat of half a step is wrong, 0.005 K.
+/// Integration steps of a cycle: at a torque jump inside a step the heat of half a step is wrong, 0.005 K.
 const STEPS: u32 = 20_000;
 
 /// Thermal resistances (K/W).
@@ -90,14 +90,14 @@ fn limited(
     cooled((&winding, limit), (file, &actuator), None, at)
 }
 
-/// The rise of a constant torque: P·(1 + g·θ)·(R_w + R_h) = θ.
+/// The rise under a constant torque: P·(1 + g·θ)·(R_w + R_h) = θ.
 fn rise(torque: f64) -> f64 {
     let reference = 1.0 + COPPER * (AMBIENT - 20.0);
     let cold = R20 * reference * (torque / KT).powi(2) * (WINDING + HOUSING);
     cold / (1.0 - COPPER / reference * cold)
 }
 
-/// Full torque forwards and backwards all the time is a constant loss: no ripple, whatever the time constants.
+/// Alternating full torque is a constant loss: no ripple, for any time constants.
 #[test]
 fn a_constant_torque_has_a_closed_form() {
     let file = table(2.0, "");
@@ -117,15 +117,15 @@ fn a_constant_torque_has_a_closed_form() {
     }
 }
 
-/// Of a constant inertia without friction ∫T² dt = 12·J²·D²/t³ of each move. A cycle that is short against the time constants is as warm as
-/// with its RMS torque all the time.
+/// With constant inertia and no friction ∫T² dt = 12·J²·D²/t³ for each move. A cycle that is short compared with the time constants is as warm as
+/// under its RMS torque.
 #[test]
 fn a_short_cycle_is_limited_by_its_rms_torque() {
     let file = table(2.0, "");
     let (inertia, way, pause, limit) = (2.0_f64, 3.0, 0.5, 110.0);
     let motor = motor(60.0, [Some(40.0), Some(1200.0)]);
     let found = limited(&file, &motor, &parts(pause), limit).unwrap();
-    // The RMS torque at the limit, then the time of a move, both by halving.
+    // The RMS torque at the limit, then the time of a move, both by bisection.
     let halved = |mut low: f64, mut high: f64, over: &dyn Fn(f64) -> bool| {
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -143,7 +143,7 @@ fn a_short_cycle_is_limited_by_its_rms_torque() {
     let ripple = found.temperatures.mean.unwrap()[1];
     assert!(ripple > 0.1 && ripple < 15.0, "{ripple}");
     let [before, own] = found.bound.unwrap();
-    // What the ripple takes off the rise, about its half, is taken off the loss.
+    // About half of the ripple is subtracted from the rise, and so from the loss.
     let taken = 0.5 * ripple / (limit - AMBIENT);
     assert!(own < rms && own > rms * (1.0 - taken), "{own} {rms}");
     let duration = found.cycle.trace.duration();
@@ -157,8 +157,8 @@ fn a_short_cycle_is_limited_by_its_rms_torque() {
     assert!(greatest <= limit && greatest > limit - 0.02, "{greatest}");
 }
 
-/// The heat of a motion over many cycles from cold, by the classical method of Runge and Kutta on the equations of both bodies: greatest
-/// and mean temperature of the last cycle.
+/// The heat of a motion over many cycles from cold, by the classical Runge-Kutta method on the equations of both bodies: largest and mean temperature
+/// of the last cycle.
 fn integrated(file: &MachineFile, motor: &Motor, cycle: &Cycle, cycles: u32) -> [f64; 2] {
     let actuator = actuator(motor);
     let ways = BothWays::new(file, &actuator);
@@ -208,7 +208,7 @@ fn integrated(file: &MachineFile, motor: &Motor, cycle: &Cycle, cycles: u32) -> 
     last
 }
 
-/// A cycle as long as the time constant of the winding: the ripple counts. The limit is kept after many cycles.
+/// A cycle as long as the winding's time constant: the ripple matters. The limit is satisfied after many cycles.
 #[test]
 fn a_long_cycle_is_limited_by_its_greatest_temperature() {
     let file = table(
@@ -227,7 +227,7 @@ fn a_long_cycle_is_limited_by_its_greatest_temperature() {
     close(level, mean, 2e-4);
 }
 
-/// A limit that does not bind changes nothing; one that friction alone exceeds is refused, and so is a motor without figures.
+/// An inactive limit changes nothing; one that friction alone exceeds is refused, and so is a motor without thermal data.
 #[test]
 fn limits_that_do_not_bind_or_cannot_be_kept() {
     let file = table(
@@ -271,7 +271,7 @@ fn limits_that_do_not_bind_or_cannot_be_kept() {
     assert!(matches!(unknown, Err(Unknown::RatedRise)), "{unknown:?}");
 }
 
-/// Without winding data the rise is a share of the rated one; thin air makes it more.
+/// Without winding data the rise is a share of the rated one; thin air increases it.
 #[test]
 fn s1_torque_and_altitude() {
     let text = |site: &str| {
@@ -292,7 +292,7 @@ fn s1_torque_and_altitude() {
     let moves: Vec<Part> = parts(0.0).into_iter().step_by(2).collect();
     for (site, factor) in [("", 1.0), ("[surroundings]\naltitude = \"2000 m\"\n", 0.9)] {
         let found = limited(&text(site), &motor, &moves, 250.0).unwrap();
-        // Full torque all the time, (2/2.5)² of the rated rise of 100 K; the S1 torque is never more than the peak torque.
+        // Full torque throughout, (2/2.5)² of the rated rise of 100 K; the S1 torque is at most the peak torque.
         let share = (2.0_f64 / 2.5_f64.min(2.0)).powi(2);
         close(
             found.temperatures.greatest,

@@ -9,7 +9,7 @@ use jred_motion::retime::{Goal, retime};
 use super::{best, crank, is_global, machine, request, table, travel};
 use crate::support::near;
 
-/// Constant inertia: φ = D·(3τ² − 2τ³), ∫T² = 12·J²·D²/T³, which is also the bound.
+/// Constant inertia: φ = D·(3τ² − 2τ³), ∫T² = 12·J²·D²/T³, equal to the bound.
 #[test]
 fn constant_inertia_is_the_cubic() {
     let file = table(2.0, 0.0);
@@ -39,7 +39,7 @@ fn constant_inertia_is_the_cubic() {
     }
 }
 
-/// Between speeds the acceleration is a straight line over the time too, from a kept speed to rest as well; the mesh is soon fine enough.
+/// Between speeds the acceleration is also linear over the time, also from a kept speed to rest; a coarse mesh is sufficient.
 #[test]
 fn between_speeds_it_is_a_cubic_as_well() {
     let file = table(2.0, 0.0);
@@ -60,8 +60,8 @@ fn between_speeds_it_is_a_cubic_as_well() {
     }
 }
 
-/// Against Coulomb friction C a second more costs C² − 36·J²·D²/T⁴. At rest nothing is held, so the motion takes the time at which this
-/// is zero, and waits.
+/// Against Coulomb friction C a second more costs C² − 36·J²·D²/T⁴. At rest nothing is held, so the motion takes the time at which this is zero, and
+/// waits.
 #[test]
 fn a_long_time_against_friction_is_waited() {
     let (j, c, d) = (2.0f64, 3.0f64, 2.0f64);
@@ -80,8 +80,8 @@ fn a_long_time_against_friction_is_waited() {
     }
 }
 
-/// A weight is held while waiting too, so that waiting saves nothing: 12·J²·D²/T³ + G²·T in any time, and the optimum is global although
-/// a longer time costs more.
+/// A weight is held while waiting too, so waiting saves nothing: 12·J²·D²/T³ + G²·T in any time, and the optimum is global although a longer time
+/// costs more.
 #[test]
 fn a_weight_is_moved_all_the_time() {
     let file = machine(
@@ -100,7 +100,7 @@ fn a_weight_is_moved_all_the_time() {
     }
 }
 
-/// Without friction and load a machine that turns for ever takes no torque at constant kinetic energy.
+/// Without friction and load an endless turn at constant kinetic energy takes no torque.
 #[test]
 fn an_endless_turn_keeps_its_energy() {
     let file = crank("");

@@ -9,8 +9,8 @@ use jred_motion::retime::{Goal, Obstacle, retime};
 use super::{best, crank, example, machine, request, retimed, table, travel};
 use crate::support::near;
 
-/// A slider-crank at one turn a second, friction at its slider and in its bearings: against constant speed both objectives take more than
-/// 60 % off the peak torque, and the least peak is below that of the least RMS.
+/// A slider-crank at one turn per second with friction at its slider and bearings: compared with constant speed both objectives reduce the peak
+/// torque by more than 60 %, and the least peak is below that of the least RMS.
 #[test]
 fn a_slider_crank_takes_a_fraction_of_the_peak() {
     let file = crank(
@@ -25,8 +25,8 @@ fn a_slider_crank_takes_a_fraction_of_the_peak() {
     assert!(rms.best.rms <= peak.best.rms);
 }
 
-/// ∫T² of the solver is that of the duty of the motion that it returns, for machines with losses, friction, edges of loads and dwells;
-/// and nothing in the table is below the bound.
+/// ∫T² of the solver equals that of the duty of its motion, for machines with losses, friction, edges of loads and dwells; no row of the table is
+/// below the bound.
 #[test]
 fn the_duty_confirms_the_torque() {
     for name in [
@@ -41,7 +41,7 @@ fn the_duty_confirms_the_torque() {
         let found = retimed(&file, Goal::Rms, 0.0);
         let duration = found.motion.duration();
         let moves: f64 = found.moves.iter().map(|gentle| gentle.cost).sum();
-        // What the dwells of the file take: the own motion without its moves.
+        // The share of the file's dwells: its own motion without the moves.
         let duty = jred_machine::analysis::duty::Duty::new(&file, &found.motion, 4000).unwrap();
         let still = duty.instants.iter().filter(|instant| instant.omega == 0.0);
         let dwells: f64 = still
@@ -76,7 +76,7 @@ fn the_duty_confirms_the_torque() {
     }
 }
 
-/// Energy and peak: the gentlest of each is the least of the table in its own figure.
+/// Energy and peak: each gentlest motion has the smallest value of its own figure in the table.
 #[test]
 fn each_objective_is_least_in_its_own_figure() {
     for name in ["press", "rotary-table", "four-bar"] {
@@ -96,7 +96,7 @@ fn each_objective_is_least_in_its_own_figure() {
         }
     }
 }
-/// The least peak of a constant inertia is that of constant acceleration, 4·J·D/T², from below to 1 %.
+/// The least peak with constant inertia is that of constant acceleration, 4·J·D/T², from below to 1 %.
 #[test]
 fn the_least_peak_is_that_of_the_parabola() {
     let gentle = best(&table(2.0, 0.0), &travel(0.0, 2.0, 0.5), Objective::Peak);
@@ -104,8 +104,8 @@ fn the_least_peak_is_that_of_the_parabola() {
     let least = gentle.least_peak.unwrap();
     assert!(least < parabola && least > 0.99 * parabola, "{least}");
 }
-/// The least peak of a table from rest to rest is that of constant acceleration, 4·J·D/T²; and no law of the list has a lower one, of any
-/// machine, as far as it has the ends that are asked for.
+/// The least peak of a table from rest to rest is that of constant acceleration, 4·J·D/T²; for any machine no law of the list with the requested ends
+/// has a lower one.
 #[test]
 fn no_law_has_a_lower_peak() {
     let text = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\n\
@@ -129,7 +129,7 @@ fn no_law_has_a_lower_peak() {
         example("rack", &[]),
     ];
     for file in &machines {
-        // With ramps the search for the peak finds no motion of some machines, and says so.
+        // With ramps the search for the peak finds no motion for some machines, and reports so.
         for ramp in [0.0, 0.1] {
             let motion = file.motion.as_ref().unwrap();
             let found = match retime(file, motion, &request(Goal::Peak, ramp)) {
@@ -154,8 +154,8 @@ fn no_law_has_a_lower_peak() {
     }
 }
 
-/// Where the search for the lowest peak of a turn does not come to its end, there is the best that was found, at least as good as the classical motions, and
-/// it is not called global.
+/// If the search for the lowest peak of a turn does not converge, its best motion is returned, at least as good as the classical laws, and is not
+/// called global.
 #[test]
 fn a_search_that_does_not_end_gives_its_best() {
     for name in ["shaper", "whitworth", "linkage-four-bar"] {

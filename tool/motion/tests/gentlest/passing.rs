@@ -1,4 +1,4 @@
-//! Moves from or to a kept speed behind lossy gears, against formulas and a search of their own.
+//! Moves from or to a kept speed with lossy gears, against formulas and an independent search.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -12,10 +12,10 @@ use super::{best, machine, travel};
 use crate::support::budget::{MIDPOINTS, NO_BUMP, REFUTED, SEARCHED};
 use crate::support::near;
 
-/// A table behind a stage of 1 : 4, with a mass beside its axis, friction and losses.
+/// A table with a 1:4 stage, an eccentric mass, friction and losses.
 #[derive(Clone, Copy, Debug)]
 struct Table {
-    /// kg·m², with that of the large wheel.
+    /// kg·m², including the large wheel.
     inertia: f64,
     /// kg, at 0.25 m and 0.03 m.
     mass: f64,
@@ -103,7 +103,7 @@ impl Table {
 const POINTS: usize = 2000;
 const BUMPS: usize = 14;
 
-/// Times in the middle of equal parts.
+/// Midpoints of equal time intervals.
 fn times(duration: f64) -> impl Iterator<Item = f64> {
     (0..POINTS).map(move |k| (k as f64 + 0.5) / POINTS as f64 * duration)
 }
@@ -123,7 +123,7 @@ fn found_states(gentle: &Gentle) -> Vec<[f64; 3]> {
     times(gentle.travel.duration).map(state).collect()
 }
 
-/// The same of the cubic over the time.
+/// The same for the cubic over the time.
 fn cubic_states(travel: &Travel) -> Vec<[f64; 3]> {
     let (d, t, [v, w]) = (travel.distance, travel.duration, travel.speeds);
     let second = (3.0 * d / t - 2.0 * v - w) / t;
@@ -155,7 +155,7 @@ fn bump(k: usize, t: f64, duration: f64) -> [f64; 3] {
     sum
 }
 
-/// The least cost of a motion with bumps, each higher or lower as long as that costs less; never back.
+/// The least cost of a motion with bumps, each raised or lowered while that reduces the cost; never backward.
 fn with_bumps(table: &Table, start: Vec<[f64; 3]>, duration: f64, objective: Objective) -> f64 {
     let bumps: Vec<Vec<[f64; 3]>> = (0..BUMPS)
         .map(|k| times(duration).map(|t| bump(k, t, duration)).collect())
@@ -186,8 +186,8 @@ fn with_bumps(table: &Table, start: Vec<[f64; 3]>, duration: f64, objective: Obj
     cost
 }
 
-/// From a kept speed to rest, against a weight and friction behind gears that lose much: neither bumps on the motion found nor those on a cubic take less, and
-/// the latter come near.
+/// From a kept speed to rest, against a weight and friction with very lossy gears: neither bumps on the result nor on a cubic reduce the cost, and
+/// the latter come close.
 #[test]
 fn no_bump_takes_less_beside_a_kept_speed() {
     let table = Table {
@@ -229,7 +229,7 @@ fn no_bump_takes_less_beside_a_kept_speed() {
     }
 }
 
-/// A table with what a random number says, and a move of it with a kept speed at one end or both.
+/// A table with random data, and a move of it with a kept speed at one or both ends.
 fn random_case(random: &mut ChaCha8Rng) -> (Table, Travel) {
     let mut some = |most: f64| {
         let is_there: bool = random.random();
@@ -263,7 +263,8 @@ fn random_case(random: &mut ChaCha8Rng) -> (Table, Travel) {
     )
 }
 
-/// No bound is above the cost of the motion found, nor above that of the cubic by another formula; one that would be is none, and the optimum not global.
+/// No bound is above the cost of the result, nor above that of the cubic by another formula; otherwise there is no bound, and the optimum is not
+/// global.
 #[test]
 fn no_bound_is_above_a_motion() {
     let mut random = ChaCha8Rng::seed_from_u64(23);

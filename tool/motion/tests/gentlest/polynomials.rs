@@ -1,4 +1,4 @@
-//! A search of its own: polynomials with fourteen free coefficients over the time, by Levenberg and Marquardt's method.
+//! An independent search: polynomials with fourteen free coefficients over the time, by the Levenberg-Marquardt method.
 
 use jred::mechanism::TrainOutput;
 use jred_machine::model::machine::MachineFile;
@@ -108,8 +108,8 @@ fn search(file: &MachineFile, travel: &Travel) -> f64 {
     squares(&r)
 }
 
-/// In three machines no polynomial of fourteen coefficients takes less; and they come near, so that the search did its work. What the
-/// midpoint rule may be wrong by is allowed for.
+/// For three machines no polynomial of fourteen coefficients has a lower cost, up to the error of the midpoint rule; they come close, so the search
+/// works.
 #[test]
 fn no_polynomial_takes_less() {
     let loads = [

@@ -1,4 +1,4 @@
-//! Ramps: the acceleration rises from zero to its first peak in the share of the time that is asked for.
+//! Ramps: the acceleration rises from zero to its first peak in the requested share of the time.
 
 use jred_machine::model::machine::MachineFile;
 use jred_motion::moves::{Part, chain};
@@ -9,7 +9,7 @@ use super::{example, machine, retimed};
 
 const RAMPS: [f64; 4] = [0.02, 0.05, 0.1, 0.25];
 
-/// A table that turns once in a second.
+/// A table that makes one turn in a second.
 fn turning_table() -> MachineFile {
     machine(
         "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\ninertia = \"2 kg m^2\"\n\
@@ -17,7 +17,8 @@ fn turning_table() -> MachineFile {
     )
 }
 
-/// Shares of the time at which the acceleration of a move between two times has a share of its first peak, and from which on it has that of its last one.
+/// Shares of the time, within a move between two times, at which the acceleration first reaches a share of its first peak and last has that share of
+/// its last one.
 fn rises(trace: &Trace, [from, to]: [f64; 2], reached: f64) -> [f64; 2] {
     let count = 20_000;
     let size = |k: usize| {
@@ -26,7 +27,7 @@ fn rises(trace: &Trace, [from, to]: [f64; 2], reached: f64) -> [f64; 2] {
     };
     let all: Vec<f64> = (0..=count).map(size).collect();
     let most = all[1..count].iter().copied().fold(0.0, f64::max);
-    // What falls by less than a thousandth of the largest is no end of the rise.
+    // A drop of less than a thousandth of the largest value does not end the rise.
     let first = |values: &mut dyn Iterator<Item = f64>| {
         let mut peak = (0.0, 0);
         for (k, value) in values.enumerate() {
@@ -47,7 +48,8 @@ fn rises(trace: &Trace, [from, to]: [f64; 2], reached: f64) -> [f64; 2] {
     })
 }
 
-/// Constant inertia has its first peak there; a press, whose torque may ask for more later, nine tenths of it, which the rise alone passes after four fifths.
+/// Constant inertia has its first peak there; a press, whose torque may rise later, nine tenths of it, which the ramp alone reaches after four
+/// fifths.
 #[test]
 fn the_acceleration_rises_in_the_share_of_the_time() {
     for (name, file, reached, [least, most]) in [
@@ -74,8 +76,8 @@ fn the_acceleration_rises_in_the_share_of_the_time() {
     }
 }
 
-/// A shorter ramp takes less. A law whose acceleration rises as long, or longer, takes more: the modified ones for an eighth of the time, the cycloidal one
-/// for a quarter.
+/// A shorter ramp costs less. A law whose acceleration rises as long or longer costs more: the modified ones take an eighth of the time, the
+/// cycloidal one a quarter.
 #[test]
 fn ramps_take_less_than_laws_that_rise_as_long() {
     for file in [turning_table(), example("press", &[])] {

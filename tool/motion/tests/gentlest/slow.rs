@@ -1,4 +1,4 @@
-//! Motions in a long time, in which the machine all but stands still somewhere.
+//! Motions over a long time, in which the machine almost stops somewhere.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use jred_motion::retime::{Goal, retime};
 
 use super::{example, request, retimed};
 
-/// The largest share of the range by which positions differ from the speeds between them.
+/// The largest difference between positions and the integral of the speeds, as a share of the range.
 fn contradiction(nodes: &[jred_motion::trace::Node]) -> f64 {
     let places = nodes.iter().map(|node| node.phi);
     let range =
@@ -22,7 +22,7 @@ fn contradiction(nodes: &[jred_motion::trace::Node]) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-/// Positions, speeds and accelerations of what is found are those of one motion, that takes the time asked for and is no worse than the file's own.
+/// Positions, speeds and accelerations of a result are consistent; it takes the requested time and is no worse than the file's own motion.
 #[test]
 fn a_slow_motion_does_not_contradict_itself() {
     for name in [
@@ -44,8 +44,8 @@ fn a_slow_motion_does_not_contradict_itself() {
     }
 }
 
-/// A press that starts beside its dead centre, where it would have to be held: whatever time it has more it waits, where holding takes nothing. So ∫T² does not grow
-/// with the time, nor is it less than half of what the motion takes in the time that it needs of itself; and no other motion of the list is better.
+/// A press that starts next to its dead centre, where it would have to be held: it waits for any extra time where holding takes nothing. So ∫T² does
+/// not grow with the time, and is at least half of that of the motion in its unconstrained time; no other motion of the list is better.
 #[test]
 fn a_press_waits_at_its_dead_centre() {
     for start in [182.0, 200.0] {
@@ -87,7 +87,8 @@ fn a_press_waits_at_its_dead_centre() {
     }
 }
 
-/// A press with level ends and the least peak: the last power that comes to its end is taken, far below the laws, and no lower than what the press asks for anyway.
+/// A press with zero end accelerations and least peak: the last exponent that converges is used, far below the laws, and not below the torque that
+/// the press needs anyway.
 #[test]
 fn the_peak_of_a_press_with_level_ends_is_found() {
     let file = example("press", &[]);
@@ -102,8 +103,8 @@ fn the_peak_of_a_press_with_level_ends_is_found() {
     assert!(free.best.peak <= found.best.peak * (1.0 + 1e-2));
 }
 
-/// A machine that turns for ever in a long time and must be held but at one place waits there once a turn. Where the file's motion begins is nothing to the
-/// machine: the same figure from everywhere, in the whole time, and no worse than the file's own motion.
+/// An endless machine with a long time that must be held everywhere except at one position waits there once per turn. The start of the file's motion
+/// does not matter: the same figure from every start, in the whole time, and no worse than the file's own motion.
 #[test]
 fn a_turn_waits_wherever_it_begins() {
     let file = example("shaper", &[]);

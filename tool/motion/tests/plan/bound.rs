@@ -1,4 +1,4 @@
-//! What a plan says that it is off by is a bound of what firmware is off by.
+//! The stated errors of a plan bound the errors of firmware.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ impl Random {
     }
 }
 
-/// What firmware is off by the most, at random times: its integers beside the motion.
+/// The largest errors of firmware at random times: its integer arithmetic against the motion.
 fn found(plan: &Plan, trace: &Trace, times: usize) -> [f64; 3] {
     let table = [1.0 / 6.0; 7];
     let shape = Shape::<Spline<f64>> {
@@ -62,8 +62,8 @@ fn found(plan: &Plan, trace: &Trace, times: usize) -> [f64; 3] {
     most
 }
 
-/// Nowhere is firmware off by more than the header says, and by little less somewhere: cycloids of few and many steps, steps that bend at random, and the fastest stroke of a press. Where
-/// that is more than was asked it is said.
+/// The errors in the header are upper bounds, and close ones: cycloids of few and many steps, steps with random bends, and the fastest stroke of a
+/// press. Errors beyond the requested one are reported.
 #[test]
 fn what_is_stated_is_a_bound() {
     let mut random = Random(3);
@@ -136,7 +136,7 @@ fn what_is_stated_is_a_bound() {
             if errors[2] > 1.000_001 * share * most {
                 assert!(plan.excess.is_some(), "{k} {share}: {errors:?}");
             }
-            // Many steps are as exact as that.
+            // Many steps reach that accuracy.
             assert!(share < 1e-4 || ![2, 5, 6].contains(&k) || plan.excess.is_none());
             for (found, stated) in found.into_iter().zip(errors) {
                 assert!(found <= stated, "{k} {share}: {found} {stated}");

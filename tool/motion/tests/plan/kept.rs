@@ -1,4 +1,4 @@
-//! What a plan keeps to, what it says where it cannot, and motions that no plan holds.
+//! Errors of a plan, reports where it cannot meet them, and motions that do not fit a plan.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use jred_motion::trace::{Node, Trace};
 
 use super::{cycloid, motion};
 
-/// A plan says which of its three is off more than it may be, where and by how much.
+/// A plan reports which of its three errors is exceeded, where and by how much.
 #[test]
 fn what_contradicts_itself_is_said() {
     let even = |contradicts: fn(&mut Node)| {
@@ -39,11 +39,11 @@ fn what_contradicts_itself_is_said() {
     );
 }
 
-/// A motion on a stroke that turns at its end, between two of its nodes, and one that is beyond it there.
+/// A motion on a stroke that reverses at its end between two of its nodes, and one that exceeds it there.
 #[test]
 fn the_stroke_is_kept() {
     let domain = Domain::stroke(0.0, 0.5).unwrap();
-    // Up to x = 0.5 − more and back, with −1 m/s² in the middle and a jerk that changes: (1 − cos 2πt)/4.
+    // Up to x = 0.5 − more and back, with −1 m/s² in the middle and a varying jerk: (1 − cos 2πt)/4.
     let turning = |count: usize, top: f64| {
         motion(count, 1.0, move |t| {
             let angle = TAU * t;
@@ -86,7 +86,7 @@ fn what_no_plan_holds_is_refused() {
         Plan::new(&far, Domain::Turn, 0, SHARE),
         Err(PlanError::Number(_))
     ));
-    // 97 days and more are not counted.
+    // A plan is shorter than 97 days.
     let long = motion(10, 1e7, |t| [t, 1.0, 0.0]);
     assert_eq!(
         Plan::new(&long, Domain::Turn, 0, SHARE),

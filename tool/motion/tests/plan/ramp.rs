@@ -1,4 +1,4 @@
-//! The shortest ramp of the rate, against a search through all places and rates with another code for the torque.
+//! The shortest ramp of the rate, against a search over all positions and rates with an independent torque.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use jred_sizing::motor::envelope::Envelope;
 
 use crate::support::press_text;
 
-/// A motor without a rotor whose torque falls in a straight line from rest to its largest speed.
+/// A motor without a rotor whose torque falls linearly from rest to its largest speed.
 fn motor(torques: [f64; 2], speed: f64) -> Actuator {
     let motor = Motor {
         peak_curve: vec![[0.0, torques[0]], [speed, torques[1]]],
@@ -42,8 +42,8 @@ fn planned(file: &MachineFile, motor: &Actuator, way: [f64; 2], reserve: f64) ->
         .trace
 }
 
-/// The largest torque, as a share of what the motor has at its speed, over all places and rates, with a rate that changes in so much time; the torque is
-/// J·a + ½·J′·v² + F + b·v + C on the drive link, of a machine without a drive train.
+/// The largest torque, as a share of the motor's at its speed, over all positions and rates, for a rate that changes within `ramp`. The torque is J·a
+/// + ½·J′·v² + F + b·v + C on the drive link, without a drive train.
 fn used(file: &MachineFile, [rest, top, end]: [f64; 3], trace: &Trace, ramp: f64) -> f64 {
     let mut most = 0.0_f64;
     for pair in trace.nodes().windows(2) {
@@ -73,7 +73,7 @@ fn used(file: &MachineFile, [rest, top, end]: [f64; 3], trace: &Trace, ramp: f64
     most
 }
 
-/// The least ramp keeps the torque everywhere, one that is a hundredth shorter does not.
+/// The shortest ramp satisfies the torque limit everywhere; one shorter by a hundredth does not.
 #[test]
 fn the_least_ramp_is_the_least() {
     let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n[[load]]\nname = \"seal\"\non = \"table\"\nopposing_moment = \"2 N m\"\n[[load]]\nname = \"oil\"\non = \"table\"\nviscous_moment = \"0.2 N m s/rad\"\n";
@@ -106,7 +106,7 @@ fn the_least_ramp_is_the_least() {
             let shorter = used(file, line, &trace, 0.99 * ramp);
             assert!(shorter > 1.0, "{reserve}: {shorter}");
         }
-        // A motion that uses all of the torque leaves nothing for a change of the rate.
+        // A motion that uses the full torque leaves nothing for a change of the rate.
         let whole = planned(file, &motor, way, 0.0);
         assert_eq!(
             least_ramp(file, &motor, None, &whole).unwrap(),
@@ -115,8 +115,8 @@ fn the_least_ramp_is_the_least() {
     }
 }
 
-/// Of a constant inertia without friction a motion with the share 1 − s of the torque T: at full rate ω/R ≤ s·T/J, and ω is largest in the middle, where it ends its
-/// acceleration: R = ω·J/(s·T).
+/// With constant inertia, no friction and the share 1 − s of the torque T: at full rate ω/R ≤ s·T/J, and ω is largest in the middle, at the end of
+/// the acceleration: R = ω·J/(s·T).
 #[test]
 fn the_ramp_of_a_constant_inertia() {
     let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n";

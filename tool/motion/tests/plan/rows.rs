@@ -1,4 +1,4 @@
-//! Where the rows of a plan begin, and how many there are.
+//! Start and number of a plan's rows.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use jred_motion::trace::{Node, Trace};
 
 use super::{cycloid, motion};
 
-/// As few rows as keep it: half of the error takes about the fifth root more rows, as the fourth power of their length is what the acceleration is off by.
+/// The fewest rows for the error. The error of the acceleration grows with the fourth power of their length.
 #[test]
 fn a_smooth_motion_takes_few_rows() {
     let trace = cycloid(1000);
@@ -21,10 +21,10 @@ fn a_smooth_motion_takes_few_rows() {
         assert_eq!(plan.words.len(), HEADER_WORDS + 8 * plan.rows + 1);
         let error = f64::from(plan.errors.acceleration);
         assert!(error <= 1.05 * share * most, "{share}: {error}");
-        // Not a row more than needed, give or take the last one.
+        // No more rows than needed, except perhaps the last one.
         assert!(error >= 0.3 * share * most, "{share}: {error}");
         assert!(f64::from(plan.errors.speed) <= share * most_speed);
-        // Four times as many rows are off by a 4⁻⁴th.
+        // A tenth of the error needs 10^(1/4) = 1.8 times the rows.
         let rows = plan.rows - 1;
         let grown = if before == 0 {
             1.8
@@ -41,7 +41,7 @@ fn a_smooth_motion_takes_few_rows() {
     }
 }
 
-/// Where the acceleration jumps a row begins: three rows and an end for a trapezoid of the speed, nothing lost; and a rest takes one.
+/// A row starts at each jump of the acceleration: three rows and an end for a trapezoid of the speed, without loss; a rest takes one.
 #[test]
 fn corners_and_rests_take_a_row_each() {
     let node = |t: f64, step: f64, phi: f64, omega: f64, alpha: [f64; 2]| Node {
@@ -76,7 +76,7 @@ fn corners_and_rests_take_a_row_each() {
     assert_eq!(plan.words[7], 3);
 }
 
-/// A jump within a motion that a table of equal steps would smear is where it was, however near its node is to another.
+/// A jump that a table of equal steps would smear stays in place, even if its node is close to another.
 #[test]
 fn two_nodes_at_nearly_one_time_are_one() {
     let node = |t: f64, step: f64, phi: f64, omega: f64, alpha: [f64; 2]| Node {
@@ -101,7 +101,7 @@ fn two_nodes_at_nearly_one_time_are_one() {
     assert!(plan.errors.acceleration < 1e-6, "{:?}", plan.errors);
 }
 
-/// Constant speed is a row however exact the plan, alone and between two ramps; a rest and rounding in the accelerations do not cut it.
+/// Constant speed is a single row for any accuracy, alone and between two ramps; a rest or rounding in the accelerations does not split it.
 #[test]
 fn constant_speed_takes_one_row() {
     for share in [1e-1, SHARE, 1e-6] {
@@ -111,7 +111,7 @@ fn constant_speed_takes_one_row() {
             });
             let plan = Plan::new(&trace, Domain::Turn, 0, share).unwrap();
             assert_eq!((plan.rows, plan.excess), (2, None), "{share}");
-            // The place in a row of 10 s is known to 16 s·2⁻³².
+            // The position in a row of 10 s is resolved to 16 s·2⁻³².
             assert!(plan.errors.position < 2e-8, "{:?}", plan.errors);
             assert!(plan.errors.speed < 3e-7, "{:?}", plan.errors);
         }
@@ -135,18 +135,19 @@ fn constant_speed_takes_one_row() {
     assert_eq!((plan.rows, plan.excess), (4, None));
 }
 
-/// A motion of many short steps takes few rows also where the error asked for is as small as the rounding of positions: rows are not shorter than that allows.
+/// A motion of many short steps takes few rows, even if the requested error is as small as the rounding of positions: rows have a minimum length.
 #[test]
 fn fine_steps_do_not_make_short_rows() {
     let plan = Plan::new(&cycloid(20_000), Domain::Turn, 0, 1e-6).unwrap();
     assert!((20..60).contains(&plan.rows), "{}", plan.rows);
-    // Rounding takes the 2e-5 rad/s² of the share in a row of √(6·2π·2⁻³²/2e-5) = 21 ms; the last one would have 5 ms, and has at least half of 21 ms.
+    // By rounding, the 2e-5 rad/s² of the share need a row of √(6·2π·2⁻³²/2e-5) = 21 ms; the last one would have 5 ms, and is made at least half of
+    // 21 ms.
     let error = f64::from(plan.errors.acceleration);
     assert!(error < 4.0 * 1e-6 * 0.5 * TAU * TAU, "{error}");
     assert!((plan.most[1] / (0.5 * TAU * TAU) as f32 - 1.0).abs() < 1e-3);
 }
 
-/// Speeds that change evenly from one time to the next: what the acceleration is between them.
+/// Linear speeds between given times, with constant acceleration in between.
 fn steps(parts: &[(f64, f64)]) -> Trace {
     let mut nodes = vec![Node {
         t: 0.0,
@@ -170,8 +171,8 @@ fn steps(parts: &[(f64, f64)]) -> Trace {
     Trace::new(Coordinate::Angle, nodes)
 }
 
-/// What lies between two jumps, and is too short for a row, is left out if it changes the speed by less than that may be off: within, at the start, at the end, and two of them side
-/// by side. A longer one stays, and one that changes the speed by more.
+/// A part between two jumps that is too short for a row is left out if its change of the speed is below the permitted error: inside, at the start, at
+/// the end, and two side by side. A longer one is kept, and so is one with a larger change.
 #[test]
 fn slivers_between_jumps_are_left_out() {
     let tiny = 1e-6;
@@ -193,7 +194,7 @@ fn slivers_between_jumps_are_left_out() {
         let plan = with(at, parts);
         assert_eq!(plan.excess, None, "{parts:?} at {at}");
         assert_eq!(plan.rows, 4, "{parts:?} at {at}");
-        // The speed that is missed comes back along the neighbouring row, of 0.5 s or more.
+        // The missing speed is regained along the neighbouring row, of 0.5 s or more.
         let missed: f64 = parts.iter().map(|(t, a)| t * (a - beside)).sum();
         let missed = missed.abs();
         let errors = [plan.errors.speed, plan.errors.acceleration].map(f64::from);
@@ -203,7 +204,7 @@ fn slivers_between_jumps_are_left_out() {
         );
         assert!(errors[1] < 4.5 * missed / 0.5, "{at}: {errors:?} {missed}");
     }
-    // 8e-3 rad/s² are rounding in a row of 1.05 ms; a speed may be off by 4e-3 rad/s.
+    // 8e-3 rad/s² are rounding in a row of 1.05 ms; the permitted error of a speed is 4e-3 rad/s.
     assert_eq!(with(1, &[(1.2e-3, -3.0)]).rows, 5);
     let stays = with(1, &[(0.9e-3, -6.0)]);
     assert_eq!(stays.rows, 5);

@@ -1,4 +1,4 @@
-//! The data of an answer as JSON, and the schema of it.
+//! The data of an answer as JSON, and its schema.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 pub(crate) trait Data: Serialize + JsonSchema {
     /// Name and version of its form, such as `jred-steady/1`.
     const FORM: &'static str;
-    /// Whether columns and rows belong to it.
+    /// Whether columns and rows belong to the data.
     const HAS_COURSE: bool = false;
 }
 
@@ -89,7 +89,7 @@ fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
     let required = required.as_array().into_iter().flatten();
     let mut all: Vec<Value> = vec!["schema".into(), "title".into()];
     all.extend(required.chain(&names(&tail)).cloned());
-    // A form that has its own head names it twice.
+    // A form with a head of its own names it twice.
     let mut known = BTreeSet::new();
     all.retain(|key| known.insert(key.to_string()));
     head.extend(tail);

@@ -21,12 +21,12 @@ pub struct Sheet {
     pub reading: Option<Reading>,
     /// Notes and warnings: below a table, and in JSON.
     pub notes: Vec<String>,
-    /// The number of notes, from the first one, that are above the table.
+    /// Number of leading notes that are above the table.
     pub lead: usize,
 }
 
 impl Sheet {
-    /// As an answer: the table for reading with the notes, all columns as CSV and JSON.
+    /// The sheet as an answer: the table for reading with the notes, all columns as CSV and JSON.
     pub fn answer(self) -> Answer<'static> {
         let rows: Vec<Value> = self.rows.iter().map(|row| self.object(row)).collect();
         let data = json!({ "notes": self.notes, "rows": rows });

@@ -3,13 +3,13 @@
 use super::{Answer, Block};
 use crate::table::screen::Screen;
 
-/// Names up to this width are a column of their own.
+/// Names up to this width get a column of their own.
 const WIDEST: usize = 20;
 
-/// Between the name of a fact and its text.
+/// Gap between the name of a fact and its text.
 const GAP: &str = "  ";
 
-/// In front of a fact.
+/// Indentation of a fact.
 const INDENT: &str = "  ";
 
 impl Answer<'_> {

@@ -1,4 +1,4 @@
-//! The look of each part.
+//! Shape of each part.
 
 use super::QUIET;
 use super::sketch::Part;
@@ -12,13 +12,13 @@ const BLOCK: [f64; 2] = [17.0, 10.0];
 const BAR: f64 = 9.0;
 const INK: &str = "#1d2733";
 const PAPER: &str = "#ffffff";
-/// Faint copies.
+/// Colour of faint copies.
 const GHOST: &str = "#cdd4da";
 
 /// Draws parts in a link's frame, scaled, with v up.
 pub(super) struct Pen<'c> {
     pub(super) svg: &'c mut Svg,
-    /// Pixels of a metre.
+    /// Pixels per metre.
     pub(super) scale: f64,
 }
 
@@ -86,7 +86,7 @@ impl Pen<'_> {
         }
     }
 
-    /// A part of the ground, whose points `page` puts on the page.
+    /// A part of the ground; `page` maps its points to the page.
     pub(super) fn ground(&mut self, part: &Part, page: &dyn Fn([f64; 2]) -> [f64; 2]) {
         let ink = Ink::line(QUIET, 1.5);
         match part {
@@ -120,7 +120,7 @@ impl Pen<'_> {
         }
     }
 
-    /// A line with hatching on its right-hand side, seen from `a` to `b` on the page: below a line to the right.
+    /// A line with hatching on its right-hand side, seen from `a` to `b` on the page; below a line that runs to the right.
     fn hatch(&mut self, a: [f64; 2], b: [f64; 2]) {
         self.svg.path(&[a, b], false, &Ink::line(QUIET, 1.5));
         let ([x, y], length) = unit(a, b);
@@ -153,7 +153,7 @@ fn unit(a: [f64; 2], b: [f64; 2]) -> ([f64; 2], f64) {
     }
 }
 
-/// Both ends `by` (px) further apart.
+/// Extends both ends by `by` (px).
 fn overrun([a, b]: [[f64; 2]; 2], by: f64) -> [[f64; 2]; 2] {
     let ([x, y], _) = unit(a, b);
     [

@@ -6,7 +6,7 @@ use jred::machine::{Body, Frames, Joint, Jointed as _, Joints, Marker, Mechanism
 use jred_machine::model::coordinate::whole_range;
 use jred_machine::model::mechanism::{AnyMechanism, NamedPoint};
 
-/// Poses for paths, ranges of guides and the size of the drawing.
+/// Number of poses for paths, ranges of guides and the size of the drawing.
 const POSES: usize = 240;
 
 /// One part of a body, in the body's frame.
@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// Where every link is: x, y (m) and angle (rad).
+/// Pose of every link: x, y (m) and angle (rad).
 #[derive(Clone, Debug)]
 pub(super) struct Pose {
     pub(super) links: Vec<[f64; 3]>,
@@ -54,7 +54,7 @@ impl Pose {
     }
 }
 
-/// Everything that is drawn.
+/// Everything to draw.
 #[derive(Clone, Debug)]
 pub(super) struct Sketch {
     pub(super) links: Vec<Vec<Part>>,
@@ -63,9 +63,9 @@ pub(super) struct Sketch {
     /// The path of each named point.
     pub(super) paths: Vec<Vec<[f64; 2]>>,
     pub(super) poses: Vec<Pose>,
-    /// Whether shafts that the mechanism has at one point were drawn apart.
+    /// Whether coaxial shafts were drawn apart.
     pub(super) schematic: bool,
-    /// Offset of each link in the drawing from its place in the mechanism (m).
+    /// Offset of each link in the drawing from its position in the mechanism (m).
     apart: Vec<[f64; 2]>,
 }
 
@@ -108,7 +108,7 @@ impl Sketch {
         for point in std::mem::take(&mut sketch.points) {
             let path = sketch.poses.iter().map(|p| p.point(point.link, point.at));
             let path: Vec<[f64; 2]> = path.collect();
-            // Two links name the pin between them: one name is enough.
+            // Two links may name the pin between them; one name is enough.
             if !sketch.paths.iter().any(|drawn| coincide(drawn, &path)) {
                 sketch.paths.push(path);
                 sketch.points.push(point);
@@ -145,7 +145,7 @@ impl Sketch {
     fn joint(&mut self, joint: &Joint, over_range: &[(&Joint, &Frames)]) {
         match joint {
             Joint::Revolute([a, b]) => {
-                // One circle is enough: the fixed one, which stands on its bearing, and else that of the later link.
+                // One circle is enough: that of the fixed body with its bearing, otherwise that of the later link.
                 if a.body == Body::Ground || b.body == Body::Ground {
                     let (fixed, moving) = if a.body == Body::Ground {
                         (a, b)
@@ -173,7 +173,7 @@ impl Sketch {
         }
     }
 
-    /// A slot as long as its pin or block moves.
+    /// A slot that covers the travel of its pin or block.
     fn slot(&mut self, marker: &Marker, ways: impl Iterator<Item = f64>) {
         let (low, high) = ways.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), way| {
             (low.min(way), high.max(way))
@@ -183,9 +183,9 @@ impl Sketch {
         self.add(marker.body, Part::Slot([end(low), end(high)]));
     }
 
-    /// Bars and plates through what each link holds; `size` (m) is that of the mechanism.
+    /// Bars and plates through the points of each link; `size` (m) is that of the mechanism.
     fn bodies(&mut self, mechanism: &AnyMechanism, size: f64) {
-        // A link that only stands for a varying inertia has no shape.
+        // Virtual links with a varying inertia have no shape.
         let own = mechanism.own_links();
         for (k, parts) in self.links.iter_mut().enumerate().take(own) {
             let outlines: Vec<Part> = mechanism
@@ -227,8 +227,8 @@ impl Sketch {
         }
     }
 
-    /// Shafts side by side, for a train that has ratios and no geometry. The wheels of a stage have radii by its ratio; the
-    /// row is a metre long for each stage.
+    /// Shafts side by side, for a train that has ratios and no geometry. The radii of a stage's wheels follow from its ratio; the row is one metre
+    /// long per stage.
     fn row_of_wheels(&mut self, joints: &[Joint]) {
         self.schematic = true;
         let mut place = 0.0;
@@ -245,7 +245,7 @@ impl Sketch {
                 continue;
             }
             let share = (ratio.abs() / (1.0 + ratio.abs())).clamp(0.04, 0.96);
-            // Wheels that turn against each other mesh; others stand apart, as those of a belt do.
+            // Counter-rotating wheels mesh; others are apart, as in a belt drive.
             place += if ratio < 0.0 { 1.0 } else { 1.35 };
             self.apart[b] = [place, 0.0];
             radii[a].push(1.0 - share);
@@ -263,7 +263,7 @@ impl Sketch {
     }
 }
 
-/// Whether all joints of a mechanism turn at one place, and no outline says more.
+/// Whether all joints of a mechanism are revolute at one point, and it has no outlines.
 fn is_at_one_point(joints: &[Joint], frames: &Frames, mechanism: &AnyMechanism) -> bool {
     let outlined = (0..frames.len()).any(|k| mechanism.outlines(k).next().is_some());
     let slides = joints
@@ -287,7 +287,7 @@ fn markers(joint: &Joint) -> Vec<Marker> {
     }
 }
 
-/// Where the pin is along its slot.
+/// Position of the pin along its slot.
 fn along(joint: &Joint, frames: &Frames) -> f64 {
     let Joint::PinInSlot([pin, slot]) = joint else {
         return 0.0;
@@ -300,7 +300,7 @@ fn along(joint: &Joint, frames: &Frames) -> f64 {
     cos * (at[0] - from[0]) + sin * (at[1] - from[1])
 }
 
-/// Length of the diagonal of all joints and named points over the range (m).
+/// Diagonal of all joints and named points over the range (m).
 fn extent(joints: &[Joints], frames: &[Frames], points: &[NamedPoint]) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for (joints, frames) in joints.iter().zip(frames) {
@@ -332,7 +332,7 @@ fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
         for point in points {
-            // Left turns only: the point between lies to the right of the line.
+            // Keep left turns only: drop a point on the right of the line.
             while let [.., a, b] = chain[..] {
                 if off(a, b, point) < -near {
                     break;
@@ -349,7 +349,7 @@ fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
     hull
 }
 
-/// Whether two points are in the same place all the time, to a micrometre.
+/// Whether two points coincide at all positions, to a micrometre.
 fn coincide(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     let together = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6;
     a.iter().zip(b).all(together)

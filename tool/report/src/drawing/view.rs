@@ -7,21 +7,21 @@ use jred_machine::number::rounding::rounded;
 
 /// Margin around the drawing (px) for bearings, blocks and labels.
 const MARGIN: f64 = 48.0;
-/// Most and least height (px).
+/// Minimum and maximum height (px).
 const HEIGHT: [f64; 2] = [220.0, 560.0];
 
-/// Scale and place of a drawing.
+/// Scale and origin of a drawing.
 pub(super) struct View {
     pub(super) width: f64,
     pub(super) height: f64,
-    /// Pixels of a metre.
+    /// Pixels per metre.
     pub(super) scale: f64,
-    /// The point (m) in the middle of the page.
+    /// Point (m) at the centre of the page.
     middle: [f64; 2],
 }
 
 impl View {
-    /// A view that shows everything, whatever its size.
+    /// A view that shows everything.
     pub(super) fn of(sketch: &Sketch) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut show = |at: [f64; 2], around: f64| {
@@ -129,7 +129,7 @@ impl View {
 }
 
 impl Part {
-    /// Points that must be on the page, with the room (m) around each.
+    /// Points that must be on the page, with the space (m) around each.
     fn reach(&self) -> Vec<([f64; 2], f64)> {
         match self {
             Self::Bar(ends) | Self::Slot(ends) => ends.map(|at| (at, 0.0)).to_vec(),

@@ -12,12 +12,12 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{figure, percent, short};
 use jred_motion::balance::{Balanced, Figures, Goal, Request};
 
-/// What is view.
+/// The content of the listing.
 #[derive(Debug)]
 pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
-    /// What was asked.
+    /// The request.
     pub request: &'a Request,
     /// The result.
     pub balanced: &'a Balanced,
@@ -33,7 +33,7 @@ impl View<'_> {
         names.get(number).map_or("", String::as_str)
     }
 
-    /// What is to be least, in words.
+    /// Name of the objective.
     fn goal(&self) -> String {
         let effort = &self.coordinate().vocabulary().torque;
         match self.request.goal {
@@ -44,7 +44,7 @@ impl View<'_> {
         }
     }
 
-    /// What the inertia of the drive link is called.
+    /// Name of the drive link's inertia.
     fn inertia(&self) -> &'static str {
         match self.coordinate() {
             Coordinate::Angle => "inertia",
@@ -124,7 +124,7 @@ fn warnings(view: &View) -> Vec<String> {
     heats.into_iter().collect()
 }
 
-/// Share of the larger of pull and push below which the other is none.
+/// Share of the larger of pull and push below which the other counts as zero.
 const ONE_WAY: f64 = 1e-6;
 
 /// A spring that must both pull and push.
@@ -188,13 +188,13 @@ fn input_unit(file: &MachineFile) -> &'static str {
         .unit
 }
 
-/// As a machine file has it.
+/// The mass as text of a machine file.
 fn mass(on: &str, found: &Attached) -> String {
     let [u, v] = found.at.map(|x| figure(x * 1e3));
     let inertia = if found.inertia > 0.0 {
         format!("inertia = \"{} kg m^2\"", figure(found.inertia))
     } else {
-        "# a point mass: a real one has an inertia of its own, which comes on top".to_owned()
+        "# a point mass: a real one has an inertia in addition".to_owned()
     };
     format!(
         "[[mass]]\nname = \"counterweight on {on}\"\non = \"{on}\"\nat = [\"{u} mm\", \"{v} mm\"]\nmass = \"{} kg\"\n{inertia}",

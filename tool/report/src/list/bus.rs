@@ -215,7 +215,7 @@ fn resistor(bus: &Bus, answer: &mut Answer) {
     answer.fact("resistor", says);
 }
 
-/// Each check, and those without data.
+/// Each check, then those without data.
 fn verdicts(bus: &Bus, answer: &mut Answer) {
     for check in &bus.checks() {
         let verdict = match check.holds() {
@@ -261,7 +261,7 @@ fn course(bus: &Bus) -> Result<Columns> {
     Ok(columns)
 }
 
-/// Voltage, supply and resistor in words.
+/// Voltage, supply and resistor as text.
 fn line(bus: &Bus, figures: &BusFigures, power: &PowerCurve) -> String {
     let period = power.period();
     let bounded = figures.highest.is_finite();
@@ -276,7 +276,7 @@ fn line(bus: &Bus, figures: &BusFigures, power: &PowerCurve) -> String {
             short((figures.supplied - figures.returned) / period)
         )
     } else {
-        // All or nothing of the regenerated energy is drawn again.
+        // Either all or none of the regenerated energy is reused.
         let [drawn, back] = power.energies();
         format!(
             "{} to {} W mean",

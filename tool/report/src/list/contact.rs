@@ -1,10 +1,10 @@
-//! A one-sided contact that a motion loses, in words.
+//! Text about a one-sided contact that a motion loses.
 
 use jred_machine::model::axis::Axis;
 use jred_machine::number::rounding::short;
 use jred_motion::contact::Broken;
 
-/// Where it is lost, when and by what force.
+/// Place, time and force of the loss.
 fn state(broken: &Broken) -> String {
     let lost = &broken.lost;
     format!(
@@ -16,7 +16,7 @@ fn state(broken: &Broken) -> String {
     )
 }
 
-/// In a fastest motion, with the limits that keep it.
+/// For a fastest motion, with the limits that keep the contact.
 pub fn of_fastest(broken: &Broken, axis: &Axis) -> String {
     let Some(limits) = broken.limits else {
         return format!("{}; {}", state(broken), broken.lost.parted.cure);
@@ -36,7 +36,7 @@ pub fn of_fastest(broken: &Broken, axis: &Axis) -> String {
     format!("{}; with {} {kept}", state(broken), options.join(" "))
 }
 
-/// In a motion of a given time.
+/// For a motion of a given time.
 pub fn of_retime(broken: &Broken) -> String {
     format!(
         "{}; give the move more time, or {}",
@@ -45,7 +45,7 @@ pub fn of_retime(broken: &Broken) -> String {
     )
 }
 
-/// With three digits, and no more than it is.
+/// Rounds down to three digits.
 fn rounded_down(value: f64) -> f64 {
     let digit = 10.0_f64.powf(value.log10().floor() - 2.0);
     (value / digit).floor() * digit

@@ -1,16 +1,16 @@
-//! The words for process loads that drive a machine, for every listing that knows what they do in a turn.
+//! Text about process loads that drive a machine, for every listing with the works of a turn.
 
 use jred_machine::number::rounding::short;
 
 /// Share of the energy turned over from which the work of process loads drives the machine.
 const DRIVING: f64 = 1e-3;
 
-/// Share of the kinetic energy below which a work is the error of an integration.
+/// Share of the kinetic energy below which a work is an integration error.
 const ROUNDING: f64 = 1e-6;
 
-/// What is done in a turn.
+/// Works over one turn.
 pub(super) struct Turns {
-    /// Of the motor, of the process loads, and lost (J).
+    /// Works of the motor, of the process loads, and the losses (J).
     pub(super) works: [f64; 3],
     /// Kinetic energy (J).
     pub(super) kinetic: f64,
@@ -18,7 +18,7 @@ pub(super) struct Turns {
     pub(super) is_backwards: bool,
 }
 
-/// How process loads that do more work on the machine than they take drive it, and what to do if they should not.
+/// Work by which process loads drive the machine, and the cure; `None` if they do not.
 pub(super) fn driven(turns: &Turns) -> Option<String> {
     let [motor, process, losses] = turns.works;
     let turned_over = motor.abs().max(losses.abs());
@@ -26,12 +26,12 @@ pub(super) fn driven(turns: &Turns) -> Option<String> {
         return None;
     }
     let why = if turns.is_backwards {
-        "φ falls, and a load keeps the sign of its file: give a motor torque of the other sign, or, if the load should resist this way, turn its sign"
+        "φ falls, and loads keep the sign of the file: reverse the sign of the motor torque, or that of the load if it should resist in this direction"
     } else {
-        "if they should resist, turn their sign"
+        "if they should resist, reverse their sign"
     };
     Some(format!(
-        "drive the machine, by {} J a turn; {why}",
+        "drive the machine with {} J per turn; {why}",
         short(process)
     ))
 }

@@ -1,4 +1,4 @@
-//! The table for the firmware, and every number type and layout beside it.
+//! The table for the firmware, and every other number type and layout.
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
@@ -12,7 +12,7 @@ impl Data for ExportData {
     const FORM: &'static str = FORM;
 }
 
-/// The table that was chosen, and what the others take; the chosen one is starred.
+/// The selected table, starred, and the sizes of the others.
 pub fn answer(export: &Export) -> Answer<'static> {
     let summary = export.summary();
     let mut lines = summary.lines();

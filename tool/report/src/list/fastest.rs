@@ -34,10 +34,10 @@ pub use drive::Warmth;
 /// Durations that differ by a smaller share are shown as the same.
 const SAME: f64 = 5e-4;
 
-/// Durations from so many times another one on are spoken of as a multiple.
+/// Duration ratios from this one on are printed as a multiple.
 const MANY: f64 = 3.0;
 
-/// What a motion is refined to: less is chance.
+/// Tolerance of the refinement; a smaller excess is chance.
 const LEAST_EXCESS: f64 = 1e-9;
 
 /// The fastest motion of a machine with a drive.
@@ -46,27 +46,27 @@ pub struct View<'a> {
     pub file: &'a MachineFile,
     /// Name of the drive.
     pub drive: &'a str,
-    /// What moves the machine.
+    /// The motor or the drive.
     pub actuator: &'a Actuator,
     /// The motion.
     pub cycle: &'a Cycle,
-    /// What the motion of the file is made of, if that was asked for.
+    /// The parts of the file's motion, if its cycle was requested.
     pub chain: Option<&'a Chain>,
-    /// Temperatures of the winding, where they are limited.
+    /// Temperatures of the winding, if they are limited.
     pub warmth: Option<&'a Warmth>,
     /// The largest forces in the joints whose force is limited.
     pub forces: &'a [Reached],
     /// The contact that the motion loses.
     pub broken: Option<&'a Broken>,
-    /// What was asked for, option by option.
+    /// The request, option by option.
     pub asked: Vec<String>,
-    /// What it leaves unused of motor and gearbox.
+    /// Shares of motor and gearbox that the motion leaves unused.
     pub reserve: Reserve,
-    /// How the rules judge it, where they are kept.
+    /// Verdicts of the rules, if they were applied.
     pub judged: Option<&'a Judged>,
-    /// Whether the drive is one of the catalogue, which `jred size` can judge.
+    /// Whether the drive is from the catalogue, so that `jred size` can judge it.
     pub of_catalogue: bool,
-    /// Instants of the course.
+    /// Number of instants of the course.
     pub instants: usize,
 }
 
@@ -106,8 +106,8 @@ impl View<'_> {
         input_kind(self.file).vocabulary()
     }
 
-    /// The duration first, then the load of the drive, and each move; `written` says which files were written. The course, which CSV
-    /// and JSON have, is not computed for a text.
+    /// The duration, the load of the drive, then each move; `written` lists the written files. The course, which only CSV and JSON contain, is not
+    /// computed for text.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
@@ -148,7 +148,7 @@ impl View<'_> {
         }
         answer.fact("duration", says);
         if !self.asked.is_empty() {
-            answer.fact("asked for", self.asked.join("; "));
+            answer.fact("requested", self.asked.join("; "));
         }
         if let Some(chain) = self.chain {
             for (name, says) in kept::lines(self.file, chain) {
@@ -190,20 +190,20 @@ impl View<'_> {
             let least: f64 = bounds.iter().sum();
             let torque = self.words().torque;
             let binds = self.warmth.is_some_and(|warmth| warmth.bound.is_some());
-            // A limit of the temperature is kept as one of the RMS torque.
+            // A limit of the temperature is applied as a limit of the RMS torque.
             let (near, rms) = if binds {
                 let near = format!(
-                    "no motion near it with its RMS {torque} is faster; one that spreads its losses otherwise over the cycle may be"
+                    "no nearby motion with the same RMS {torque} is faster; one with another distribution of losses over the cycle may be"
                 );
                 (near, format!(", RMS {torque} and winding temperature"))
             } else {
                 (
-                    "no motion near it is faster".to_owned(),
+                    "no nearby motion is faster".to_owned(),
                     format!(" and RMS {torque}"),
                 )
             };
             let says = format!(
-                "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, and none takes less",
+                "{near}; without limits of jerk, {torque} rate{rms} the moves take {} s, a lower bound",
                 short(least)
             );
             answer.fact("optimum", says);
@@ -213,13 +213,13 @@ impl View<'_> {
         }
     }
 
-    /// Whether the motion turns for ever without rest.
+    /// Whether the motion turns endlessly without a rest.
     fn is_endless(&self) -> bool {
         let mut nodes = self.cycle.trace.nodes().iter();
         self.chain.is_some() && nodes.all(|node| node.omega != 0.0)
     }
 
-    /// Whether it is one move that ends in motion, and whether it is one that begins or ends so: such a move is not repeated.
+    /// Whether this is a single move that ends in motion, and whether it begins or ends in motion; such a move is not repeated.
     fn passes(&self) -> [bool; 2] {
         let nodes = self.cycle.trace.nodes();
         let moves = |node: Option<&Node>| node.is_some_and(|node| node.omega != 0.0);
@@ -237,7 +237,7 @@ fn more_or_less(ratio: f64) -> String {
     format!("{} {side}", percent((ratio - 1.0).abs()))
 }
 
-/// A ratio with three digits, or whole, its thousands apart.
+/// A ratio with three digits, or an integer with thousands separators.
 fn thousands(ratio: f64) -> String {
     if !(1e3..1e15).contains(&ratio) {
         return short(ratio);

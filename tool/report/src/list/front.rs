@@ -58,7 +58,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         .map(|o| o.column().to_owned())
         .collect();
     let mut answer = Answer::new(title, &data(front, columns.clone()));
-    // An objective has a column of its own.
+    // Each objective has a column of its own.
     let own = |objective: Objective| !front.objectives.contains(&objective);
     let figures = |point: &Point| -> Vec<Option<f64>> {
         let ratio = std::iter::once(Some(point.candidate.drive.ratio()));

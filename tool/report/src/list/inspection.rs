@@ -18,7 +18,7 @@ use jred_machine::number::rounding::{short, shown};
 use jred_sizing::study::cell::Cell;
 
 jred_machine::words! {
-    /// How an answer without columns is written.
+    /// Format of an answer without columns.
     pub enum Format default Table {
         /// For reading.
         Table = "table",

@@ -1,4 +1,4 @@
-//! What a motion made anew keeps of the file's, and what it does not.
+//! Parts and limits of the file's motion that a new motion keeps, and those that it drops.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,7 +8,7 @@ use jred_machine::model::motion::{Motion, ToolCoordinate};
 use jred_machine::number::rounding::short;
 use jred_motion::moves::{Chain, Kept};
 
-/// A speed (rad/s, or m/s) of what the motion prescribes.
+/// A prescribed speed (rad/s, or m/s).
 fn speed(file: &MachineFile, speed: f64) -> String {
     let tool = file.motion.as_ref().and_then(Motion::tool);
     let drive = file.machine.mechanism().coordinate();
@@ -30,12 +30,12 @@ pub fn kept(file: &MachineFile, kept: &Kept) -> String {
     )
 }
 
-/// The lines about a chain of parts: each with its name.
+/// Named lines about a chain of parts.
 pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
     let mut lines: Vec<_> = (chain.kept().map(|part| ("kept", kept(file, part)))).collect();
     if let Some(steady) = &chain.given_up {
         let says = format!(
-            "the constant speed of the file, {}: it is all of the motion, so another one is sought for the same turn",
+            "the constant speed of the file, {}: the motion has no other part, so a new one is computed for the same turn",
             speed(file, steady.speed)
         );
         lines.push(("not kept", says));
@@ -44,7 +44,7 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
         let drive = file.machine.mechanism().coordinate();
         for overshoot in &chain.overshoots {
             let says = format!(
-                "the turning back of the law: {}; its move goes straight to its end",
+                "the overshoot of the law: {}; its move goes directly to its end",
                 overshoot.says(motion, drive)
             );
             lines.push(("not kept", says));
@@ -60,21 +60,21 @@ pub fn lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
     lines
 }
 
-/// All that is said of what is kept, where no options are given for the limits of segments.
+/// All lines about kept and dropped parts, for a command without options for limits.
 pub(crate) fn all_lines(file: &MachineFile, chain: &Chain) -> Vec<(&'static str, String)> {
     let mut all = lines(file, chain);
     all.extend(limits(file, None).map(|says| ("limits", says)));
     all
 }
 
-/// What is not kept, in sentences, where no options are given for the limits of segments.
+/// Parts and limits that are not kept, for a command without options for limits.
 pub(crate) fn lost(file: &MachineFile, chain: &Chain) -> Vec<String> {
     let all = all_lines(file, chain).into_iter();
     let lost = all.filter(|(name, _)| ["not kept", "limits"].contains(name));
     lost.map(|(_, says)| says).collect()
 }
 
-/// The limits of the file's segments that a motion made anew does not keep. `asked` are the options that were given; none where there are no such options.
+/// The limits of the file's segments that a new motion does not keep. `asked`: the given options; `None` if the command has no options for limits.
 pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<String> {
     let motion = file.motion.as_ref()?;
     let tool = motion.tool();
@@ -82,7 +82,7 @@ pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<Str
         file.machine.mechanism().coordinate(),
         ToolCoordinate::coordinate,
     );
-    // Options are limits of the axis, which need not be what is prescribed.
+    // Options limit the axis, which may not be the prescribed coordinate.
     let options = tool.is_none_or(|tool| tool.axis().is_some());
     let mut lost: Vec<(&str, f64)> = Vec::new();
     for (_, limits) in motion.limits() {
@@ -126,7 +126,7 @@ pub(crate) fn limits(file: &MachineFile, asked: Option<&[String]>) -> Option<Str
     names.dedup();
     let cure = if asked.is_some() && options {
         let names: Vec<String> = names.iter().map(|name| format!("--max-{name}")).collect();
-        format!("; {} keep them", names.join(", "))
+        format!("; to keep them, give {}", names.join(", "))
     } else {
         String::new()
     };

@@ -1,4 +1,4 @@
-//! How a selection of drives is listed: as text, CSV or JSON.
+//! A selection of drives as text, CSV or JSON.
 
 mod asked;
 mod brief;

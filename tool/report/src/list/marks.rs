@@ -1,4 +1,4 @@
-//! The marks of drives in a list, and what they say.
+//! Marks of drives in a list, and their legend.
 
 use jred_sizing::catalogue::Drive;
 
@@ -17,7 +17,7 @@ pub(crate) fn drive(drive: &Drive) -> [String; 3] {
     ]
 }
 
-/// The voltage that a motor is made for.
+/// The voltage class of a motor.
 pub(crate) fn made_for(drive: &Drive) -> String {
     let made = drive.motor.made_for();
     made.map_or("–".to_owned(), |made| made.words())
@@ -29,17 +29,17 @@ pub(crate) fn key(key: &str, from_maker: bool) -> String {
     format!("{key}{mark}")
 }
 
-/// A line for each mark that the drives have.
+/// A line for each mark in the list.
 pub(crate) fn legend(drives: &[Drive]) -> Vec<&'static str> {
     let mut lines = Vec::new();
     if drives.iter().any(|drive| !drive.from_makers()) {
         lines.push("* figures not from the maker's own document");
     }
     if drives.iter().any(|drive| drive.motor.made_for().is_none()) {
-        lines.push("– voltage that the motor is made for not stated in the catalogue");
+        lines.push("– voltage class of the motor not given in the catalogue");
     }
     if drives.iter().any(|drive| !drive.is_paired()) {
-        lines.push("† nobody states that this amplifier runs this motor; ask the makers");
+        lines.push("† no source pairs this amplifier with this motor; ask the makers");
     }
     lines
 }

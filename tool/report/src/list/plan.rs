@@ -1,4 +1,4 @@
-//! What a plan for firmware is, in a line.
+//! A plan for firmware in one line.
 
 use jred::axis::plan::Errors;
 use jred_machine::number::rounding::{bound, short};
@@ -6,7 +6,7 @@ use jred_machine::number::words::counted;
 use jred_motion::plan::{Excess, Plan, Quantity};
 use jred_motion::trace::Trace;
 
-/// Rows, bytes, and what it is off by.
+/// Rows, bytes, and largest errors.
 pub fn text(plan: &Plan, trace: &Trace) -> String {
     let coordinate = trace.coordinate;
     let Errors {
@@ -18,13 +18,13 @@ pub fn text(plan: &Plan, trace: &Trace) -> String {
     let ramp = match plan.ramp {
         None => String::new(),
         Some(ramp) if ramp.is_finite() => format!(
-            "; a ramp of the rate from 0 to 100 % in {} s or more keeps the torque of the drive",
+            "; a ramp of the rate from 0 to 100 % in {} s or more stays within the drive's torque",
             bound(ramp)
         ),
-        Some(_) => "; no change of the rate keeps the torque of the drive, of which the motion uses all (--reserve leaves some)".to_owned(),
+        Some(_) => "; the rate cannot be changed, because the motion uses the drive's full torque (--reserve leaves some)".to_owned(),
     };
     format!(
-        "{}, {} bytes, {} s; beside the motion off by at most {} {}, {} {} and {} {}{ramp}",
+        "{}, {} bytes, {} s; errors against the motion at most {} {}, {} {} and {} {}{ramp}",
         counted(plan.rows, "row", "rows"),
         4 * plan.words.len(),
         short(trace.duration()),
@@ -37,7 +37,7 @@ pub fn text(plan: &Plan, trace: &Trace) -> String {
     )
 }
 
-/// Where it is off by more than was asked, if it is.
+/// A warning if the error exceeds the allowed one.
 pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
     let Excess {
         quantity,
@@ -57,8 +57,8 @@ pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
         Quantity::Acceleration => ("acceleration", &*acceleration_unit.unit),
     };
     Some(format!(
-        "the plan's {name} is off by {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion contradict each other there, \
-         a part of it is left out that is too short for a row, or it is finer than a plan's integers; give a larger --plan-error",
+        "the error of the plan's {name} is {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion are inconsistent there, \
+         a part too short for a row is left out, or the allowed error is finer than a plan's integers; give a larger --plan-error",
         short(shown(error)),
         short(t),
         short(shown(allowed)),

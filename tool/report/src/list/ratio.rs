@@ -39,7 +39,7 @@ const READING: [&str; 8] = [
     "limited by: gearboxes; or why none",
 ];
 
-/// The ranges of every motor; with `top`, those of so many suitable motors.
+/// The ranges of every motor; with `top`, those of the first `top` suitable motors.
 pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> Sheet {
     let share = study.rms_share();
     let gear = match study.gear {
@@ -124,7 +124,7 @@ fn cells(row: &MotorRatio) -> Vec<Cell> {
         row.best.into(),
         row.rms_torque().into(),
         row.rms.map(|[from, _]| from).into(),
-        // Empty where it is open.
+        // Empty if the range is open.
         row.rms.map(|[_, to]| to).into(),
         found.map(|found| found.range[0]).into(),
         ended(found.and_then(|found| found.below)),
@@ -135,7 +135,7 @@ fn cells(row: &MotorRatio) -> Vec<Cell> {
     ]
 }
 
-/// The same for reading: ranges in one cell, and the reason where the range would be.
+/// For reading: ranges in one cell, and the reason in place of a missing range.
 fn reading(row: &MotorRatio) -> Vec<Cell> {
     let range = |range: Range| -> Cell {
         let [from, to] = range.map(|x| significant(x, 3));

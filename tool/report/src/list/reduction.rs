@@ -27,7 +27,7 @@ pub struct View<'a> {
     pub passed: bool,
     /// Whether the rows are at positions of the command line.
     pub is_at_positions: bool,
-    /// Loads, payloads and carriages that follow the motion, and that rows without it do not contain.
+    /// Loads, payloads and carriages that follow the motion; rows without the motion do not contain them.
     pub not_contained: &'a [String],
 }
 
@@ -98,10 +98,10 @@ impl<'a> View<'a> {
     }
 }
 
-/// The parts that rows without the motion do not contain.
+/// Sentence about the parts that rows without the motion do not contain.
 pub fn not_contained(parts: &[String]) -> String {
     format!(
-        "not contained where no motion passes: {}: use --over time",
+        "not contained without the motion: {}; use --over time",
         parts.join("; ")
     )
 }

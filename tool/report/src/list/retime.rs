@@ -25,22 +25,22 @@ use jred_sizing::study::cell::Cell;
 /// Figures that differ by less are shown as the same.
 const SAME: f64 = 5e-4;
 
-/// What is shown.
+/// The content of the listing.
 #[derive(Debug)]
 pub struct View<'a> {
     /// The machine.
     pub file: &'a MachineFile,
-    /// Name of the drive; `None`: the torque is that at the input of the drive train.
+    /// Name of the drive; `None`: the torque is at the input of the drive train.
     pub drive: Option<String>,
-    /// What was asked.
+    /// The request.
     pub request: &'a Request,
     /// The result.
     pub retimed: &'a Retimed,
     /// The contact that the motion loses.
     pub broken: Option<&'a Broken>,
-    /// The rules of the drive in the gentlest motion; none without a drive.
+    /// The rules of the drive in the gentlest motion; empty without a drive.
     pub checks: &'a [Check],
-    /// Which files were written.
+    /// The written files.
     pub written: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ fn words(shown: &View) -> &'static Vocabulary {
     input_kind(shown.file).vocabulary()
 }
 
-/// What is to be least, in words.
+/// Name of the objective.
 fn goal(goal: Goal, words: &Vocabulary) -> String {
     match goal {
         Goal::Rms => format!("RMS {}", words.torque),
@@ -72,12 +72,12 @@ fn rows(retimed: &Retimed) -> Vec<(&'static str, &Figures)> {
     rows
 }
 
-/// Column of the copper loss, and of the share of the drive's limits, where they are known.
+/// Whether there are columns for the copper loss, and for the shares of the drive's limits.
 fn columns(shown: &View) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
-/// What the motion is, with which drive, and how its moves begin and end.
+/// The motion, its drive, and the ends of its moves.
 pub(crate) fn subject(shown: &View) -> String {
     let words = words(shown);
     let drive = shown.drive.as_ref().map_or_else(
@@ -186,7 +186,7 @@ fn describe(answer: &mut Answer, shown: &View, words: &Vocabulary) {
     }
     for (name, [own, best]) in &retimed.standing {
         let says = format!(
-            "{name} stands still for {} s while the drive turns, in the file for {} s: a motion of the drive changes that; where it must last, give the file a motion with the dwell in [motion]",
+            "{name} rests for {} s while the drive turns, in the file for {} s: a new motion of the drive changes that; to keep a dwell, prescribe it in [motion]",
             short(*best),
             short(*own)
         );
@@ -241,24 +241,21 @@ fn optimum(shown: &View, words: &Vocabulary) -> String {
     };
     let unit = unit(goal, words);
     match (retimed.optimum(), bound) {
-        (Optimum::Global, Some((bound, gap))) if goal == Goal::Peak => {
-            format!("global: no motion of these moves stays below {bound} {unit}; gap {gap:.0e}")
+        (Optimum::Global, Some((bound, gap))) => {
+            format!("global: no motion of these moves is below {bound} {unit}; gap {gap:.0e}")
         }
-        (Optimum::Global, Some((bound, gap))) => format!(
-            "global: no motion of these moves takes less than {bound} {unit}; gap {gap:.0e}"
-        ),
         (Optimum::Global, None) => {
-            format!("global: the problem is convex, no motion of these moves{of} takes less")
+            format!("global: the problem is convex, so no motion of these moves{of} is better")
         }
         (Optimum::Local(reason), bound) => {
             let near = if reason == Reason::Ended {
-                "local: the best motion that was found; that none takes less is not proved because"
+                "local: the best motion found; not proved to be global, because"
             } else {
-                "local: no motion near it takes less; of others this is not proved because"
+                "local: no nearby motion is better; not proved to be global, because"
             };
             let mut says = format!("{near} {}", why(reason));
             if let Some((bound, _)) = bound {
-                let _ = write!(says, "; none takes less than {bound} {unit}");
+                let _ = write!(says, "; the lower bound is {bound} {unit}");
             }
             says
         }
@@ -268,13 +265,13 @@ fn optimum(shown: &View, words: &Vocabulary) -> String {
 const fn why(reason: Reason) -> &'static str {
     match reason {
         Reason::LongTime => {
-            "the time is longer than the motion takes of itself, so that it may be better to stay long where little resists"
+            "the given time is longer than the unconstrained optimum, so that waiting where the resistance is low may be better"
         }
         Reason::Viscous => "viscous friction makes the problem non-convex",
         Reason::Losses => "the losses of gears make the problem non-convex",
-        Reason::Ended => "the search did not come to its end",
+        Reason::Ended => "the search did not converge",
         Reason::Bound => "the lower bound is not close enough",
-        Reason::Written => "the motion takes more than the search counted",
+        Reason::Written => "the written motion costs more than the search computed",
     }
 }
 
@@ -299,25 +296,25 @@ fn one_move(shown: &View, gentle: &Gentle, goal: Goal) -> String {
     if waits > 0.0 {
         let _ = write!(
             says,
-            ": moves for {} s and waits for {} s at {}, which takes less than moving more slowly",
+            ": moves for {} s and waits for {} s at {}, which costs less than moving more slowly",
             short(gentle.moving),
             short(waits),
             waits_at(gentle, &axis)
         );
     }
     if goal != Goal::Peak && waits == 0.0 {
-        // Of the RMS torque, by how much it changes with one per cent of the time.
+        // Change of the copper loss per 1 % of the time.
         let change = 0.01 * travel.duration * gentle.per_second / gentle.cost;
         if gentle.cost > 0.0 {
             let _ = write!(
                 says,
-                "; 1 % more time takes {} {} {}",
-                percent_fine(change.abs()),
-                if change < 0.0 { "off" } else { "more for" },
+                "; 1 % more time {} its {} by {}",
+                if change < 0.0 { "reduces" } else { "increases" },
                 match goal {
-                    Goal::Energy => "its energy",
-                    _ => "its copper loss",
-                }
+                    Goal::Energy => "energy",
+                    _ => "copper loss",
+                },
+                percent_fine(change.abs())
             );
         }
     }
@@ -333,7 +330,7 @@ fn waits_at(gentle: &Gentle, axis: &Axis) -> String {
     } else if is(travel.start + travel.distance) {
         "its end".to_owned()
     } else {
-        format!("{}, where holding takes least", axis.place(gentle.waits_at))
+        format!("{}, where holding costs least", axis.place(gentle.waits_at))
     }
 }
 
@@ -461,7 +458,7 @@ fn data<'a>(shown: &'a View) -> RetimeData<'a> {
         Optimum::Local(reason) => (false, Some(why(reason))),
     };
     let axis = file.axis();
-    // The mean of a high power has no unit of use.
+    // The mean of a high power has no useful unit.
     let known = |figure: f64| Some(figure).filter(|_| request.goal != Goal::Peak);
     let moves = retimed.moves.iter().map(|gentle| {
         let travel = &gentle.travel;

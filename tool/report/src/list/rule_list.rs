@@ -13,7 +13,7 @@ use jred_machine::number::rounding::figure;
 use jred_machine::read;
 use jred_sizing::study::cell::Cell;
 
-/// All built-in sets, each in a line.
+/// All built-in sets, one line each.
 pub fn all() -> Answer<'static> {
     let sets = read::rule_set_names().filter_map(read::built_in_rules);
     let sets: Vec<RuleSet> = sets.collect();
@@ -49,7 +49,7 @@ fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String;
     }
 }
 
-/// Limits are numbers with a unit; a rule that is switched off has no limit, nor one whose limit depends on the moves.
+/// Limits are numbers with a unit; empty for a rule that is off, or whose limit depends on the moves.
 fn csv(set: &RuleSet) -> String {
     let header = [
         "rule", "key", "limit", "warning", "unit", "sense", "state", "source",
@@ -98,11 +98,11 @@ const BY_MOVES: &str = "by moves per minute";
 pub struct Line {
     /// The rule.
     pub rule: Rule,
-    /// Beyond what it is violated, such as `80 %`; "off" where it was switched off.
+    /// The limit beyond which it is violated, such as `80 %`; "off" if the rule is off.
     pub limit: String,
-    /// Beyond what there is a warning.
+    /// The limit beyond which there is a warning.
     pub warning: String,
-    /// Where that comes from.
+    /// Source of the limit.
     pub source: String,
 }
 

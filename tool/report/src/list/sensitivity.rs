@@ -179,7 +179,7 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
     }
 }
 
-/// The same as words; a note says why the machine file is invalid then.
+/// The same as text; a note tells why the machine file becomes invalid.
 fn room_words(room: &Room, words: &Vocabulary) -> Cell {
     let change = significant(room.change() * 100.0, 3);
     match room {
@@ -190,7 +190,7 @@ fn room_words(room: &Room, words: &Vocabulary) -> Cell {
     }
 }
 
-/// Room in per cent, and what limits it.
+/// Room in per cent, and its limit.
 fn room(room: &Room, words: &Vocabulary) -> [Cell; 2] {
     let percent = Cell::from(room.change() * 100.0);
     match room {

@@ -21,14 +21,14 @@ pub struct View<'s> {
     pub simulation: &'s Simulation,
     /// The motion.
     pub found: &'s Simulated,
-    /// Stops at instants over a cycle.
+    /// Stops from instants over a cycle.
     pub stops: Option<&'s [Stop]>,
     /// The drive of the catalogue: its name, and its loads.
     pub drive: Option<(&'s str, &'s Loads)>,
 }
 
 impl<'s> View<'s> {
-    /// Its events, one a line, and the course.
+    /// Its events, one per line, and the course.
     pub fn answer(&self) -> Answer<'s> {
         let mut answer = Answer::new(self.title(), &self.data());
         self.sentences(&mut answer);
@@ -44,7 +44,7 @@ impl<'s> View<'s> {
         }
     }
 
-    /// What a page is about, below the title of the first machine.
+    /// Subtitle of the page, below the title of the first machine.
     pub(crate) fn about(&self) -> String {
         let motor = self.drive.map_or_else(
             || "the motor of the machine file".to_owned(),

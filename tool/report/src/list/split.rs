@@ -112,14 +112,14 @@ impl View<'_> {
         Ok(answer)
     }
 
-    /// Whether every stage is within the bounds, except for rounding.
+    /// Whether every stage is within the bounds, up to rounding.
     fn keeps(&self, split: &Split) -> bool {
         let [low, high] = self.bounds;
         let range = low * (1.0 - 1e-12)..=high * (1.0 + 1e-12);
         split.ratios.iter().all(|ratio| range.contains(ratio))
     }
 
-    /// J_red over the ratio of the first stage, in equal steps of its logarithm, the others divided in the best way.
+    /// J_red over the ratio of the first stage in logarithmic steps; the other ratios are optimal.
     fn curve(&self, best: &Split) -> Result<Columns, RangeError> {
         let ratios = (1..=self.train.stages()).map(|k| Column::other(format!("i{k}"), ""));
         let figures = [("J_red", "kg m^2"), ("J_red of the smallest", "")];
@@ -128,7 +128,7 @@ impl View<'_> {
         let [least, most] = self.train.first_range();
         for k in 0..self.points {
             let share = f64::from(k) / f64::from(self.points - 1);
-            // At its ends the power is not exact.
+            // The power is inexact at its ends.
             let first = (least * (most / least).powf(share)).clamp(least, most);
             let point = self.train.with_first(first)?;
             let figures = [point.inertia, point.inertia / best.inertia];

@@ -47,7 +47,7 @@ pub fn answer<'s>(machines: &Together, steady: &'s Steady) -> Answer<'s> {
 fn wheel(answer: &mut Answer, flywheel: &Flywheel, own: Option<&Cycle>) {
     answer.heading(format!("flywheel for δ = {}", short(flywheel.delta)));
     let exact = if flywheel.inertia == 0.0 {
-        "none is needed: the machine runs as evenly without".to_owned()
+        "not needed: the machine runs as evenly without it".to_owned()
     } else {
         format!("{} kg m^2 on the drive link", short(flywheel.inertia))
     };

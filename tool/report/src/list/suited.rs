@@ -1,4 +1,4 @@
-//! Drives with the motions that suit them, for reading: what stands before the list of `jred size --motion best`.
+//! Drives with motions made for them: the head of the list of `jred size --motion best`.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ use jred_sizing::study::cell::Cell;
 use crate::list::kept::{self, KeptPart};
 use crate::table::reading::Reading;
 
-/// Which motion the list below is made with, and what the best drive was before.
+/// The motion of the list, and the best drive before.
 pub fn words(file: &MachineFile, suited: &Suited) -> String {
     let Some(best) = suited.best() else {
         return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
@@ -43,7 +43,7 @@ pub fn words(file: &MachineFile, suited: &Suited) -> String {
     };
     let ahead = suited.ahead.as_ref().map_or_else(String::new, |ahead| {
         format!(
-            "\nThe list ranks {} first: this motion suits it better than its own gentlest one, whose RMS {torque} is least but not its use of all limits",
+            "\nThe list ranks {} first: with this motion it uses less of its limits than with its own gentlest one, which has the least RMS {torque} only",
             named(ahead)
         )
     });
@@ -74,8 +74,8 @@ fn stays(before: &Drive, best: &Drive) -> String {
 /// The motion that drives are judged with.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct MotionData {
-    /// gentlest: the motion of least effort for a drive; file: that of the machine file, which is kept where no drive that is as small
-    /// is suitable with a motion of its own.
+    /// gentlest: the motion of least effort for a drive; file: the motion of the machine file, kept if no equally small drive is suitable with a
+    /// motion of its own.
     from: &'static str,
     /// The drive that the motion is made for; null: the motion is that of the file.
     #[serde(rename = "made for")]
@@ -86,7 +86,7 @@ pub struct MotionData {
     /// The best drive with the motion of the file; null: no drive is suitable.
     #[serde(rename = "best with the file's motion")]
     before: Option<NamedDrive>,
-    /// The best drive with a motion of its own; null: none of those tried is suitable.
+    /// The best drive with a motion of its own; null: no tried drive is suitable.
     #[serde(rename = "best with a motion of its own")]
     own: Option<NamedDrive>,
     /// Parts of the file's motion that are kept.
@@ -121,7 +121,7 @@ impl From<&Drive<'_>> for NamedDrive {
 pub fn data(file: &MachineFile, suited: &Suited) -> MotionData {
     let better = suited.better();
     let before = suited.before.as_ref();
-    // With the motion of the file all is kept.
+    // With the motion of the file everything is kept.
     MotionData {
         from: if better.is_some() { "gentlest" } else { "file" },
         made_for: better.map(|tried| (&tried.drive).into()),
@@ -133,7 +133,7 @@ pub fn data(file: &MachineFile, suited: &Suited) -> MotionData {
     }
 }
 
-/// The drives that were tried, each with its own motion, and what that saves.
+/// The tried drives, each with its own motion, and the saving.
 pub fn table(suited: &Suited) -> String {
     let Some(first) = suited.tried.first() else {
         return String::new();

@@ -23,7 +23,7 @@ pub(crate) const COLUMNS: [&str; 9] = [
     "largest use",
 ];
 
-/// The same for a table.
+/// The columns for reading.
 const READING: [&str; 9] = [
     "rule",
     "machines that satisfy it [%]",

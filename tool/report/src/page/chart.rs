@@ -1,4 +1,4 @@
-//! A chart of the report: as a picture for paper and for browsers without scripts, and as data for the page's script.
+//! A chart of the report: an SVG picture for paper and browsers without scripts, and data for the page's script.
 
 use serde_json::{Value, json};
 
@@ -50,7 +50,7 @@ impl Chart {
         }
     }
 
-    /// With the time of every point of series number `series`, so that the cursors over time find it.
+    /// Adds the time of every point of series number `series`, by which the cursors over time find it.
     pub(super) fn with_times(mut self, series: usize, times: impl Iterator<Item = f64>) -> Self {
         if let Some(found) = self.data["series"].get_mut(series) {
             found["t"] = times.map(number).collect();
@@ -58,13 +58,13 @@ impl Chart {
         self
     }
 
-    /// The data for an element of the page: text of the user's must not end it.
+    /// The data for an element of the page, escaped so that user text cannot end it.
     pub(super) fn json(&self) -> String {
         self.data.to_string().replace('<', "\\u003c")
     }
 }
 
-/// Series that share their places name one list of them.
+/// Series with the same abscissae share one list of them.
 fn data(
     form: ChartKind,
     axes: &Axes,
@@ -111,7 +111,7 @@ fn data(
     })
 }
 
-/// Six digits; nothing where the curve has a gap.
+/// Six digits; null at a gap.
 fn number(x: f64) -> Value {
     if !x.is_finite() {
         return Value::Null;

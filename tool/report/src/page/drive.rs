@@ -45,7 +45,7 @@ impl Subject<'_> {
         format!("{what} {torque} [{}]", dotted(torque.unit))
     }
 
-    /// (time, value) over the cycle of values that are drawn together: they share their times.
+    /// (time, value) over the cycle, for values that share their times.
     fn over_time<const N: usize>(
         &self,
         values: [&dyn Fn(&Instant) -> f64; N],
@@ -71,8 +71,8 @@ impl Subject<'_> {
         vec![(0.0, value), (self.duty.duration, value)]
     }
 
-    /// The torque-speed plane in all four quadrants: peak and S1 torque, what the rules allow of them, the duty, its RMS point,
-    /// and the point that comes closest to the peak torque.
+    /// The torque-speed plane in all four quadrants: peak and S1 torque, the shares that the rules allow, the duty, its RMS point, and the point
+    /// closest to the peak torque.
     pub(super) fn plane(&self) -> Chart {
         let words = self.words();
         let envelope = &self.context.motor.envelope;
@@ -229,7 +229,7 @@ impl Subject<'_> {
         )
     }
 
-    /// Rises of winding and housing over the cycle, where they can be followed.
+    /// Temperature rises of winding and housing over the cycle, if they are known.
     pub(super) fn rises(&self) -> Option<Chart> {
         let course = self.context.rises()?;
         let drawn = kept(course.len(), &[&|k| course[k].1[0], &|k| course[k].1[1]]);
@@ -245,7 +245,7 @@ impl Subject<'_> {
         Some(Chart::new(ChartKind::Time, &axes, &series))
     }
 
-    /// Voltage of the DC bus over the cycle, where it is known.
+    /// Voltage of the DC bus over the cycle, if it is known.
     pub(super) fn bus_voltage(&self) -> Option<Chart> {
         let trace = self.context.bus_voltage();
         let drawn = kept(trace.len(), &[&|k| trace[k][1]]);
@@ -254,7 +254,7 @@ impl Subject<'_> {
         (!points.is_empty()).then(|| Chart::new(ChartKind::Time, &axes, &[line("bus", points)]))
     }
 
-    /// λ over the range of the drive link, and the value that is checked.
+    /// λ over the range of the drive link, and the checked value.
     pub(super) fn inertia_ratio(&self, file: &MachineFile) -> Result<Chart, Error> {
         let machine = file.with_drive_train()?;
         let coordinate = machine.mechanism().coordinate();
@@ -287,8 +287,7 @@ impl Subject<'_> {
         Ok(Chart::new(ChartKind::Course, &axes, &series))
     }
 
-    /// Use of the limit of every rule over the gear ratio, with everything else unchanged; rules that follow time are left
-    /// out.
+    /// Use of every rule's limit over the gear ratio, all else unchanged; without the rules over time.
     pub(super) fn ratios(&self, from: f64, to: f64) -> Chart {
         let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
         let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();
@@ -307,7 +306,7 @@ impl Subject<'_> {
             .collect();
         series.push(dashed("limit", vec![(from, 100.0), (to, 100.0)]));
         let now = self.context.ratio;
-        // Not quite upright: the page's script draws curves over rising abscissae.
+        // Slightly tilted: the page's script needs rising abscissae.
         let upright = vec![(now * (1.0 - 1e-4), 0.0), (now * (1.0 + 1e-4), TOP)];
         series.push(dashed("this drive", upright));
         let axes = Axes {
@@ -327,12 +326,12 @@ fn time_axes(y: &str) -> Axes<'_> {
     }
 }
 
-/// A unit with the dot of print.
+/// A unit with the multiplication dot.
 fn dotted(unit: &str) -> String {
     unit.replace(' ', "·")
 }
 
-/// A limit of the torque around all four quadrants: `limit` gives its size in the direction of a torque at a speed (rad/s).
+/// A torque limit around all four quadrants; `limit` is its magnitude for a direction of torque and a speed (rad/s).
 fn outline(top: f64, scale: f64, limit: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
     let half = f64::from(INTERVALS) / 2.0;
     let speed = |k: u32| top * (f64::from(k) - half) / half;

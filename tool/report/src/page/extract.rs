@@ -39,7 +39,7 @@ pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error>
         .collect())
 }
 
-/// Extracts; the whole tables come from the command line.
+/// Extracts of tables; the command line prints the whole ones.
 pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
     let table = |heading, columns: &Columns, wanted: &dyn Fn(&Column) -> bool| {
         let along = [Quantity::Time, Quantity::Position, Quantity::DriveSpeed];

@@ -29,14 +29,14 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
     }
 }
 
-/// What the curves over the position do not contain, as a sentence after a caption; empty if that is nothing.
+/// Sentence for a caption about parts that the curves over the position do not contain; empty without such parts.
 pub(super) fn not_contained(file: &MachineFile) -> String {
     let missing: Vec<String> = file.scheduled().map(|item| item.what).collect();
     if missing.is_empty() {
         return String::new();
     }
     format!(
-        " Not contained, because it goes by the motion: {}.",
+        " Not contained, because it follows the motion: {}.",
         missing.join("; ")
     )
 }
@@ -68,7 +68,7 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     ))
 }
 
-/// The parts of the reduced torque over the range; the viscous one at the size of the speed `speed`.
+/// The parts of the reduced torque over the range, the viscous part at the speed `speed`.
 pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Error> {
     let coordinate = file.machine.mechanism().coordinate();
     let mut parts = [const { Vec::new() }; 4];
@@ -115,7 +115,7 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
     Ok(Chart::new(ChartKind::Course, &axes, &series))
 }
 
-/// The sections of a simulation: what its columns hold, over the time.
+/// The sections of a simulation: its columns over the time.
 pub(super) fn simulation(run: &Columns) -> Vec<Section> {
     let over_time = (Quantity::Time, Axis::new("time [s]"));
     let own = |quantity: Quantity| {
@@ -167,15 +167,15 @@ pub(super) fn simulation(run: &Columns) -> Vec<Section> {
         .collect()
 }
 
-/// The label of the axis of a column that stands alone.
+/// The axis label of a single column.
 fn label(head: &Column) -> String {
     head.title().replace("^2", "²").replace("N m", "N·m")
 }
 
-/// What runs along the axis, and the axis.
+/// The abscissa and its axis.
 pub(super) type Along<'a> = (Quantity, Axis<'a>);
 
-/// Those of these quantities that there are, each with its label and caption.
+/// Figures of those of the quantities that exist, each with its label and caption.
 pub(super) fn among(columns: &Columns, along: Along, of: &[(&str, Quantity, &str)]) -> Vec<Figure> {
     let figures = of.iter().filter_map(|(y, quantity, caption)| {
         Some(Figure::new(over(columns, along, (y, *quantity))?, *caption))

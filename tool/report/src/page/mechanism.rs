@@ -39,7 +39,7 @@ struct Page<'a> {
     notes: Vec<String>,
 }
 
-/// What the curves of motions and forces run over, with the columns at their points.
+/// The columns of motions and forces, over the time or the position.
 pub(super) struct Source<'f> {
     pub(super) file: &'f MachineFile,
     coordinate: Coordinate,
@@ -62,7 +62,7 @@ impl Source<'_> {
         reduce(self.file, &request)
     }
 
-    /// The axis, and the quantity that runs along it.
+    /// The abscissa and its axis.
     const fn axis(&self) -> (Quantity, Axis<'static>) {
         match self.over {
             Over::Time => (Quantity::Time, Axis::new("time [s]")),
@@ -71,8 +71,8 @@ impl Source<'_> {
     }
 }
 
-/// The page about a machine's mechanism. Motions and forces are those of the file's motion over time, or those at the
-/// speed and acceleration `state` over the range.
+/// The page about a machine's mechanism. Motions and forces are those of the file's motion over time, or at the speed and acceleration `state` over
+/// the range.
 ///
 /// # Errors
 /// Those of the machine.
@@ -112,7 +112,7 @@ pub fn mechanism_page(
         tables: tables(&source)?,
         notes: notes(&source),
     };
-    // Rendering into a string fails only if a template is wrong, which the tests would show.
+    // Rendering into a string fails only for a wrong template, which the tests show.
     Ok(page.render().unwrap_or_default())
 }
 

@@ -23,16 +23,16 @@ use crate::list;
 use crate::plot::{Axes, Axis, Series, lines};
 use crate::table::output::Format;
 
-/// Instants of a motion that is drawn.
+/// Number of instants of a drawn motion.
 const INSTANTS: usize = 1501;
 
-/// Laws that are drawn beside the gentlest motion.
+/// Number of motion laws drawn next to the gentlest motion.
 const LAWS: usize = 2;
 
-/// Beyond the motion's speed by so much a limit is not drawn: it would press the motion to the ground.
+/// Limits above this multiple of the motion's speed are not drawn; they would flatten the curve.
 const FAR: f64 = 2.0;
 
-/// A named motion as points over the time: position, speed, acceleration as the axis has them, torque of the motor.
+/// A named motion as points over the time: position, speed and acceleration of the axis, torque of the motor.
 struct Course {
     name: String,
     rows: Vec<[f64; 5]>,
@@ -59,7 +59,7 @@ impl Course {
         })
     }
 
-    /// The nodes of a trace: where the acceleration jumps, both.
+    /// The nodes of a trace, both accelerations at a jump.
     fn of_trace(
         name: &str,
         file: &MachineFile,
@@ -131,7 +131,7 @@ fn over_time(
         ),
     ];
     let figure = |(k, (label, caption)): (usize, (String, String))| {
-        // Of one alone the axis says what it is.
+        // For a single motion the axis label is enough.
         let named = courses.len() > 1 || (k == 3 && !limits.is_empty());
         let mut series: Vec<Series> = Vec::new();
         for course in courses {
@@ -170,7 +170,7 @@ fn plane(
             .map(|[phi, v]| (axis.shown(*phi), axis.rate(*v)))
             .collect()
     };
-    // One curve for each limit, broken between its stretches.
+    // One curve per limit, broken between its stretches.
     let mut curves: Vec<(Binding, Vec<(f64, f64)>)> = Vec::new();
     for (limit, points) in &plane.stretches {
         let at = curves.iter().position(|(known, _)| known == limit);
@@ -217,8 +217,8 @@ fn plane(
         y: &y,
     };
     let caption = format!(
-        "From {} to {} in {} s: speed over the position. A stretch has the colour of the limit that it is at; each change of colour is a switching \
-         point. Dashed: speeds that the motion cannot pass, and the largest speed that the limits let the machine keep at a place: above it, it can only slow down.",
+        "From {} to {} in {} s: speed over the position. Each stretch has the colour of its active limit; each change of colour is a switching \
+         point. Dashed: speeds that the motion cannot pass, and the largest speed that the limits allow at a position: above it the machine can only slow down.",
         axis.place(made.task.from),
         axis.place(made.task.to),
         short(made.fastest.time)
@@ -226,7 +226,7 @@ fn plane(
     Ok(Figure::new(lines(&axes, &series), caption))
 }
 
-/// The temperature of the winding over the time, if it is followed.
+/// The winding temperature over the time, if it is computed.
 fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
     let course = &warmth.temperatures.course;
     let (first, last) = course.first().zip(course.last())?;
@@ -242,7 +242,7 @@ fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
         x: Axis::new("time [s]"),
         y: "temperature [°C]",
     };
-    let caption = "Temperature of the winding when the motion with its pauses repeats for ever.";
+    let caption = "Temperature of the winding when the motion with its pauses repeats endlessly.";
     let figure = Figure::new(lines(&axes, &series), caption.to_owned());
     Some(Section::new("Winding", vec![figure]))
 }
@@ -270,7 +270,7 @@ pub fn fastest_page(view: &list::fastest::View) -> Result<String, Error> {
             let drive = row[2].signum() * axis.drive_rate(row[2].abs());
             let speed = ways.forwards().motor_speed(drive.abs());
             let torques = actuator.torques(speed);
-            // Driving is along the motion.
+            // Driving is in the direction of motion.
             let torque = if drive < 0.0 {
                 -torques[1 - k]
             } else {
@@ -298,7 +298,7 @@ pub fn fastest_page(view: &list::fastest::View) -> Result<String, Error> {
     ))
 }
 
-/// The page about the gentlest motion, beside that of the file and the best laws.
+/// The page about the gentlest motion, with the motion of the file and the best laws.
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
@@ -324,7 +324,7 @@ pub fn retime_page(shown: &list::retime::View, own: &Motion) -> Result<String, E
         file,
         "gentlest motion",
         format!(
-            "{}, beside the motion of the file and the best laws",
+            "{}, with the motion of the file and the best laws",
             list::retime::subject(shown)
         ),
         &list::retime::answer(shown),
@@ -332,7 +332,7 @@ pub fn retime_page(shown: &list::retime::View, own: &Motion) -> Result<String, E
     ))
 }
 
-/// The page about the steady cycle; `steady` has the positions that are drawn.
+/// The page about the steady cycle; `steady` contains the positions to draw.
 pub fn steady_page(machines: &Together, steady: &Steady) -> String {
     let file = machines.first;
     let own = steady.cycle.as_ref();

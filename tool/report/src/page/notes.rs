@@ -8,7 +8,7 @@ use jred_sizing::select::size::Selection;
 
 use crate::list::listing::violations;
 
-/// The answer in HTML: the one piece of the page that is put together by hand.
+/// The answer in HTML, the one part of the page built by hand.
 pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
     let motor = best.drive.motor;
@@ -72,7 +72,7 @@ fn escape(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Self-check, way of working, sources.
+/// Self-check, method, sources.
 pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let work = duty.integral(|i| i.terms.total() * i.omega);
     let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
@@ -99,8 +99,8 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
          back."
             .to_owned(),
         format!(
-            "The cycle is evaluated exactly at {} instants; its integrals are those of Gauss and Kronrod's rule on \
-             panels that were halved until the error was known to be small; peaks lie between the instants.",
+            "The cycle is evaluated exactly at {} instants. Integrals are by Gauss-Kronrod quadrature, with panels halved \
+             until the error is known to be small; peaks between the instants are included.",
             duty.instants.len()
         ),
         "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A \

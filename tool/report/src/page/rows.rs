@@ -13,7 +13,7 @@ use jred_sizing::judge::check::Check;
 
 use crate::list::listing::{figure, margin};
 
-/// A rule, its verdict, and a bar for the use of its limit.
+/// A rule, its verdict, and a bar for its use.
 pub(super) struct CheckRow {
     pub(super) rule: &'static str,
     pub(super) value: String,
@@ -53,7 +53,7 @@ impl CheckRow {
     }
 }
 
-/// In the place of a part that a drive does not have.
+/// Text for a part that the drive does not have.
 pub(super) const NO_PART: &str = "–";
 
 /// A ranked drive.
@@ -92,7 +92,7 @@ impl FitRow {
             remarks.push("figures not from the maker's own document".to_owned());
         }
         if !drive.is_paired() {
-            remarks.push("nobody states that this amplifier runs this motor".to_owned());
+            remarks.push("no source pairs this amplifier with this motor".to_owned());
         }
         let power = judged.rated_power();
         Self {
@@ -122,7 +122,7 @@ impl FitRow {
     }
 }
 
-/// Something's part of the motor torque, with a bar.
+/// A contribution to the motor torque, with a bar.
 pub(super) struct ShareRow {
     pub(super) name: String,
     pub(super) rms: String,
@@ -132,11 +132,11 @@ pub(super) struct ShareRow {
     pub(super) share: String,
     /// Length of the bar (%).
     pub(super) bar: f64,
-    /// Whether it makes the RMS torque smaller.
+    /// Whether it reduces the RMS torque.
     pub(super) negative: bool,
 }
 
-/// The rows of `shares` of a breakdown, and the whole.
+/// The rows of `shares` of a breakdown, and their total.
 pub(super) fn share_rows(shares: &[Share], breakdown: &Breakdown) -> Vec<ShareRow> {
     let total = &breakdown.total;
     let rows = shares.iter().chain([total]).map(|share| ShareRow {
@@ -173,7 +173,7 @@ pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
     all.map(row).collect()
 }
 
-/// A drive with the changes that would make it suitable, or how far each quantity may change.
+/// A drive with the changes that would make it suitable, or the range of each quantity.
 #[derive(Default)]
 pub(super) struct ChangeRow {
     pub(super) drive: String,
@@ -219,7 +219,7 @@ pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]>
         .collect()
 }
 
-/// Minima, means, maxima and RMS values along the way from the drive link, which has its own words, to the motor.
+/// Minimum, mean, maximum and RMS values from the drive link, in its own terms, to the motor.
 pub(super) fn duty_rows(
     best: &Judged,
     duty: &Duty,

@@ -9,7 +9,7 @@ use jred_machine::number::columns::{Column, Columns, Quantity};
 
 use super::figures::line;
 
-/// A heading and what stands below it.
+/// A heading with its content.
 pub(super) struct Section {
     pub(super) heading: String,
     pub(super) figures: Vec<Figure>,
@@ -27,7 +27,7 @@ impl Section {
         Self { heading, figures }
     }
 
-    /// One picture of its own, without words below it.
+    /// A section with one picture and no text.
     pub(super) fn of(heading: &str, svg: String) -> Self {
         let caption = String::new();
         Self::new(heading, vec![Figure { svg, caption }])
@@ -46,7 +46,7 @@ impl Figure {
 #[template(path = "motion.html")]
 pub(super) struct MotionPage<'a> {
     title: &'a str,
-    /// Of the window.
+    /// Kind of page, for the window title.
     subject: &'static str,
     about: String,
     version: &'static str,
@@ -72,12 +72,12 @@ impl<'a> MotionPage<'a> {
             blocks: &answer.blocks,
             sections,
         };
-        // Rendering into a string fails only if a template is wrong, which the tests would show.
+        // Rendering into a string fails only for a wrong template, which the tests show.
         page.render().unwrap_or_default()
     }
 }
 
-/// With a capital at its beginning.
+/// Capitalises the first letter.
 fn capital(mut text: String) -> String {
     if let Some(first) = text.get_mut(..1) {
         first.make_ascii_uppercase();
@@ -123,7 +123,7 @@ pub(super) fn plot(
 ) -> String {
     let all = runs.iter().flat_map(|(name, run)| {
         let alone = run.of(quantity).count() == 1 && !name.is_empty();
-        // Of one column the axis says what it is.
+        // For a single column the axis label is enough.
         curves(run, along, quantity, |head| {
             if alone {
                 (*name).to_owned()
@@ -135,7 +135,7 @@ pub(super) fn plot(
     drawn(&all.collect::<Vec<_>>(), axis, y)
 }
 
-/// The columns of a quantity over another that are not zero everywhere, each under the name of its part; `None`: there are none.
+/// The columns of a quantity over another that are not zero everywhere, each named after its part; `None` without such columns.
 pub(super) fn over(
     columns: &Columns,
     (along, axis): (Quantity, Axis),

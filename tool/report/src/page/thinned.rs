@@ -1,14 +1,12 @@
-//! The points of a long course that a chart can show.
+//! Thinning of long courses for charts.
 
-/// Courses up to this length are drawn as they are. A plot is 700 pixels wide; zoomed in ten times it still shows a course of
-/// this length as it is.
+/// Courses up to this length are drawn in full. A plot is 700 pixels wide; zoomed in ten times it still shows such a course in full.
 const WHOLE: usize = 8000;
 
-/// Parts of a longer one: of each its ends, and the least and the largest of every value.
+/// Parts of a longer course; the ends and the extremes of every value are kept in each.
 const PARTS: usize = 1500;
 
-/// The places, rising, of the points to draw of `count`: all of them, or those that no line through the others would show. The
-/// extremes of each of the `values`, at a place, are among them.
+/// Rising indices of the points to draw out of `count`: all of them, or a subset that contains the extremes of each of the `values` at an index.
 pub(super) fn kept(count: usize, values: &[&dyn Fn(usize) -> f64]) -> Vec<usize> {
     if count <= WHOLE {
         return (0..count).collect();
@@ -48,7 +46,7 @@ mod tests {
         assert!(kept(0, &[&level]).is_empty());
     }
 
-    /// One point alone stands out upwards, another one in another value downwards: both are kept, with the ends, of a million.
+    /// A single peak in one value and a single dip in another are both kept, with the ends, out of a million points.
     #[test]
     fn the_extremes_of_every_value_are_kept() {
         const COUNT: usize = 1_000_000;
@@ -67,7 +65,7 @@ mod tests {
         );
     }
 
-    /// What is no number hides no extreme.
+    /// NaN hides no extreme.
     #[test]
     fn gaps_do_not_hide_extremes() {
         let value = |k: usize| {

@@ -14,7 +14,7 @@ struct Entry {
     style: Style,
 }
 
-/// The named curves, and where their entries stand.
+/// The named curves with the positions of their entries.
 pub(super) struct Legend {
     entries: Vec<Entry>,
     left: f64,
@@ -24,7 +24,7 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    /// Of the curves against both vertical axes, between these ends of the horizontal one.
+    /// Entries of the curves on both vertical axes, between these ends of the horizontal one.
     pub(super) fn new(left: &[Series], right: &[Series], [from, to]: [f64; 2]) -> Self {
         let all = left.iter().map(|series| (series, ""));
         let all = all.chain(right.iter().map(|series| (series, " (right axis)")));
@@ -50,7 +50,7 @@ impl Legend {
         }
     }
 
-    /// (px)
+    /// Height (px).
     pub(super) fn height(&self) -> f64 {
         self.entries.len().div_ceil(self.columns) as f64 * ROW
     }

@@ -14,27 +14,27 @@ mod tests;
 
 pub(crate) const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
-/// Sizes of letters (px): title, names of axes, numbers and legend.
+/// Font sizes (px): title, axis names, numbers and legend.
 const TITLE: f64 = 15.0;
 const NAME: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 /// Length of a tick (px).
 const TICK: f64 = 5.0;
-/// Distance of lines of text, as a multiple of the letters.
+/// Line spacing as a multiple of the font size.
 const LEADING: f64 = 1.3;
-/// A curve passes its points by this at most (px): a thirtieth of its width.
+/// Largest deviation of a curve from its points (px): a thirtieth of its width.
 const THINNING: f64 = 0.06;
-/// Okabe-Ito without its yellow, which is too faint on white paper, and five more that differ most from these.
+/// Okabe-Ito without its yellow, which is too faint on white paper, and the five colours that differ most from these.
 pub(crate) const PALETTE: [&str; 12] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444", "#7B3FF2",
     "#4B8B00", "#332288", "#7F4F24", "#B00020",
 ];
-/// Where the colours come round again, lines have dashes and dots: neither those of a limit nor none.
+/// Dashes and dots of lines whose colours repeat; they differ from a limit's dashes.
 const SECOND_ROUND: [u32; 4] = [9, 3, 2, 3];
 
-/// One curve. It is broken at points that are not finite; those are not drawn.
+/// One curve, broken at points that are not finite.
 pub struct Series<'a> {
-    /// Name in the legend; none if empty.
+    /// Name in the legend; empty: no entry.
     pub name: &'a str,
     /// The points (x, y) in drawing order.
     pub points: Vec<(f64, f64)>,
@@ -55,7 +55,7 @@ pub enum Style {
 
 /// Title and axis labels; the labels carry the unit, e.g. `crank angle φ [deg]`.
 pub struct Axes<'a> {
-    /// Title above the plot; none if empty.
+    /// Title above the plot; empty: no title.
     pub title: &'a str,
     /// The horizontal axis.
     pub x: Axis<'a>,
@@ -68,12 +68,12 @@ pub struct Axes<'a> {
 pub struct Axis<'a> {
     /// Its label, with the unit.
     pub label: &'a str,
-    /// Whether its numbers are degrees, and have ticks that suit angles.
+    /// Whether the numbers are degrees; ticks then suit angles.
     pub degrees: bool,
 }
 
 impl<'a> Axis<'a> {
-    /// An axis of numbers that are no degrees.
+    /// An axis of numbers other than degrees.
     #[must_use]
     pub const fn new(label: &'a str) -> Self {
         let degrees = false;
@@ -96,14 +96,13 @@ pub fn lines(axes: &Axes, series: &[Series]) -> String {
     draw(axes, series, None)
 }
 
-/// Draws `left` and `right` against a vertical axis each. Both axes have the same number of
-/// intervals, so that the grid serves both.
+/// Draws `left` and `right` with a vertical axis each. Both axes have the same number of intervals and share the grid.
 #[must_use]
 pub fn lines_two_axes(axes: &Axes, left: &[Series], right_label: &str, right: &[Series]) -> String {
     draw(axes, left, Some((right_label, right)))
 }
 
-/// A vertical axis with its name, broken into lines, and its numbers.
+/// A vertical axis with its wrapped name and its numbers.
 struct Upright {
     span: Span,
     name: Vec<String>,
@@ -119,7 +118,7 @@ impl Upright {
         }
     }
 
-    /// Room beside the plot (px).
+    /// Width beside the plot (px).
     fn room(&self) -> f64 {
         let numbers = self.ticks.iter().map(|(_, text)| width(text, NUMBER));
         let lines = self.name.len() as f64 * LEADING * NAME;
@@ -127,7 +126,7 @@ impl Upright {
     }
 }
 
-/// The rectangle between the axes, and what it shows.
+/// The rectangle between the axes with its ranges.
 struct Frame<'a> {
     left: f64,
     right: f64,
@@ -196,7 +195,7 @@ fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> Stri
         for (index, (series, span)) in numbered() {
             let place = |p: &(f64, f64)| [frame.x(p.0), frame.y(span, p.1)];
             for run in series.points.split(|p| !usable(p.0) || !usable(p.1)) {
-                // A lone point becomes a dot whatever its style.
+                // A single point becomes a dot in any style.
                 let as_dots = series.style == Style::Dots || run.len() == 1;
                 if run.is_empty() || as_dots != dots {
                     continue;
@@ -272,7 +271,7 @@ fn grid(svg: &mut Svg, frame: &Frame, y: &Upright, y2: Option<&Upright>) {
     ] {
         let Some(axis) = axis else { continue };
         for (at, text) in &axis.ticks {
-            // Letters hang from their line: half the height of a digit brings them to its middle.
+            // Text hangs from its baseline; half a digit's height centres it.
             let at = [
                 x + way * (TICK + 3.0),
                 frame.y(&axis.span, *at) + 0.36 * NUMBER,
@@ -280,7 +279,7 @@ fn grid(svg: &mut Svg, frame: &Frame, y: &Upright, y2: Option<&Upright>) {
             svg.text(at, anchor, &look, text);
         }
         for (k, line) in (0..).map(f64::from).zip(&axis.name) {
-            // The first line is the outermost: on the left it reads upwards, on the right downwards.
+            // The first line is the outermost; text reads upwards on the left, downwards on the right.
             let x = x + way * (axis.room() - (k + 0.5) * LEADING * NAME - 2.0);
             let turn = way * 90.0;
             let look =
@@ -295,7 +294,7 @@ fn valid<'a>(series: &'a [Series]) -> impl Iterator<Item = (f64, f64)> + 'a {
     points.filter(|p| usable(p.0) && usable(p.1))
 }
 
-/// Lines fill the width, dots get some room.
+/// Lines fill the width; dots get a margin.
 fn x_span(axes: &Axes, left: &[Series], right: &[Series]) -> Span {
     let (lo, hi) = range(valid(left).chain(valid(right)).map(|p| p.0));
     if left.iter().chain(right).any(|s| s.style == Style::Dots) {
@@ -306,9 +305,9 @@ fn x_span(axes: &Axes, left: &[Series], right: &[Series]) -> Span {
     Span::tight(lo, hi, nice.unwrap_or_else(|| nice_step((hi - lo) / 8.0)))
 }
 
-/// The points that a curve needs: one that lies on the line between its neighbours is left out.
+/// The points that a curve needs; a point on the line between its neighbours is left out.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    /// Points that are tried together, at most.
+    /// Largest number of points that are replaced by one line.
     const REACH: usize = 40;
     let mut kept: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
     let mut from = 0;
@@ -337,7 +336,7 @@ pub(crate) fn colour(index: usize) -> &'static str {
     PALETTE[index % PALETTE.len()]
 }
 
-/// Lengths of the dashes and gaps of curve number `index` (px); none: a solid line.
+/// Lengths of the dashes and gaps of curve number `index` (px); empty for a solid line.
 pub(crate) const fn dashes(index: usize, style: Style) -> &'static [u32] {
     match style {
         Style::Dashed => &[5, 5],
@@ -346,7 +345,7 @@ pub(crate) const fn dashes(index: usize, style: Style) -> &'static [u32] {
     }
 }
 
-/// Lines of at most `length` letters, broken at blanks; none of an empty text.
+/// Lines of at most `length` letters, broken at spaces; empty for an empty text.
 fn wrapped(text: &str, length: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ').filter(|_| !text.is_empty()) {
@@ -361,7 +360,7 @@ fn wrapped(text: &str, length: usize) -> Vec<String> {
     lines
 }
 
-/// About how wide a text is in letters of a size (px): no font is asked, whichever the reader has.
+/// Approximate width of a text at a font size (px), independent of the reader's font.
 fn width(text: &str, size: f64) -> f64 {
     let share = |c: char| match c {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '|' | '!' | '\'' | '′' => 0.26,

@@ -1,6 +1,6 @@
-//! Axis ranges, distances of ticks and texts of numbers, without any drawing.
+//! Axis ranges, tick distances and number texts, without drawing.
 
-/// Range of an axis: a number of steps from tick to tick, except for a tight horizontal one.
+/// Range of an axis: a whole number of tick steps, except for a tight horizontal axis.
 pub(super) struct Span {
     pub(super) lo: f64,
     pub(super) hi: f64,
@@ -9,7 +9,7 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// The ends get a hair of slack, lest rounding errors cost the outermost ticks.
+    /// Widens the ends slightly, so that rounding errors do not drop the outermost ticks.
     pub(super) fn new(lo: f64, step: f64, intervals: usize) -> Self {
         let (lo, hi) = (lo - 1e-9 * step, lo + (to_f64(intervals) + 1e-9) * step);
         Self {
@@ -40,7 +40,7 @@ impl Span {
         }
     }
 
-    /// Where a value lies between the ends, 0 to 1.
+    /// Position of a value between the ends, 0 to 1.
     pub(super) fn share(&self, value: f64) -> f64 {
         (value - self.lo) / (self.hi - self.lo)
     }
@@ -58,7 +58,7 @@ impl Span {
             .collect()
     }
 
-    /// Adds some air, but does not cross zero for it; includes zero if it is near.
+    /// Adds a margin that does not cross zero; includes zero if it is near.
     pub(super) fn with_intervals((lo, hi): (f64, f64), intervals: usize) -> Self {
         let air = 0.02 * (hi - lo);
         let low = if lo >= 0.0 && lo < 0.3 * hi {
@@ -91,7 +91,7 @@ pub(super) fn nice_step(distance: f64) -> f64 {
     fitting.map_or(10.0, |l| l.1) * magnitude
 }
 
-/// Writes one of several values of about the given size with the decimals that the step needs.
+/// Formats one of several values of about the given size, with the decimals that the step needs.
 pub(super) fn number(value: f64, size: f64, step: f64) -> String {
     let value = if value.abs() < 1e-6 * step {
         0.0
@@ -121,12 +121,12 @@ pub(super) fn to_f64(n: usize) -> f64 {
     n as f64
 }
 
-/// Values beyond 1e100 would overflow where they are scaled.
+/// Values beyond 1e100 would overflow when scaled.
 pub(super) fn usable(value: f64) -> bool {
     value.abs() < 1e100
 }
 
-/// Range of the usable values, widened if there is none or nothing but rounding noise.
+/// Range of the usable values, widened if it is empty or only rounding noise.
 pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let values: Vec<f64> = values.filter(|&v| usable(v)).collect();
     let lo = values.iter().copied().fold(f64::INFINITY, f64::min);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// Which end of a text stands at its place.
+/// Anchor of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Anchor {
     Start,
@@ -10,18 +10,18 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a line or an area is drawn.
+/// Style of a line or an area.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ink<'a> {
     /// Colour of the line.
     pub(crate) stroke: &'a str,
     /// Width of the line (px).
     pub(crate) width: f64,
-    /// Colour of the area; none: empty.
+    /// Fill colour; `None`: no fill.
     pub(crate) fill: Option<&'a str>,
-    /// Of the area, 0 to 1.
+    /// Opacity of the area, 0 to 1.
     pub(crate) opacity: f64,
-    /// Dashes; none: solid.
+    /// Dashes; empty: solid.
     pub(crate) dashes: &'a [u32],
 }
 
@@ -45,7 +45,7 @@ impl<'a> Ink<'a> {
         }
     }
 
-    /// The same with an area that is seen through.
+    /// The same with a translucent area.
     pub(crate) const fn faint(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
@@ -75,7 +75,7 @@ impl Svg {
         Self { text }
     }
 
-    /// Opens a group with attributes, which hold no user text, named `title`.
+    /// Opens a group with the title `title` and attributes, which contain no user text.
     pub(crate) fn open(&mut self, attributes: &str, title: &str) {
         self.push(&format!("<g {attributes}>"));
         if !title.is_empty() {
@@ -107,7 +107,7 @@ impl Svg {
         self.drawn_path(&format!("M{}{end}", written.join("L")), ink);
     }
 
-    /// Dots of one size, each the round cap of a stroke without length: some 12 bytes each.
+    /// Dots of one size, each the round cap of a stroke of zero length: about 12 bytes each.
     pub(crate) fn dots(&mut self, points: &[[f64; 2]], colour: &str, diameter: f64) {
         let mut written: Vec<String> = points
             .iter()
@@ -155,7 +155,7 @@ impl Svg {
         self.push(&dash_array(ink.dashes));
     }
 
-    /// A text; `look` are further attributes, which hold no user text.
+    /// A text; `look` are further attributes, without user text.
     pub(crate) fn text(&mut self, at: [f64; 2], anchor: Anchor, look: &str, words: &str) {
         let [x, y] = at.map(px);
         let anchor = match anchor {
@@ -181,14 +181,14 @@ impl Svg {
     }
 }
 
-/// A length to a hundredth of a pixel, without zeros at its end.
+/// A length to a hundredth of a pixel, without trailing zeros.
 fn px(x: f64) -> String {
     let text = format!("{:.2}", x + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     (if text == "-0" { "0" } else { text }).to_owned()
 }
 
-/// User text without markup, and without what XML cannot hold.
+/// User text with markup escaped and characters removed that XML does not allow.
 fn escaped(raw: &str) -> String {
     let mut text = String::with_capacity(raw.len());
     for c in raw.chars() {

@@ -19,7 +19,7 @@ fn one(points: Vec<(f64, f64)>, style: Style) -> Vec<Series<'static>> {
     }]
 }
 
-/// Parses as XML, with no number in it that a browser could not draw.
+/// Parses as XML, with finite numbers only.
 fn sound(svg: &str) -> Document<'_> {
     let document = Document::parse(svg).expect("well-formed");
     let words = |node: Node| {
@@ -84,7 +84,7 @@ fn size_is_left_to_the_page() {
     }
 }
 
-/// Many charts stand on a page: none has an id that another one could have too.
+/// A page has many charts; their ids are unique.
 #[test]
 fn ids_are_unique_on_a_page() {
     let data = || one(vec![(0.0, 1.0), (1.0, 2.0)], Style::Line);
@@ -97,7 +97,7 @@ fn ids_are_unique_on_a_page() {
     assert!(document.descendants().all(|n| n.attribute("id").is_none()));
 }
 
-/// Curves, and the numbers and names about them, are on the sheet: nothing needs to be cut off.
+/// Curves, numbers and names are within the sheet; nothing is clipped.
 #[test]
 fn everything_is_on_the_sheet() {
     let far = vec![(-3.0, 1e9), (40.0, -7e8), (41.0, 1e9)];
@@ -129,7 +129,7 @@ fn everything_is_on_the_sheet() {
     }
 }
 
-/// What a curve leaves out is not seen: no point is off by a tenth of its width.
+/// The points left out deviate by less than a tenth of the line width.
 #[test]
 fn a_thinned_curve_is_the_same_curve() {
     let wave: Vec<[f64; 2]> = (0..2000)
@@ -267,7 +267,7 @@ fn both_vertical_axes_share_the_grid() {
     }
 }
 
-/// Twelve curves differ by colour; further ones have a colour again, but dashes of their own.
+/// Twelve curves differ by colour; further ones repeat a colour with their own dashes.
 #[test]
 fn many_curves_are_told_apart() {
     let names: Vec<String> = (0..17).map(|k| format!("curve {k}")).collect();
@@ -298,11 +298,11 @@ fn many_curves_are_told_apart() {
         looks.iter().take(12).all(|look| look.1.is_empty()),
         "{looks:?}"
     );
-    // None of them looks like a limit.
+    // None of them resembles a limit.
     assert!(looks.iter().all(|look| look.1 != "5 5"), "{looks:?}");
 }
 
-/// Colours by the distance in CIE L*a*b*: 2.3 is what can just be seen (Mahy and others, 1994).
+/// Colour distance in CIE L*a*b*: 2.3 is just noticeable (Mahy et al., 1994).
 #[test]
 fn colours_are_far_apart() {
     let lab = |hex: &str| -> [f64; 3] {

@@ -2,16 +2,16 @@
 
 use serde_json::Value;
 
-/// A text of an object on both sides of its entry `key`, which is null there: what comes before its value, and after it.
+/// Splits the text of an object at its entry `key`, which is null: the text before the value, and after it.
 pub(crate) fn split_at_entry(text: &str, key: &str) -> (String, String) {
     let entry = format!("\n  \"{key}\": ");
-    // No text in JSON holds a line feed: this is the entry itself.
+    // JSON text contains no line feeds, so this matches the entry itself.
     let found = text.split_once(&format!("{entry}null"));
     let (before, after) = found.unwrap_or_default();
     (format!("{before}{entry}"), after.to_owned())
 }
 
-/// The array of an object's entry, an item each.
+/// The array of an object's entry, in parts of one item.
 pub(crate) fn array_parts(items: impl Iterator<Item = Value>) -> impl Iterator<Item = String> {
     let mut items = items.fuse();
     let (mut begun, mut ended) = (false, false);

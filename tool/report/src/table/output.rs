@@ -9,7 +9,7 @@ use jred_machine::number::csv;
 use jred_machine::number::rounding::rounded;
 
 jred_machine::words! {
-    /// How a result is written.
+    /// Format of a result.
     pub enum Format default Table {
         /// An aligned table for reading, rounded to six digits.
         Table = "table",
@@ -20,15 +20,15 @@ jred_machine::words! {
     }
 }
 
-/// The columns in one of the formats, under a title for tables and JSON.
+/// The columns in one of the formats, with a title for tables and JSON.
 pub fn write(columns: &Columns, format: Format, title: &str) -> String {
     parts(columns, format, title).collect()
 }
 
-/// Rows of a part.
+/// Number of rows of a part.
 const PART: usize = 4096;
 
-/// The same part by part, each of some thousand rows: the text of a million rows is many times larger than the rows.
+/// The same in parts of some thousand rows; the text of a million rows is many times larger than the rows.
 pub fn parts<'c>(
     columns: &'c Columns,
     format: Format,
@@ -92,21 +92,21 @@ fn tidy(row: &[Option<f64>]) -> Vec<Option<f64>> {
 
 fn table(columns: &Columns) -> impl Iterator<Item = String> {
     let header: Vec<String> = columns.names().iter().map(|name| narrow(name)).collect();
-    // Rounding errors compared with the largest number of the column are shown as zero.
+    // Values that are rounding errors relative to the column's largest are shown as zero.
     let mut largest = vec![0.0f64; header.len()];
     for row in columns.rows() {
         for (most, value) in largest.iter_mut().zip(row) {
             *most = most.max(value.map_or(0.0, f64::abs));
         }
     }
-    // So are those of a column that has nothing else, compared with all columns of its unit: no sum of them would change.
+    // Columns of nothing but rounding errors, too: relative to all columns of their unit, they would change no sum.
     let heads = columns.heads();
     let floor: Vec<f64> = (heads.iter().zip(&largest))
         .map(|(head, own)| {
             let alike = heads.iter().zip(&largest);
             let alike = alike.filter(|(other, _)| base_unit(&other.unit) == base_unit(&head.unit));
             let all = alike.map(|(_, most)| *most).fold(0.0, f64::max);
-            // The error of an integration is small, and is what is asked for.
+            // An integration error is small, and is the requested value.
             if head.quantity == Quantity::EnergyBalance {
                 return 1e-12 * own;
             }
@@ -152,7 +152,7 @@ fn table(columns: &Columns) -> impl Iterator<Item = String> {
     })
 }
 
-/// The unit of what a derivative with respect to the position is of.
+/// The unit of the quantity in a derivative with respect to the position.
 fn base_unit(unit: &str) -> &str {
     match unit {
         "kg/m" | "kg/m^2" => "kg",
@@ -160,7 +160,7 @@ fn base_unit(unit: &str) -> &str {
     }
 }
 
-/// A column's name over several lines: one word a line, the unit whole.
+/// A column's name on several lines: one word per line, the unit unbroken.
 fn narrow(name: &str) -> String {
     let (words, unit) = name.split_at(name.find('[').unwrap_or(name.len()));
     let lines = words.split_whitespace().chain(std::iter::once(unit));

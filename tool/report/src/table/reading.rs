@@ -8,7 +8,7 @@ use crate::table::output::text_table;
 use jred_machine::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
-/// Largest width of a table: wider cells are broken into lines.
+/// Largest width of a table; wider cells are wrapped.
 pub const WIDEST: u16 = 120;
 
 /// Digits of a number in a table.
@@ -21,12 +21,12 @@ pub struct Reading {
     pub columns: Vec<String>,
     /// Its rows.
     pub rows: Vec<Vec<Cell>>,
-    /// How many of the first columns are not broken into lines.
+    /// Number of leading columns that are not wrapped.
     pub whole: usize,
 }
 
 impl Reading {
-    /// As a table no wider than [`WIDEST`].
+    /// A table no wider than [`WIDEST`].
     pub fn table(columns: &[String], rows: &[Vec<Cell>], whole: usize) -> String {
         let (columns, rows) = (columns.to_vec(), rows.to_vec());
         let table = Self {
@@ -37,7 +37,7 @@ impl Reading {
         table.text(Screen::default())
     }
 
-    /// The rows as a person reads them.
+    /// The rows as text for reading.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Vec<String>> {
         self.rows.iter().map(|row| {
             let cells = row.iter().map(|cell| match cell {
@@ -69,7 +69,7 @@ impl Reading {
         csv_line(header) + &rows.collect::<String>()
     }
 
-    /// As a table for a screen, no wider than [`WIDEST`] elsewhere.
+    /// A table for a screen, no wider than [`WIDEST`] elsewhere.
     pub(crate) fn text(&self, screen: Screen) -> String {
         let mut table = text_table(&self.columns);
         table.add_rows(self.cells());

@@ -1,4 +1,4 @@
-//! Rows of a study: how they are written, line by line, and read back.
+//! Rows of a study: writing them line by line, and reading them back.
 
 use serde_json::{Map, Value};
 
@@ -9,19 +9,19 @@ use jred_sizing::study::cell::Cell;
 use jred_sizing::study::header::digest;
 
 jred_machine::words! {
-    /// How rows are written.
+    /// Format of rows.
     pub enum RowFormat default Table {
-        /// An aligned table for reading, when all rows are there.
+        /// An aligned table for reading, printed when all rows are complete.
         Table = "table",
         /// Comma-separated, every digit.
         Csv = "csv",
-        /// JSON lines: an object a row, every digit.
+        /// JSON lines: one object per row, every digit.
         Json = "json",
     }
 }
 
 impl RowFormat {
-    /// The line in front of the rows: in CSV the names of the columns, in JSON what study they belong to.
+    /// The line before the rows: the column names in CSV, the study in JSON.
     pub fn front(self, study: &str, columns: &[String]) -> String {
         if self == Self::Json {
             return format!("{study}\n");
@@ -31,8 +31,8 @@ impl RowFormat {
         csv_line(names.map(Cell::from))
     }
 
-    /// Row number `index` as a line, with a check sum of all before it. In CSV the first row of a file also says what `study` it
-    /// belongs to: every line has the same number of cells, and no reader meets a line that is no row.
+    /// Row number `index` as a line, with a check sum of everything before it. In CSV the first row of a file also contains the `study`: so every
+    /// line has the same number of cells, and every line is a row.
     pub fn line(
         self,
         columns: &[String],
@@ -54,16 +54,16 @@ impl RowFormat {
         with_study(row.trim_end(), study)
     }
 
-    /// What study a row of CSV says that it belongs to, and its cells before that. `None`: it says nothing.
+    /// The study in a row of CSV, and the cells before it; `None`: the row has no study.
     pub fn study_of(line: &str) -> Option<(String, &str)> {
         let (row, _) = line.rsplit_once(',')?;
-        // In a cell in quotes every quote is doubled, so this is where the last one begins.
+        // In a quoted cell every quote is doubled, so this finds the start of the last cell.
         let (cells, _) = row.rsplit_once(",\"{")?;
         let study = texts(row)?.pop().filter(|study| study.starts_with('{'))?;
         Some((study, cells))
     }
 
-    /// The number and the cells of a line; `None`: it is no row of these columns, or not as it was written.
+    /// The number and the cells of a line; `None`: not an intact row of these columns.
     pub fn row(self, line: &str, columns: &[String]) -> Option<(u64, Vec<Cell>)> {
         let (row, sum) = match self {
             Self::Json => line.strip_suffix("\"}")?.rsplit_once(JSON_CHECK)?,
@@ -102,10 +102,10 @@ fn texts(row: &str) -> Option<Vec<String>> {
     Some(record.iter().map(str::to_owned).collect())
 }
 
-/// A row of CSV with what it says of its study, and its check sum.
+/// A row of CSV with its study and check sum.
 pub fn with_study(cells: &str, study: Option<&str>) -> String {
     let study = csv_line(std::iter::once(study.map_or(Cell::Empty, Cell::from)));
-    // An empty cell alone on its line is written in quotes.
+    // A single empty cell is written in quotes.
     let study = study.trim_end().trim_start_matches("\"\"");
     let row = format!("{cells},{study}");
     format!("{row},{}\n", check_sum(&row))
@@ -117,10 +117,10 @@ const STUDY: &str = "study";
 /// The column of the check sums.
 const CHECK: &str = "check";
 
-/// What stands before the check sum of a row in JSON.
+/// Text before the check sum of a row in JSON.
 const JSON_CHECK: &str = ",\"check\":\"";
 
-/// Eight digits of a SHA-256: a digit that became another one is found but for one case in four thousand million.
+/// Eight hex digits of a SHA-256: the chance that a changed digit goes unnoticed is one in four thousand million.
 fn check_sum(row: &str) -> String {
     let mut sum = digest(&row);
     sum.truncate(8);
@@ -132,7 +132,7 @@ pub fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
     csv::row(cells.map(|cell| match cell {
         Cell::Empty => String::new(),
         Cell::Number(x) => csv::number(x),
-        // A row stays on its line.
+        // A row must stay on one line.
         Cell::Text(text) => text.replace(['\n', '\r'], " "),
     }))
 }

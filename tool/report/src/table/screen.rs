@@ -1,16 +1,16 @@
-//! The width that text is written for.
+//! The line width for text.
 
 use textwrap::Options;
 
-/// The screen that a text is for.
+/// The screen for which a text is formatted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Screen {
-    /// Columns that a line may have; `None`: a pipe or a file, in which lines are not broken.
+    /// Columns of a line; `None`: a pipe or a file, whose lines are not wrapped.
     pub width: Option<usize>,
 }
 
 impl Screen {
-    /// A text behind the beginning of its first line, in as many lines as the width needs.
+    /// Appends a text after the start of its first line, wrapped to the width.
     pub(crate) fn fill(self, text: &mut String, first: &str, rest: &str, says: &str) {
         match self.width {
             None => {
@@ -22,7 +22,7 @@ impl Screen {
                     .initial_indent(first)
                     .subsequent_indent(rest)
                     .break_words(false);
-                // A number stays with its per cent.
+                // A number stays with its per cent sign.
                 let says = says.replace(" %", "\u{a0}%");
                 *text += &textwrap::fill(&says, options).replace('\u{a0}', " ");
             }

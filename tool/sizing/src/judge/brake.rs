@@ -126,7 +126,7 @@ fn run_on(context: &Context, stop: &Stopped) -> String {
         }
     };
     format!(
-        "if the supply fails, {of} runs on by at most {} until the brake closes and {} until it stands",
+        "if the supply fails, {of} runs on by at most {} until the brake closes and {} until it stops",
         shown(stop.falling),
         shown(stop.way)
     )

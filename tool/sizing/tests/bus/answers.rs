@@ -1,4 +1,4 @@
-//! What a bus lacks and what would mend it.
+//! Shortages of a bus, and cures.
 
 mod cures;
 mod judged;

@@ -1,4 +1,4 @@
-//! Voltages of a bus in the wrong order.
+//! Contradictory voltages of a bus.
 
 use jred_sizing::bus::Need;
 use jred_sizing::bus::conflict::Conflict;
@@ -15,7 +15,7 @@ const DATA: BusData = BusData {
     resistor: None,
 };
 
-/// Every order of the three voltages; a resistor is asked for in the right one alone.
+/// Every order of the three voltages; a resistor is proposed only in the right one.
 #[test]
 fn three_voltages_in_order() {
     let curve = PowerCurve::new(
@@ -50,7 +50,7 @@ fn three_voltages_in_order() {
         assert_eq!(data.conflict(), expected, "{case}");
         assert_eq!(expected.is_none(), right, "{case}");
         assert_eq!(Need::of(&data, &curve).is_some(), right, "{case}");
-        // A supply that takes energy back has no use for a chopper.
+        // A supply that takes energy back needs no chopper.
         let back = BusData {
             regenerative: true,
             ..data

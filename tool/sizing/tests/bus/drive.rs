@@ -26,7 +26,7 @@ fn cycle() -> Cycle {
     Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
 }
 
-/// A motor that turns the press without a gearbox, and at 30 V runs into the weakened field.
+/// A motor that drives the press without a gearbox, in field weakening at 30 V.
 pub(crate) fn motor() -> Motor {
     Motor {
         key: "m".to_owned(),
@@ -46,7 +46,7 @@ pub(crate) fn motor() -> Motor {
     }
 }
 
-/// P = T·ω + 3/2·R·I² + p₀ + p₁·I, with the field-weakening current in I while the motor drives alone.
+/// P = T·ω + 3/2·R·I² + p₀ + p₁·I, with the field-weakening current in I only while the motor drives.
 #[test]
 fn field_weakening_is_drawn_and_not_fed_back() {
     let (cycle, motor) = (cycle(), motor());
@@ -95,7 +95,7 @@ fn field_weakening_is_drawn_and_not_fed_back() {
     assert!(weakened > 50 && braked > 50, "{weakened} {braked}");
 }
 
-/// What the rule says with a resistor of 20 Ω.
+/// The rule's check with a resistor of 20 Ω.
 fn resistance(amplifier: Option<f64>, supply: Option<f64>) -> Check {
     let (cycle, motor) = (cycle(), motor());
     let site = Site {
@@ -152,7 +152,7 @@ fn a_resistor_too_small_for_the_amplifier() {
         low.note
     );
     assert_eq!(resistance(Some(20.0), None).verdict, Verdict::Pass);
-    // The machine file has the last word.
+    // The machine file takes precedence.
     assert_eq!(resistance(Some(30.0), Some(15.0)).verdict, Verdict::Pass);
     let unknown = resistance(None, None);
     assert_eq!(unknown.verdict, Verdict::NotChecked);
@@ -195,7 +195,7 @@ fn unrated(chopper: f64, peak_power: Option<f64>, pulse_energy: Option<f64>) -> 
     .map(|rule| findings.get(rule).map(|finding| finding.is_known()))
 }
 
-/// A resistor that comes on is asked for each rating that it does not have; one that never does only for those that it has.
+/// A resistor that switches on needs each of its ratings; one that never does is judged only by those given.
 #[test]
 fn ratings_of_a_resistor_are_asked_for_where_it_comes_on() {
     let (on, off) = (570.0, 9e5);
@@ -214,7 +214,7 @@ fn ratings_of_a_resistor_are_asked_for_where_it_comes_on() {
     assert_eq!(unrated(off, None, known), [None, Some(true), None]);
 }
 
-/// What comes back in a cycle is said beside the voltage, as an integral of the power has it.
+/// The energy regenerated in a cycle is reported with the voltage, as the integral of the power.
 #[test]
 fn the_energy_that_comes_back_is_said() {
     let (cycle, motor) = (cycle(), motor());
@@ -244,7 +244,7 @@ fn the_energy_that_comes_back_is_said() {
     near("energy", number, back, 1e-3);
 }
 
-/// The course that the page draws repeats after a cycle and reaches the voltage that is judged; without data of the bus there is none.
+/// The course on the page repeats after a cycle and reaches the judged voltage; it exists only with data of the bus.
 #[test]
 fn the_course_of_the_voltage_reaches_the_judged_figure() {
     let (cycle, motor) = (cycle(), motor());
@@ -281,7 +281,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
     assert!(context.bus_voltage().is_empty());
 }
 
-/// A motor that turns without torque in its weakened field draws the loss of the current that weakens it.
+/// A motor that turns without torque in field weakening draws the loss of the weakening current.
 #[test]
 fn idling_in_the_weakened_field_is_not_free() {
     let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
@@ -313,7 +313,7 @@ fn idling_in_the_weakened_field_is_not_free() {
     }
 }
 
-/// The resistor's mean power is what it burns in a cycle over the length of the cycle.
+/// The resistor's mean power is its energy of a cycle over the cycle time.
 #[test]
 fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
     let (cycle, motor) = (cycle(), motor());
@@ -346,7 +346,7 @@ fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
     let figure = |rule| findings.get(rule).unwrap().value;
     let curve = bus::power(&cycle, &drive.coefficients(), 1.0, &motor, &prepared, None);
     let [_, back] = curve.energies();
-    // All that comes back but what the capacitor keeps of it, in each of a few stretches of braking.
+    // The regenerated energy minus the capacitor's share, in each of a few stretches of braking.
     let kept = 0.5 * 1e-6 * (570.0f64.powi(2) - 560.0f64.powi(2));
     let burnt = figure(Rule::ResistorPower) * cycle.duration();
     assert!(back > 100.0 * kept, "{back} J come back");

@@ -8,7 +8,7 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use super::{BUS, budget, near, random_curve};
 
-/// A curve with fewer points is nowhere off by more than is allowed, jumps are where they were, and its ends too.
+/// A curve with fewer points deviates nowhere by more than allowed; jumps and ends stay in place.
 #[test]
 fn a_curve_with_fewer_points() {
     let at = |curve: &PowerCurve, t: f64| {
@@ -51,8 +51,8 @@ fn a_curve_with_fewer_points() {
     }
 }
 
-/// Of a common period of more than 5000 points the search of three axes takes fewer, and its results all of them: no random phases are worse
-/// by more than the grid of three axes misses.
+/// A common period with more than 5000 points is searched by fewer, and the results use all: random phases are not worse by more than the grid of
+/// three axes misses.
 #[test]
 fn a_long_common_period_is_searched_with_fewer_points() {
     let brakes = |phase: f64, period: f64| {
@@ -88,7 +88,7 @@ fn a_long_common_period_is_searched_with_fewer_points() {
     }
 }
 
-/// The three cases of cycles that are to repeat together, and their numbers.
+/// The three cases of a common period, with their numbers.
 #[test]
 fn common_periods() {
     let mut random = ChaCha8Rng::seed_from_u64(16);

@@ -1,4 +1,4 @@
-//! The search over phases: closed forms, brute force, and cycles that repeat together late or never.
+//! The search over phases: closed forms, brute force, and cycles that meet late or never.
 
 use jred_machine::model::supply::Supply;
 use jred_sizing::bus::axes::{Axes, Goal};
@@ -13,8 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{BUS, budget, near, random_curve};
 use crate::support::within;
 
-/// Two equal axes that brake while the other drives: half a period apart the one takes what the other gives back. Together
-/// they burn it.
+/// Two equal axes that brake while the other drives: half a period apart, one takes the regenerated energy of the other. In step they dissipate it.
 #[test]
 fn two_axes_in_closed_form() {
     let push = PowerCurve::new(
@@ -39,7 +38,7 @@ fn two_axes_in_closed_form() {
         [bounds.drawn, bounds.back, bounds.resistor],
         [1800.0, 1400.0, 700.0]
     );
-    // The phases that burn least are half a period apart.
+    // The phases with least dissipation are half a period apart.
     let [least] = axes.largest(|figures| [-figures.burnt], &()).unwrap();
     near("phase", least.phases[1], 1.0, budget::BUS);
     assert_eq!(least.figures.burnt, 0.0);
@@ -65,8 +64,8 @@ fn brute(axes: &Axes, periods: &[f64], grid: i32) -> [f64; 4] {
     most
 }
 
-/// The search against brute force over all phases on a grid that it does not share, and the bounds above both. Of cycles that
-/// meet only after 9 and 10 the search looks at a tenth of the phases.
+/// The search against brute force over all phases on a different grid, and the bounds above both. For cycles that meet only after 9 and 10 the search
+/// evaluates a tenth of the phases.
 #[test]
 fn phases_by_brute_force() {
     let mut random = ChaCha8Rng::seed_from_u64(14);
@@ -108,8 +107,7 @@ fn phases_by_brute_force() {
     }
 }
 
-/// Four axes, each with a pulse of power of its own: all pulses at once raise the voltage most and make the longest pulse, and
-/// the search finds that.
+/// Four axes, each with a pulse of power: all pulses in step give the highest voltage and the longest pulse, which the search finds.
 #[test]
 fn four_axes_at_once() {
     let curve = |back: f64| {
@@ -141,8 +139,8 @@ fn four_axes_at_once() {
     near("bound", axes.bounds().highest, expected, budget::PHASES);
 }
 
-/// Four axes of which the second repeats with the first only after twelve of its cycles: the worst lies between two places of the
-/// grid of its own period, 7/16 of a step beside the better one, and the search closes in on it.
+/// Four axes, the second of which repeats with the first only after twelve of its cycles: the worst phase is between two grid points of its own
+/// period, 7/16 of a step from the better one, and the search refines it.
 #[test]
 fn four_axes_between_the_places_of_the_grid() {
     let (short, block, back, begin) = (1.0 / 12.0, 0.02, 600.0, 0.3);
@@ -159,7 +157,7 @@ fn four_axes_between_the_places_of_the_grid() {
         ],
         short,
     );
-    // The spike, which aligned phases put together with the block, stores less than both blocks at once.
+    // The spike, which aligned phases combine with the block, stores less than both blocks in step.
     let second = PowerCurve::new(
         [
             [0.0, 3000.0],
@@ -190,8 +188,8 @@ fn four_axes_between_the_places_of_the_grid() {
     near("phase", found, phase, budget::COARSE_PHASES);
 }
 
-/// Of three axes two have half the period of the third, which stands still: the second takes what the first gives back where it starts 0.35 s later.
-/// No phase short of its whole period may be left out.
+/// Two of three axes have half the period of the third, which is at rest: the second takes the energy of the first if it starts 0.35 s later. All
+/// phases up to its whole period must be searched.
 #[test]
 fn phases_of_a_pair_beside_a_longer_cycle() {
     let brakes = PowerCurve::new([[0.0, -800.0], [0.1, -800.0], [0.1, 0.0], [0.5, 0.0]], 0.5);
@@ -217,7 +215,7 @@ fn phases_of_a_pair_beside_a_longer_cycle() {
     within("phase", least.phases[1], 0.35, 1e-5);
 }
 
-/// What is asked of a resistor is the largest of every figure over all phases, each by brute force with a resistor that takes all.
+/// The resistor's requirement is the largest of every figure over all phases, each by brute force with a resistor that dissipates all.
 #[test]
 fn the_resistor_asked_for_is_that_of_the_worst_phases() {
     let data = BusData {
@@ -265,7 +263,7 @@ fn the_resistor_asked_for_is_that_of_the_worst_phases() {
             780.0 * 780.0 / need.peak,
             budget::BUS,
         );
-        // No phase has them all: that of the largest mean power asks less of the pulse or the peak.
+        // No single phase has all of them: the one with the largest mean power has a smaller pulse or peak.
         let [_, mean, ..] = with.worst(&()).unwrap();
         let one = [mean.figures.burnt_peak, mean.figures.pulse];
         apart += usize::from(one[0] < 0.999 * need.peak || one[1] < 0.999 * need.pulse);
@@ -284,7 +282,7 @@ fn the_resistor_asked_for_is_that_of_the_worst_phases() {
     assert!(asked >= 4 && apart >= 2, "{asked} {apart}");
 }
 
-/// Of several amplifiers on a bus the strictest figure counts, and their capacitances add up.
+/// For several amplifiers on a bus the strictest figure applies, and their capacitances add up.
 #[test]
 fn amplifiers_on_one_bus() {
     let data = |capacitance, max, least| BusData {
@@ -314,7 +312,7 @@ fn amplifiers_on_one_bus() {
     );
 }
 
-/// Whoever waits is told of as many phases as were planned.
+/// The progress reports as many phases as were planned.
 #[test]
 fn a_search_says_how_far_it_is() {
     #[derive(Default)]

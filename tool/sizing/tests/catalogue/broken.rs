@@ -1,4 +1,4 @@
-//! Catalogues with broken rows: all of them found in one pass, the first few shown, the others usable.
+//! Catalogues with broken rows: all are found in one pass, the first few shown, the other rows usable.
 
 use jred_sizing::catalogue::{Catalogue, CatalogueError, SHOWN, Sources};
 
@@ -61,7 +61,7 @@ fn a_large_catalogue_with_broken_rows() {
     assert!(catalogue.motors.iter().all(|m| m.rated_torque == Some(8.0)));
 }
 
-/// A list may go on naming what was left out; what was never there is a fault all the same.
+/// A list may still name skipped rows; a name that was never there is a fault.
 #[test]
 fn lists_that_name_broken_rows() {
     let folder = Folder::new();
@@ -80,7 +80,7 @@ fn lists_that_name_broken_rows() {
     assert_eq!(catalogue.left_out, 2);
 }
 
-/// Tables that are large together are refused before one is read: their holes would take the time to read them.
+/// Tables that are too large together are refused before any is read, because checking takes time.
 #[test]
 fn a_folder_of_too_many_bytes_is_refused() {
     let folder = Folder::new();

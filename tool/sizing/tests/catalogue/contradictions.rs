@@ -2,7 +2,7 @@
 
 use super::format::{GEARBOXES, MOTORS, MOTORS_TOML, open};
 
-/// What a row may not say: the key changed, and words of the message.
+/// Contradictions in a row: the changed key, and words of the message.
 #[test]
 #[expect(clippy::too_many_lines, reason = "one table of mistakes")]
 fn rows_that_contradict_themselves() {

@@ -92,7 +92,7 @@ fn figures_of_motors() {
     assert_eq!(full.winding.commutation, Commutation::Block);
     assert!(!full.from_maker);
     assert!(full.source.contains("some_motors.csv"), "{}", full.source);
-    // What the database marks as not stated is not stated, be it inf, NaN or nothing.
+    // Values that the database marks as not given are read as missing: inf, NaN or empty.
     let bare = of(&catalogue, "XX_bare");
     let nothing = [
         bare.rated_speed,
@@ -124,7 +124,7 @@ fn figures_of_motors() {
     );
 }
 
-/// Friction is chosen so that the no-load point comes out: k_t·I_nl = c + b·ω_nl.
+/// Friction is derived from the no-load point: k_t·I_nl = c + b·ω_nl.
 #[test]
 fn friction_from_the_no_load_point() {
     let catalogue = open(LIST, false).unwrap();
@@ -250,7 +250,7 @@ fn the_whole_database() {
         catalogue.gearboxes.iter().filter(|g| g.reverses).count(),
         49
     );
-    // No unit is mixed up: nothing is remarked upon but what the database leaves open or contradicts itself in.
+    // No unit is mixed up: warnings concern only missing and contradictory data of the database.
     for warning in &catalogue.warnings {
         let known = [
             "efficiency",

@@ -1,4 +1,4 @@
-//! jred's own format: every column in CSV and in TOML, and what must hold within a row.
+//! jred's own format: every column in CSV and in TOML, and the conditions within a row.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -7,7 +7,7 @@ use jred_sizing::catalogue::{Brake, Catalogue, MotorKind, Sources};
 
 use crate::support::{Folder, near};
 
-/// Ratios of units are worked out here in another order of operations than in the reader.
+/// Ratios of units are computed here in another order of operations than in the reader.
 const UNIT: f64 = crate::support::budget::UNIT_CONVERSION;
 
 pub(super) const MOTORS: &str = "\
@@ -156,7 +156,7 @@ fn every_column_of_a_motor() {
         (motor.torque_at_max_speed, 10.0),
         (Some(motor.friction[0]), 0.05),
         (Some(motor.friction[1]), 2.0 / (1000.0 * rpm)),
-        // An amplitude of 1 A is 1/√2 A RMS, so that k_t per RMS ampere is √2 times as large.
+        // An amplitude of 1 A is 1/√2 A RMS, so k_t per RMS ampere is √2 times as large.
         (winding.torque_constant, 1.2 * SQRT_2),
         (winding.voltage_constant, 98.5 / (1000.0 * rpm)),
         (winding.resistance, 0.9),
@@ -192,7 +192,7 @@ fn every_column_of_a_motor() {
     crate::support::near_column("S1 curve", &flat(&motor.continuous_curve), &s1, UNIT);
 }
 
-/// The same motor in TOML, its units written in other ways.
+/// The same motor in TOML, in other units.
 #[test]
 fn a_motor_in_toml_is_the_same() {
     let of = |files| open(files).unwrap().motors[0].clone();
@@ -255,7 +255,7 @@ fn every_column_of_a_gearbox() {
         g.shock_factors,
         [[1000.0, 1.0], [2000.0, 1.25], [5000.0, 2.0]]
     );
-    // 2 − 1/η: with η below a half a gearbox holds by itself.
+    // 2 − 1/η: with η below a half a gearbox is self-locking.
     near(
         "friction",
         catalogue.gearboxes[1].back_efficiency,

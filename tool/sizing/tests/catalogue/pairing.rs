@@ -1,4 +1,4 @@
-//! Which motor goes with which gearbox and amplifier, against lists worked out naively.
+//! Pairing of motors, gearboxes and amplifiers, against lists from plain loops.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -107,7 +107,7 @@ m3,,,a*
     .unwrap();
     let mut expected = Vec::new();
     for (motor, gearboxes, amplifiers) in [
-        // Amplifiers of another maker run those motors only that the list names them for.
+        // Amplifiers of another maker run only the motors for which the list names them.
         ("m1", &["direct", "p-5", "q-3"][..], &["none"][..]),
         ("m2", &["p-3", "p-5"], &["a-10"]),
         ("m3", &["direct"], &["a-5", "a-10"]),
@@ -130,7 +130,7 @@ m3,,,a*
     }
 }
 
-/// A list in TOML; a list that names no gearboxes leaves them free; several motors by one line.
+/// A list in TOML; a list without gearboxes does not restrict them; several motors on one line.
 #[test]
 fn lists_in_toml() {
     let table = motors(&["m1", "m2", "n1"]);
@@ -208,7 +208,7 @@ fn gear_motors_keep_their_own_gearbox() {
     assert!(error.contains("did you mean \"q-own\"?"), "{error}");
 }
 
-/// A catalogue that is put together rather than read, as tests and studies do.
+/// A catalogue built in code, as tests and studies do.
 #[test]
 fn put_together_in_code() {
     let catalogue = Catalogue {
@@ -267,7 +267,7 @@ fn amplifiers_that_suit() {
     }
 }
 
-/// What a motor is stated to be made for widens the range upwards; a mains voltage is compared behind its rectifier.
+/// The voltage class of a motor widens the range upwards; a mains voltage is compared after its rectifier.
 #[test]
 fn amplifiers_that_suit_what_a_motor_is_made_for() {
     let amplifier = |mains| Amplifier {
@@ -301,7 +301,7 @@ fn amplifiers_that_suit_what_a_motor_is_made_for() {
     }
 }
 
-/// Random lists with partial keys, against every pair looked at on its own.
+/// Random lists with partial keys, against every pair checked individually.
 #[test]
 fn random_lists_against_looking_at_every_pair() {
     let mut random = ChaCha8Rng::seed_from_u64(20);
@@ -382,8 +382,8 @@ fn several_catalogues_are_merged() {
     );
 }
 
-/// An amplifier of another maker runs a motor only where a list says so, or where the catalogue pairs no amplifiers and has none of the
-/// motor's maker. Names are compared without regard to how they are written.
+/// An amplifier of another maker runs a motor only if a list says so, or if the catalogue pairs no amplifiers and has none of the motor's maker.
+/// Names are compared regardless of spelling variants.
 #[test]
 fn amplifiers_of_another_maker() {
     let table = |maker: &str| motors(&["m1"]).replace(",Maker,", &format!(",{maker},"));
@@ -400,12 +400,12 @@ fn amplifiers_of_another_maker() {
         open(&[&files]).unwrap()
     };
     for (maker, list, expected) in [
-        // No list, and none of its maker: by the figures, not certain.
+        // No list, and no amplifier of its maker: by the figures, as uncertain.
         ("Maker", "", &["a-5", "a-10", "o-5"][..]),
-        // Those of its own maker only.
+        // Only those of its own maker.
         ("M", "", &["a-5", "a-10"]),
         ("OTHER MAKER", "", &["o-5"]),
-        // What a list says goes before the makers.
+        // A list takes precedence over makers.
         ("M", "motor,amplifiers\nm1,o-5\n", &["o-5"]),
         ("Maker", "motor,amplifiers\nm1,o-5 a-5\n", &["a-5", "o-5"]),
     ] {

@@ -1,4 +1,4 @@
-//! Figures that can hardly be right are used, and remarked upon.
+//! Implausible figures are used, with a warning.
 
 use jred_sizing::catalogue::{Catalogue, Sources};
 
@@ -113,7 +113,7 @@ fn units_mixed_up() {
     ] {
         let found = warnings(&table(MOTOR, from, to), &table(GEARBOX, "", ""));
         if from.starts_with("rated_speed") {
-            // Three thousand rad/s are 28 600 rpm: a spindle may turn so fast.
+            // 3000 rad/s are 28 600 rpm, possible for a spindle.
             assert_eq!(found, [""; 0]);
             continue;
         }
@@ -142,7 +142,7 @@ fn units_mixed_up() {
     }
 }
 
-/// Many rows with the same slip: the first three are written out, the rest counted.
+/// Many rows with the same mistake: the first three are written out, the rest counted.
 #[test]
 fn many_of_a_kind_are_counted() {
     let mut motors = table(MOTOR, "rotor_inertia [kg cm^2]", "rotor_inertia [g cm^2]");

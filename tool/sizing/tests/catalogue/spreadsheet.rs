@@ -15,7 +15,7 @@ fn semicolons(table: &str) -> String {
     table.chars().map(swap).collect()
 }
 
-/// What spreadsheets write: quotes, CRLF, a byte order mark, blanks.
+/// Quotes, CRLF, a byte order mark and blanks of spreadsheets are read.
 #[test]
 fn what_spreadsheets_write_is_read() {
     let folder = Folder::new();

@@ -1,10 +1,10 @@
-//! One part in two rows of a catalogue, and the words for a fault in each form.
+//! One part in two rows of a catalogue, and the terms for a fault in each format.
 
 use jred_sizing::catalogue::Catalogue;
 
 use crate::support::catalogue::HEADER;
 
-/// The two rows of one gearbox as they once stood in the built-in catalogue: figures of one document for two clamping hubs.
+/// The two rows of one gearbox that were once in the built-in catalogue: figures of one document for two clamping hubs.
 const TP050: &str = "\
 key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],stiffness [N m/arcmin],source
 tp050ma-38p5,Beckhoff,AG2400 TP050 MA i=38.5,38.5,638,992,6250,3,94,,S
@@ -38,12 +38,12 @@ fn one_part_in_two_rows() {
             found[0]
         );
     }
-    // The same data under two keys contradict nothing; a model may be a series of ratios.
+    // The same data under two keys do not contradict each other; a model may be a series of ratios.
     let same = TP050.replace("6250,3,94,,S", "6250,9.9,94,220,S");
     assert_eq!(warnings(&same, MOTOR), [""; 0]);
     let series = TP050.replace("38p5,38.5,", "38p5,40,");
     assert_eq!(warnings(&series, MOTOR), [""; 0]);
-    // Motors as well, however their names are written.
+    // Motors as well, with any spelling of their names.
     let motors = format!(
         "{MOTOR}m2,MAKER,model-1,8.5,2000,36,8.5,Sheet\nm3,Other,Model 1,9,2000,36,8.5,Sheet\n"
     );
@@ -59,13 +59,13 @@ fn one_part_in_two_rows() {
     );
 }
 
-/// The built-in catalogue as it is, gearboxes, motors and resistors.
+/// The built-in catalogue: gearboxes, motors and resistors.
 #[test]
 fn no_part_is_in_the_built_in_catalogue_twice() {
     assert_eq!(super::built_in().warnings, [""; 0]);
     let gearboxes = super::built_in().gearboxes;
     assert_eq!(gearboxes.len(), 85);
-    // All ratios of a series have the inertia of the same clamping hub: that of the smaller one of 24 mm would be 3.8 and 3 kg cm^2.
+    // All ratios of a series have the inertia of the same clamping hub; the smaller hub of 24 mm would give 3.8 and 3 kg cm^2.
     let inertia = |key: &str| gearboxes.iter().find(|g| g.key == key).unwrap().inertia;
     for (key, expected) in [
         ("tp050ma-22", 10.7e-4),
@@ -76,7 +76,7 @@ fn no_part_is_in_the_built_in_catalogue_twice() {
     }
 }
 
-/// The cure of a fault speaks of what the file has: cells and a header, or keys and tables.
+/// The cure of a fault uses the terms of the file: cells and a header, or keys and tables.
 #[test]
 fn each_form_has_its_own_words() {
     let toml = "[[motor]]\nkey = \"m\"\nmaker = \"M\"\nmodel = \"1\"\nrated_torque = \"1 N m\"\nrated_speed = \"3000 rpm\"\npeak_torque = \"3 N m\"\nrotor_inertia = \"1 kg cm^2\"\nsource = \"S\"\n";

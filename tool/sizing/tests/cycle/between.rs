@@ -1,7 +1,7 @@
-//! Peaks between the samples, and energies and losses where they bend, against closed forms.
+//! Peaks between the samples, and energies and losses at bends, against closed forms.
 //!
-//! A rotor J with friction c + b·ω moves by the inclined sine, s = h·(z − sin(2πz)/2π): its torque is
-//! c + B + A·sin(2πz) − B·cos(2πz) with A = 2π·J·h/T² and B = b·h/T, so its peak is c + B + √(A² + B²).
+//! A rotor J with friction c + b·ω moves by the inclined sine, s = h·(z − sin(2πz)/2π): its torque is c + B + A·sin(2πz) − B·cos(2πz) with A =
+//! 2π·J·h/T² and B = b·h/T, so its peak is c + B + √(A² + B²).
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -13,15 +13,15 @@ use jred_machine::read;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 
-/// Way (rad), time (s).
+/// Distance (rad), time (s).
 const WAY: f64 = 12.0;
 const TIME: f64 = 0.5;
 /// kg m², N m s/rad, N m.
 const MACHINE: [f64; 3] = [0.02, 0.11, 3.0];
-/// Of the motor: its rotor bends the course of the torque as the machine does, so that the peak lies elsewhere.
+/// The motor: its rotor shifts the peak of the torque.
 const MOTOR: [f64; 3] = [0.013, 0.04, 0.7];
 
-/// No divisor of the samples' number is a peak's place.
+/// With this number of steps no sample is at a peak.
 const STEPS: usize = 302;
 
 fn duty(steps: usize) -> Duty {
@@ -44,7 +44,7 @@ fn extremes([a, b, c]: [f64; 3]) -> [f64; 2] {
     [c + b - a.hypot(b), c + b + a.hypot(b)]
 }
 
-/// At the input, and at a motor whose own inertia is in the torque.
+/// At the input, and at a motor whose own inertia is part of the torque.
 #[test]
 fn the_peak_is_that_between_the_samples() {
     let duty = duty(STEPS);
@@ -68,7 +68,7 @@ fn the_peak_is_that_between_the_samples() {
     near("motor, most", found_most, most, budget::PEAK_BETWEEN);
     let peak = cycle.peak_torque(&coefficients);
     near("motor, peak", peak, most, budget::PEAK_BETWEEN);
-    // The samples alone do not have it.
+    // The samples alone miss it.
     let torques = cycle
         .samples()
         .iter()
@@ -80,13 +80,12 @@ fn the_peak_is_that_between_the_samples() {
     );
 }
 
-/// Without viscous friction the power changes its sign where A·sin(2πz) = −c: the work before is the energy there and what
-/// friction took.
+/// Without viscous friction the power changes its sign where A·sin(2πz) = −c: the work until then is the kinetic energy there plus the friction loss.
 #[test]
 fn energies_are_those_between_the_signs_of_the_power() {
     let inertia = 0.02;
     for coulomb in [0.0, 3.0, 5.0] {
-        // The machine's viscous friction is taken back by the motor's.
+        // The motor's viscous friction cancels the machine's.
         let coefficients = Coefficients([0.0, 1.0, 1.0, -0.11, coulomb - 3.0]);
         let [a, ..] = terms(&[[inertia, 0.0, 0.0]]);
         let late = (coulomb / a).asin() / TAU;
@@ -109,7 +108,7 @@ fn energies_are_those_between_the_signs_of_the_power() {
     }
 }
 
-/// An unbalanced drum of a hundred turns: what is put in comes back, twice the largest torque a turn.
+/// An unbalanced drum over a hundred turns: the delivered energy is regenerated, twice the largest torque per turn.
 #[test]
 fn a_drum_gives_back_what_it_takes() {
     let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { diameter = \"500 mm\", mass = \"20 kg\" }\n\
@@ -120,7 +119,7 @@ fn a_drum_gives_back_what_it_takes() {
     for steps in [16, 2000] {
         let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
         let cycle = Cycle::new(&duty);
-        // With friction at the motor the power turns at other places: sin φ = −c/most.
+        // With friction at the motor the power changes sign at sin φ = −c/most.
         for coulomb in [0.0, 1.5] {
             let coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, coulomb]);
             let [motoring, regenerative] = cycle.energies(&coefficients, 1.0);
@@ -153,8 +152,8 @@ fn a_drum_gives_back_what_it_takes() {
     }
 }
 
-/// Of equal turns one is searched, and the turn that differs is found: a moment of 5 N m in the last turn, or for a
-/// quarter of a turn while the weight is at the top of its torque, in the middle of a hundred turns of 0.1 s.
+/// Of equal turns one is searched, and a differing turn is found: a moment of 5 N m in the last turn, or for a quarter of a turn while the weight's
+/// torque is largest, in the middle of a hundred turns of 0.1 s.
 #[test]
 fn the_one_turn_that_differs_has_the_peak() {
     let most = 3.0 * 9.81 * 0.2;
@@ -189,7 +188,7 @@ fn the_one_turn_that_differs_has_the_peak() {
                 most + extra,
                 budget::DUTY,
             );
-            // A drive whose friction is more than the weight takes power back nowhere, one without everywhere the weight falls.
+            // A drive whose friction exceeds the weight regenerates nowhere, one without friction wherever the weight falls.
             for (coulomb, back) in [(0.999 * most, true), (1.001 * most, false)] {
                 let drive = Coefficients([0.0, 1.0, 1.0, 0.0, coulomb]);
                 assert_eq!(cycle.regenerates(&drive), back, "{when} {coulomb}");

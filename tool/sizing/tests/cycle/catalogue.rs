@@ -1,4 +1,4 @@
-//! Whole catalogues: the same verdicts as by plain loops, and an order that does not depend on how the work was shared out.
+//! Whole catalogues: the same verdicts as by plain loops, in an order independent of threads.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ struct Ready {
     rules: RuleSet,
 }
 
-/// Some of the built-in motors and gearboxes, from all makers, with the gearboxes at six times as many ratios.
+/// Some of the built-in motors and gearboxes of all makers, the gearboxes with six times as many ratios.
 pub(crate) fn with_more_ratios() -> Catalogue {
     let mut catalogue = Catalogue::load(None, None).unwrap();
     let motors = catalogue.motors.iter().map(|motor| motor.key.clone());
@@ -52,7 +52,7 @@ pub(crate) fn with_more_ratios() -> Catalogue {
     catalogue
 }
 
-/// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
+/// The press and the built-in catalogue with many more ratios: enough suitable and unsuitable drives.
 fn ready() -> Ready {
     let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
     let duty = brute::sampled(Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap());
@@ -110,7 +110,7 @@ impl Ready {
         );
         let mut outcome = Outcome::of(&self.rules, &findings);
         if outcome.verdict == Verdict::Fail {
-            // Rules that follow time are not judged for a drive that is refused.
+            // Rules over time are not judged for a refused drive.
             outcome.not_checked = candidate.outcome.not_checked;
         }
         outcome
@@ -130,7 +130,7 @@ fn every_verdict_is_that_of_plain_loops() {
         let name = candidate.drive.name();
         assert_eq!(found.verdict, expected.verdict, "{name}");
         if found.verdict == Verdict::Fail && found.worst_use < expected.worst_use {
-            // What follows time was not looked at.
+            // Rules over time were not evaluated.
             continue;
         }
         assert_eq!(found.worst_rule, expected.worst_rule, "{name}");

@@ -1,4 +1,4 @@
-//! What a cycle asks of a drive, figure by figure: against the drive's torque and speed at every instant.
+//! Figures of a drive over a cycle, against the drive's torque and speed at every instant.
 
 use std::path::Path;
 
@@ -118,7 +118,7 @@ fn figures_at_the_motor_are_those_of_its_instants() {
     }
 }
 
-/// Whether any power comes back is said as a loop over the samples says it, but for roundings.
+/// Whether any power is regenerated, as by a loop over the samples, up to roundings.
 #[test]
 fn power_that_comes_back_is_known() {
     let seen = std::cell::Cell::new([0; 2]);
@@ -141,7 +141,7 @@ fn power_that_comes_back_is_known() {
         Ok(())
     };
     runner(1500).run(&(duty(), coefficients()), check).unwrap();
-    // Friction that outweighs everything else but in one place of the press, and everywhere.
+    // Friction that exceeds everything else except at one position of the press, and everywhere.
     let cycle = Cycle::new(&press());
     let with = |coulomb: f64| Coefficients([1e-3, 1.0, 1.0, 0.0, coulomb]);
     let least = |coulomb: f64| {

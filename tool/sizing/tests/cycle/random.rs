@@ -1,4 +1,4 @@
-//! Random duties, drives and envelopes, of the kinds that are hard for a shortcut.
+//! Random duties, drives and envelopes that are hard for shortcuts.
 
 use std::sync::LazyLock;
 
@@ -11,7 +11,7 @@ use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
 use proptest::prelude::*;
 
-/// A stretch of a motion: what the quantities do, and for how many instants.
+/// A stretch of a motion: its course and its number of instants.
 #[derive(Clone, Debug)]
 enum Stretch {
     /// Sums of two harmonics each; a jump where it begins.
@@ -20,9 +20,9 @@ enum Stretch {
     Rest(f64, usize),
     /// At constant speed under a constant torque.
     Steady([f64; 2], usize),
-    /// Anything from instant to instant.
+    /// Random values at each instant.
     Noise(Vec<[f64; 3]>),
-    /// The torque is all but what accelerates `inertia`: terms cancel.
+    /// The torque nearly cancels that of accelerating `inertia`.
     Cancelling([f64; 4], f64, usize),
 }
 
@@ -107,7 +107,7 @@ pub(crate) fn duty() -> impl Strategy<Value = Duty> {
                 duration,
                 hold_torque: 0.5 * of_torque,
                 mechanics: Mechanics::default(),
-                // Peaks and energies of the samples themselves, whatever they are.
+                // Peaks and energies of the samples only.
                 smooth: Smooth::default(),
             }
         },
@@ -131,7 +131,7 @@ fn instant(t: f64, weight: f64, [alpha, torque, speed]: [f64; 3]) -> Instant {
     }
 }
 
-/// Coefficients of a drive: each over several decades, some of them zero, the one for power that flows back of either sign.
+/// Coefficients of a drive, each over several decades, some zero, that for regenerated power of either sign.
 pub(crate) fn coefficients() -> impl Strategy<Value = Coefficients> {
     let size = || prop_oneof![1 => Just(0.0), 4 => (-4.0..2.0f64).prop_map(|x| 10f64.powf(x))];
     let back = -1.0..1.0f64;
@@ -147,7 +147,7 @@ pub(crate) fn coefficients() -> impl Strategy<Value = Coefficients> {
         })
 }
 
-/// An envelope from the data sheet's corner, from points (falling, and bent either way) or from a winding.
+/// An envelope from the data sheet's corner, from points (falling, curved either way) or from a winding.
 pub(crate) fn envelope() -> impl Strategy<Value = Envelope> {
     let corner = (0.1..1.0f64, 0.1..1.0f64, 0.01..1.0f64, 0.1..3.0f64).prop_map(
         |(rated, corner, torque, peak)| {
@@ -198,7 +198,7 @@ pub(crate) fn envelope() -> impl Strategy<Value = Envelope> {
         .prop_map(|motor| Envelope::of(&motor))
 }
 
-/// A motor of which nothing is known.
+/// A motor without data.
 fn bare() -> Motor {
     static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue::load(None, None).unwrap());
     let mut motor = CATALOGUE.motors[0].clone();

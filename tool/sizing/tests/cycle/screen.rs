@@ -1,4 +1,4 @@
-//! Whether every drive of a catalogue is screened as judging it in full says: the same verdicts, the same first drives in order.
+//! Screening of a whole catalogue against full judging: the same verdicts, the same first drives in order.
 
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -21,7 +21,7 @@ use super::random::duty;
 use super::runner;
 use crate::support::press_text;
 
-/// Every drive in full, in the order that docs/sizing-rules.md states: those that fit, those that are refused.
+/// Every drive in full, in the order of docs/sizing-rules.md: suitable ones, then refused ones.
 fn plainly(
     catalogue: &Catalogue,
     cycle: &Cycle,
@@ -50,7 +50,7 @@ fn plainly(
     })
 }
 
-/// How little is certain of a drive that fits.
+/// Uncertainty of a suitable drive.
 fn doubt(drive: &Drive, found: &Outcome) -> i32 {
     let amplifier = drive.amplifier;
     let stranger = amplifier.is_some_and(|a| a.maker != drive.motor.maker);
@@ -63,7 +63,7 @@ fn doubt(drive: &Drive, found: &Outcome) -> i32 {
     }
 }
 
-/// Drives by size as docs/sizing-rules.md states it, each with whether it has a warning. Data sheets have fewer digits than `f32`.
+/// Order by size as in docs/sizing-rules.md, with a flag for a warning. Data sheets have fewer digits than `f32`.
 fn by_size((a, x): (&Drive, bool), (b, y): (&Drive, bool)) -> Ordering {
     let figures = |drive: &Drive, warns: bool| {
         let Drive {
@@ -120,7 +120,7 @@ fn names(group: &Group) -> Vec<String> {
     names
 }
 
-/// The first drives must be those expected; says where they differ.
+/// The first drives must be the expected ones; names the first difference.
 #[track_caller]
 fn same(found: &[(String, Outcome)], expected: &[(String, Outcome)]) {
     assert_eq!(found.len(), expected.len());
@@ -129,7 +129,7 @@ fn same(found: &[(String, Outcome)], expected: &[(String, Outcome)]) {
     }
 }
 
-/// Both ways must agree; how many fit and how many are refused.
+/// Both methods must agree; returns the numbers of suitable and refused drives.
 fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -> [usize; 2] {
     let motors = catalogue.prepare(site);
     let expected = plainly(catalogue, cycle, site, rules);
@@ -153,7 +153,7 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
     for selection in [&one, &all] {
         survey(selection, &expected[0]);
     }
-    // More than stand in order, and all.
+    // More than the ordered ones, and all.
     for count in [FIRST + 1, 3 * FIRST, usize::MAX] {
         for (found, expected) in [one.first_fit(count), one.first_refused(count)]
             .iter()
@@ -168,7 +168,7 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
     expected.map(|list| list.len())
 }
 
-/// Counts, ranks and first drives of each certainty, and how often a rule is not checked, are those of the whole list.
+/// Counts, ranks and first drives of each certainty, and the number of unchecked rules, match the whole list.
 fn survey(selection: &Selection, fit: &[(String, Outcome)]) {
     let classes = selection.classes();
     assert_eq!(
@@ -195,7 +195,7 @@ fn survey(selection: &Selection, fit: &[(String, Outcome)]) {
     assert!(gaps.iter().all(|gap| !gap.missing.is_empty()));
 }
 
-/// The same duty with its largest torque and speed at these (N·m, rad/s).
+/// The same duty scaled to this largest torque and speed (N·m, rad/s).
 fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
     let most = |of: fn(&jred_machine::analysis::duty::Instant) -> f64| {
         let largest = duty
@@ -220,7 +220,7 @@ fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
     duty
 }
 
-/// Random cycles of all kinds, at torques and speeds that a part of the catalogue suits.
+/// Random cycles of all kinds, at torques and speeds that suit a part of the catalogue.
 #[test]
 fn random_cycles_are_screened_as_in_full() {
     let catalogue = with_more_ratios();
@@ -248,7 +248,7 @@ fn random_cycles_are_screened_as_in_full() {
     );
 }
 
-/// Three sets of rules: the general one, one with warnings, one that judges little.
+/// Three sets of rules: the general one, one with warnings, one with few rules.
 fn sets() -> [RuleSet; 3] {
     let with = |rules: &str| {
         let text = format!("{}\n{rules}", press_text());
@@ -262,7 +262,7 @@ fn sets() -> [RuleSet; 3] {
     ]
 }
 
-/// Amplifiers bring currents, I²t and the DC bus into play.
+/// Amplifiers add currents, I²t and the DC bus.
 #[test]
 fn drives_on_amplifiers_are_screened_as_in_full() {
     let text = press_text();
@@ -283,7 +283,7 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
     let (site, rules) = (Site::default(), RuleSet::default());
     let [fit, refused] = compare(&catalogue, &cycle, &site, &rules);
     assert!(fit > FIRST && refused > FIRST, "{fit} {refused}");
-    // A drive asked for without its amplifier: the first of them in the lists, wherever they stand.
+    // A drive requested without its amplifier is the first of them in the lists, at any position.
     let motors = catalogue.prepare(&site);
     let selection = Selection::parallel(&catalogue, &motors, &cycle, &site, &rules);
     let expected = plainly(&catalogue, &cycle, &site, &rules).concat();
@@ -300,7 +300,7 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
     }
 }
 
-/// Without an amplifier, and without the highest voltage of the bus: a resistance too small for the chopper still decides.
+/// Without an amplifier and without the highest bus voltage: a resistance too small for the chopper is still decisive.
 #[test]
 fn a_resistor_is_screened_as_in_full() {
     let text = press_text();
@@ -322,8 +322,8 @@ fn a_resistor_is_screened_as_in_full() {
     assert!(large[0] > 0, "{large:?}");
 }
 
-/// Without an amplifier too, the highest voltage of the bus decides, though other figures are missing: what comes back charges a
-/// small capacitor far beyond it.
+/// Without an amplifier the highest bus voltage is decisive even if other figures are missing: regenerated energy charges a small capacitor far
+/// beyond it.
 #[test]
 fn a_voltage_is_screened_as_in_full() {
     let text = press_text();
@@ -342,7 +342,7 @@ fn a_voltage_is_screened_as_in_full() {
     assert!(small[0] < large[0], "{small:?} {large:?}");
 }
 
-/// A drive is itself, and no other is it: in whichever order and selection it stands.
+/// A drive equals itself and no other, in any order and selection.
 #[test]
 fn a_drive_is_the_same_as_itself_alone() {
     let text = press_text();
@@ -370,7 +370,7 @@ fn a_drive_is_the_same_as_itself_alone() {
     }
 }
 
-/// A catalogue of which every drive is equal: they stand in the order of the catalogue.
+/// A catalogue of equal drives keeps its order.
 #[test]
 fn equal_drives_stand_in_the_order_of_the_catalogue() {
     let text = press_text();
@@ -391,7 +391,7 @@ fn equal_drives_stand_in_the_order_of_the_catalogue() {
     assert!(fit.max(refused) > 400, "{fit} {refused}");
 }
 
-/// Motors of a thousandth of the torque, in a duty of so little: no bound may stand for a torque of its own size.
+/// Motors with a thousandth of the torque, in an equally small duty: no bound may assume a certain size of torque.
 #[test]
 fn small_motors_are_screened_as_in_full() {
     let file = read::parse("press.toml", &press_text(), std::path::Path::new("")).unwrap();

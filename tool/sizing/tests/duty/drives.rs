@@ -16,7 +16,7 @@ use super::{catalogue, duty_of, read};
 use crate::brute;
 use crate::support::{budget, near, press_text, within};
 
-/// What a selection borrows.
+/// Data borrowed by a selection.
 struct Ready {
     catalogue: Catalogue,
     motors: Vec<Prepared>,
@@ -57,7 +57,7 @@ pub(super) const fn drive<'c>(motor: &'c Motor, gearbox: Option<&'c Gearbox>) ->
     }
 }
 
-/// Every figure of every drive, computed once more from the instants in the plainest way.
+/// Every figure of every drive, computed again from the instants by plain formulas.
 #[test]
 fn every_drive_by_brute_force() {
     let file = read(&press_text());
@@ -79,8 +79,7 @@ fn every_drive_by_brute_force() {
         let (mut lambda_least, mut lambda_most, mut lambda_mean) = (f64::MAX, 0.0f64, 0.0);
         for instant in &duty.instants {
             let (load, speed) = (instant.input_torque, instant.input_speed);
-            // Power first, torque from it: what the motor gives is what the load takes, the loss, and what the rotor
-            // and the gearbox store.
+            // Power first, then torque: the motor's power is that of the load, the loss, and the change of energy in rotor and gearbox.
             let (torque, motor_speed, lambda) = match judged.drive.gearbox {
                 None => (
                     load + motor.rotor_inertia * instant.input_alpha,
@@ -146,14 +145,14 @@ fn every_drive_by_brute_force() {
         same("λ", lambda.min, lambda_least, lambda_most);
         same("λ", lambda.mean, lambda_mean, lambda_most);
         same("λ", lambda.max, lambda_most, lambda_most);
-        // A loss is never a gain: what the motor gives net is at least what the machine takes at its input.
+        // A loss is never a gain: the motor's net energy is at least that taken at the machine's input.
         let taken = duty.integral(|i| i.input_torque * i.input_speed);
         assert!(forth - back >= taken * (1.0 - 1e-6), "{name}");
         check_rules(&judged);
     }
 }
 
-/// The rules that the catalogue always has figures for.
+/// The rules for which the catalogue always has data.
 fn check_rules(judged: &Judged) {
     let name = judged.drive.name();
     let of_motor = [
@@ -163,7 +162,7 @@ fn check_rules(judged: &Judged) {
         Rule::HoldingTorque,
         Rule::InertiaRatio,
     ];
-    // With two cycles a second, the warning about T2B is among those of a gearbox.
+    // With two cycles a second, the warning about T2B is one of the gearbox's.
     let of_gearbox = [
         Rule::GearboxPeak,
         Rule::GearboxCubicMean,
@@ -223,7 +222,7 @@ fn scaling_with_the_ratio() {
         let lambda = direct.inertia_ratio.max / (ratio * ratio);
         near("λ", geared.inertia_ratio.max, lambda, 1e-14);
     }
-    // An efficiency makes what is driven harder by 1/η and what drives easier by η.
+    // An efficiency makes driving harder by 1/η, and driven operation easier by η.
     let mut lossy = gearbox(4.0);
     lossy.efficiency = 0.5;
     lossy.back_efficiency = 0.5;
@@ -314,7 +313,7 @@ fn ranking() {
     }
 }
 
-/// What a user reads about a refused drive.
+/// Text about a refused drive.
 #[test]
 fn reasons_read_well() {
     let file = read(&press_text());

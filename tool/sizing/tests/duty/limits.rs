@@ -1,4 +1,4 @@
-//! The torque-speed limits of motors, and what is assumed where the data sheet does not say.
+//! The torque-speed limits of motors, and assumptions for missing data.
 
 use jred_machine::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Motor};
@@ -48,7 +48,7 @@ fn check_envelope(motor: &Motor) {
         );
         for (a, b) in [(before.0, now.0), (before.1, now.1)] {
             assert!(b <= a * (1.0 + 1e-14), "{}: rises at {}", motor.key, at(k));
-            // The steepest part: all of the peak torque over a tenth of the speed range would be 1e-3 a step.
+            // The steepest allowed part: the whole peak torque over a tenth of the speed range is 1e-3 per step.
             assert!(a - b <= 1e-3 * peak, "{}: jumps at {}", motor.key, at(k));
         }
         assert!(now.1 <= now.0, "{}: S1 above peak at {}", motor.key, at(k));
@@ -122,7 +122,7 @@ fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
             said("standstill torque not given"),
             motor.standstill_torque.is_none()
         );
-        // At a top speed that is the corner speed no such figure is needed.
+        // If the largest speed is the corner speed this figure is not needed.
         let corner = motor.corner_speed.or(motor.rated_speed);
         let needed = motor.max_speed.or(motor.rated_speed) > corner;
         assert_eq!(
@@ -147,7 +147,7 @@ fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
     assert!(judged.assumptions.ends_with(&expected));
 }
 
-/// Peak torque stated up to a speed that the motor does not reach: beyond the largest speed there is still none.
+/// Peak torque given up to a speed that the motor does not reach: above its largest speed the torque is still zero.
 #[test]
 fn no_torque_beyond_the_largest_speed() {
     for max_speed in [None, Some(3500.0 * RPM)] {

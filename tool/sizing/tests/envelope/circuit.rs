@@ -47,7 +47,7 @@ impl Phases {
         v_d.hypot(v_q) <= self.voltage && d.hypot(q) <= self.current
     }
 
-    /// The largest i_q along (`sign` 1) or against the speed at this i_d: a scan, then halving. `None`: none at all.
+    /// The largest i_q along (`sign` 1) or against the speed at this i_d: a scan, then bisection. `None`: no current.
     fn across(&self, d: f64, speed: f64, sign: f64) -> Option<f64> {
         let at = |k: u32| [d, sign * self.current * f64::from(k) / 300.0];
         let last = (0..=300).rev().find(|k| self.allows(at(*k), speed))?;
@@ -63,7 +63,7 @@ impl Phases {
         Some(low.abs())
     }
 
-    /// The largest torque along or against the speed: at i_d = 0 only, or over all i_d < 0, closing in on the best.
+    /// The largest torque along or against the speed: at i_d = 0 only, or over all i_d < 0, refining the best.
     fn largest(&self, speed: f64, sign: f64, weakens: bool) -> f64 {
         if !weakens {
             return self
@@ -140,7 +140,7 @@ fn with_its_field_weakened_too() {
 
 #[test]
 fn where_the_field_cannot_be_weakened_enough_the_speed_ends() {
-    // By the peak current, and of a winding of much resistance, in which less current weakens best, by the voltage.
+    // By the peak current, and for a winding of high resistance, in which a smaller weakening current is best, by the voltage.
     for (inductance, resistance) in [(7e-3, 3.8), (7e-3, 60.0), (14e-3, 90.0)] {
         let mut motor = servo();
         motor.max_speed = Some(1e4);
@@ -163,8 +163,8 @@ fn where_the_field_cannot_be_weakened_enough_the_speed_ends() {
     }
 }
 
-/// Whether the field is weakened follows from the data sheet's own voltage: only there a stated speed above the winding's no-load speed,
-/// V/k_e with the amplitude of the phase voltage, shows that the sheet reckons with it. The supply of the day changes nothing.
+/// Whether the field is weakened follows from the data sheet's own voltage: only there a given speed above the winding's no-load speed, V/k_e with
+/// the amplitude of the phase voltage, shows that the sheet assumes it. The actual supply does not matter.
 #[test]
 fn the_sheets_voltage_says_whether_the_field_is_weakened() {
     let mut motor = servo();
@@ -182,8 +182,7 @@ fn the_sheets_voltage_says_whether_the_field_is_weakened() {
     }
 }
 
-/// Beyond the speed at which the magnets take the whole voltage there is no current, along the speed or against it; nor at a speed
-/// that is no number.
+/// Above the speed at which the magnets take the whole voltage there is no current in either direction; nor at a speed of NaN.
 #[test]
 fn beyond_the_no_load_speed_there_is_no_current() {
     let circuit = Prepared::new(&servo(), None, &Site::default())
@@ -199,8 +198,8 @@ fn beyond_the_no_load_speed_there_is_no_current() {
     }
 }
 
-/// A winding without reactance cannot weaken its field: a sheet that states a corner and a speed beyond the no-load speed that the
-/// corner gives knows more than the winding, and is used. Up to that speed the winding is used.
+/// A winding without reactance cannot weaken its field: a sheet with a corner and a speed above the no-load speed of that corner contains more than
+/// the winding, and is used. Up to that speed the winding is used.
 #[test]
 fn a_sheet_beyond_its_winding_is_used() {
     let mut motor = direct_current();
@@ -216,7 +215,7 @@ fn a_sheet_beyond_its_winding_is_used() {
     assert!(from_winding(&motor));
     motor.max_speed = Some(370.0);
     assert!(!from_winding(&motor));
-    // Without a corner there is nothing but the winding.
+    // Without a corner only the winding is used.
     motor.corner_speed = None;
     motor.max_speed = Some(1000.0);
     assert!(from_winding(&motor));
@@ -247,7 +246,7 @@ fn a_direct_current_motor_has_a_straight_line_from_stall_to_no_load() {
         let speed = share * no_load;
         let found = envelope.peak_torque(1.0, speed);
         assert!((found - stall * (1.0 - share)).abs() < budget::CLOSED_FORM * stall);
-        // Braking, the voltage of the magnets drives the current too.
+        // When braking, the magnets' voltage adds to the current.
         let braking = envelope.peak_torque(-1.0, speed);
         let expected = if k == 0 { stall } else { stall * (1.0 + share) };
         near(braking, expected, budget::CLOSED_FORM);
@@ -299,8 +298,8 @@ fn without_inductance_a_three_phase_winding_is_not_guessed() {
     assert!(words.contains("using the rated speed"), "{words}");
 }
 
-/// Whether the field is weakened is assumed from the largest speed, and said either way: 560 V turn this winding no faster than 9000 rpm
-/// without torque.
+/// Whether the field is weakened is assumed from the largest speed, and reported either way: 560 V turn this winding at up to 9000 rpm without
+/// torque.
 #[test]
 fn weakening_is_said_either_way() {
     for (rpm, weakens) in [(3000.0, false), (12_000.0, true)] {

@@ -87,7 +87,7 @@ fn the_current_curve_bends_where_the_iron_saturates() {
             budget::CLOSED_FORM,
         );
     }
-    // The current that k_t asks for, and less: no saturation.
+    // The current by k_t, and less: no saturation.
     motor.winding.peak_current = Some(9.0 / 0.85);
     assert!(!CurrentCurve::of(&motor).unwrap().saturates());
 }
@@ -128,13 +128,13 @@ fn weakening_the_field_takes_current_of_its_own() {
         idle > 1.0 && half >= idle && full >= half,
         "{idle} {half} {full}"
     );
-    // At the envelope all of the peak current flows, or the torque per volt is at its largest.
+    // On the envelope the peak current flows, or the torque per volt is largest.
     let circuit = prepared.circuit.unwrap();
     assert!(
         full <= circuit.current * (1.0 + budget::CLOSED_FORM),
         "{full}"
     );
-    // The least current that the voltage allows, by trying.
+    // The least current that the voltage allows, by search.
     let (e, x) = (circuit.flux * speed, circuit.reactance * speed);
     let q = 0.5 * limit / 0.85;
     let least = (0..=200_000)

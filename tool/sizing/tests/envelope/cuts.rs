@@ -1,5 +1,5 @@
-//! Where the voltage limit of a winding is cut: at its kinks, at the top of braking, and concave where it is, however small a part
-//! of all speeds that may be. The limit itself is solved here from the quadratic of docs/motor-limits.md by halving.
+//! Cuts of a winding's voltage limit: at its kinks, at the maximum of braking, and within concave ranges, however small their share of the speed
+//! range. The limit itself is solved here from the quadratic of docs/motor-limits.md by bisection.
 
 use jred_sizing::catalogue::{Commutation, Motor, Winding};
 use jred_sizing::motor::envelope::{Envelope, Piece, Shape};
@@ -16,7 +16,7 @@ struct Line {
     reactance: f64,
     peak_torque: f64,
     peak_current: f64,
-    /// S1 torque, up to which k_t holds.
+    /// S1 torque, up to which k_t is valid.
     knee: f64,
 }
 
@@ -24,7 +24,7 @@ const BUS: f64 = 325.0;
 const PAIRS: f64 = 4.0;
 
 impl Line {
-    /// With k_t (N·m/A), R (Ω) and p·L (H), and no limit of the current that matters.
+    /// With k_t (N·m/A), R (Ω) and p·L (H), and no effective limit of the current.
     fn of(constant: f64, resistance: f64, inductance: f64) -> Self {
         let per_phase = 0.5 * 3f64.sqrt();
         Self {
@@ -38,7 +38,7 @@ impl Line {
         }
     }
 
-    /// With a peak torque that takes more current than k_t says: the iron saturates from the S1 torque `knee` on.
+    /// With a peak torque that takes more current than by k_t: the iron saturates from the S1 torque `knee` on.
     const fn saturated(self, peak_torque: f64, peak_current: f64, knee: f64) -> Self {
         Self {
             peak_torque,
@@ -85,7 +85,7 @@ impl Line {
         halved(0.0, 2.0 * self.voltage / self.drop, allowed)
     }
 
-    /// The torque of a current: k_t up to the knee, from there straight to the peak.
+    /// The torque of a current: k_t up to the knee, then linear to the peak.
     fn torque(&self, current: f64) -> f64 {
         let knee = self.knee / self.constant();
         if current <= knee || self.peak_current >= 1e6 {
@@ -95,14 +95,14 @@ impl Line {
         self.knee + share * (self.peak_torque - self.knee)
     }
 
-    /// The speed up to which the limit of driving, which falls, leaves a current.
+    /// The speed up to which the falling limit of driving leaves a current.
     fn speed_of(&self, current: f64) -> f64 {
         halved(0.0, self.no_load_speed(), |speed| {
             self.current(speed, false) >= current
         })
     }
 
-    /// The speed at which braking reaches its largest current: a search by thirds.
+    /// The speed at which braking reaches its largest current, by ternary search.
     fn top(&self) -> f64 {
         let (mut low, mut high) = (0.0, self.no_load_speed());
         for _ in 0..100 {
@@ -114,7 +114,7 @@ impl Line {
     }
 }
 
-/// The largest argument for which a condition holds that holds at `low` and not at `high`.
+/// The largest argument that satisfies a condition, which is true at `low` and false at `high`.
 fn halved(low: f64, high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..80 {
@@ -128,7 +128,7 @@ fn halved(low: f64, high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// The same motor `factor` times slower, with as much more torque.
+/// The same motor, `factor` times slower with as much more torque.
 fn slower(line: Line, factor: f64) -> Line {
     Line {
         flux: line.flux * factor,
@@ -139,8 +139,8 @@ fn slower(line: Line, factor: f64) -> Line {
     }
 }
 
-/// Servo motors with much and with little resistance for their reactance; with a current that the supply limits, and one that it does
-/// not; a torque motor of a few turns a minute.
+/// Servo motors with high and low resistance relative to their reactance, with and without a current limited by the supply; a torque motor of a few
+/// rpm.
 fn lines() -> [Line; 5] {
     let servo = Line::of(1.0, 4.0, 0.08).saturated(18.0, 30.0, 5.0);
     [
@@ -167,7 +167,7 @@ fn the_limit_is_the_voltage_equations() {
             let limit = envelope.limit(braking);
             let most = limit.torque(0.0);
             let shares = (1..400).map(|k| f64::from(k) / 400.0);
-            // Near standstill, too, where the resistance decides.
+            // Also near standstill, where the resistance dominates.
             for share in shares.chain((1..200).map(|k| 1e-5 * f64::from(k))) {
                 let speed = share * end;
                 let expected = line.torque(line.current(speed, braking).min(line.peak_current));
@@ -203,7 +203,7 @@ fn it_is_cut_where_it_leaves_the_current_limit_and_where_saturation_begins() {
     }
 }
 
-/// While k_e·n is small against V, i = V/√(r² + x²): concave up to x = r/√2, convex beyond, and near the no-load speed concave again.
+/// While k_e·n is small against V, i = V/√(r² + x²): concave up to x = r/√2, convex beyond, and concave again near the no-load speed.
 #[test]
 fn it_is_concave_where_the_resistance_decides_and_near_no_load() {
     let line = lines()[0];
@@ -214,7 +214,7 @@ fn it_is_concave_where_the_resistance_decides_and_near_no_load() {
     let pieces = envelope.limit(false).pieces();
     let first = pieces[0];
     assert_eq!(first.shape, Shape::Concave);
-    // Two of 128 steps up to 2·r/x′; what k_e·n does to it is less than 1 %.
+    // Two of 128 steps up to 2·r/x′; the effect of k_e·n is less than 1 %.
     near(first.to, turning, 0.06);
     let shape_at = |speed: f64| {
         let piece = pieces.iter().find(|piece| speed <= piece.to).unwrap();
@@ -225,7 +225,7 @@ fn it_is_concave_where_the_resistance_decides_and_near_no_load() {
     assert_eq!(shape_at(0.98 * end), Shape::Concave);
 }
 
-/// Where braking reaches its most there is a cut, as near as the limit was looked at; on either side of it the limit goes one way.
+/// There is a cut at the maximum of braking, within the step of the search; on either side the limit is monotonic.
 #[test]
 fn it_is_cut_at_the_top_of_braking() {
     for line in [lines()[1], slower(lines()[1], 300.0)] {

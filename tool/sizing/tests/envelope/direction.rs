@@ -1,4 +1,4 @@
-//! Quadrants: what a motor draws depends on whether it drives or brakes, not on which way it turns; and torque that is the same at every speed.
+//! Quadrants: the current depends on driving or braking, not on the direction; and constant torque.
 
 use jred_machine::model::site::Site;
 use jred_machine::units::RPM;
@@ -8,7 +8,7 @@ use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Prepared};
 use super::{bare, near, servo};
 use crate::support::budget;
 
-/// Turned round, with its torque, it draws the same; against its speed less than along it, where the field is weakened.
+/// Reversed together with its torque it draws the same current; in field weakening less against its speed than along it.
 #[test]
 fn the_current_does_not_depend_on_the_direction() {
     let mut motor = servo();
@@ -26,7 +26,7 @@ fn the_current_does_not_depend_on_the_direction() {
             near(current(torque, -speed), brakes, budget::CLOSED_FORM);
             let along = torque / 0.85;
             assert!(brakes >= along * (1.0 - 1e-9) && drives >= along * (1.0 - 1e-9));
-            // The drop in the resistance leaves more voltage where it brakes.
+            // The voltage drop in the resistance leaves more voltage when braking.
             assert!(brakes <= drives * (1.0 + 1e-9), "{brakes} {drives}");
             weakened += u32::from(brakes < 0.999 * drives);
         }
@@ -34,7 +34,7 @@ fn the_current_does_not_depend_on_the_direction() {
     assert!(weakened >= 2, "{weakened}");
 }
 
-/// A level without end is that torque at every speed, the infinite one too; a line falls to zero, not below.
+/// A level is that torque at every speed, also an infinite one; a line falls to zero, not below.
 #[test]
 fn levels_and_lines() {
     let level = Limit::level(5.0, f64::INFINITY);
@@ -52,7 +52,7 @@ fn levels_and_lines() {
             budget::CLOSED_FORM,
         );
     }
-    // From rest at no speed at all: a step, not a slope.
+    // From rest to speed zero: a step, not a slope.
     assert_eq!(
         Piece::line([0.0, 5.0], [f64::INFINITY, 5.0]).torque(1e9),
         5.0
@@ -71,7 +71,7 @@ fn levels_and_lines() {
     assert_eq!(lower.end(), 40.0);
 }
 
-/// The S1 torque at rest and at any speed, where the speed that it is rated at is not known; straight between both where it is, with constant power beyond.
+/// The S1 torque at rest and at any speed without a rated speed; with one, linear between both and constant power beyond.
 #[test]
 fn the_continuous_torque_with_and_without_a_rated_speed() {
     let motor = |rated_speed| Motor {

@@ -58,7 +58,7 @@ fn a_small_brushless_motor_runs_as_its_maker_says() {
             sheet.stall[0],
             budget::DATA_SHEET,
         );
-        // What turns it without load is the friction of the no-load current.
+        // The no-load current corresponds to friction.
         let friction = sheet.no_load[1] * sheet.torque_constant;
         let at_no_load = envelope.peak_torque(1.0, sheet.no_load[0] * RPM);
         assert!((at_no_load - friction).abs() < budget::DATA_SHEET * sheet.stall[0]);
@@ -82,11 +82,11 @@ const PREMO: [[f64; 9]; 6] = [
     [0.54, 32.5, 8.98, 16.7, 34.4, 6.38, 6_908.0, 0.53, 2.25],
 ];
 
-/// No-load speed found over that stated [1.008 to 1.023]: the maker's is a motor with its friction.
+/// Computed over published no-load speed [1.008 to 1.023]: the maker's motor has friction.
 const NO_LOAD: RangeInclusive<f64> = 1.005..=1.025;
-/// Largest power found over that stated with the winding at 20 °C [0.971 to 1.091].
+/// Computed over published largest power with the winding at 20 °C [0.971 to 1.091].
 const COLD_POWER: RangeInclusive<f64> = 0.965..=1.095;
-/// The same at the 140 °C that the winding may reach [0.939 to 0.964].
+/// The same at the winding's maximum of 140 °C [0.939 to 0.964].
 const HOT_POWER: RangeInclusive<f64> = 0.935..=0.970;
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the pieces of a limit promise.
+//! Properties of the pieces of a limit.
 
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
@@ -46,7 +46,7 @@ fn motors() -> impl Strategy<Value = Motor> {
 }
 
 fn shape_holds(piece: &Piece, scale: f64) -> Result<(), TestCaseError> {
-    // The speed itself is rounded: what that makes of the torque.
+    // Effect of the rounding of the speed on the torque.
     let rise = (piece.torque(piece.to) - piece.torque(piece.from)).abs();
     let rounding = 8.0 * f64::EPSILON * piece.to * rise / (piece.to - piece.from);
     let slack = budget::PIECE_SHAPE * scale + rounding;

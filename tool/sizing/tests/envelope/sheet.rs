@@ -1,4 +1,4 @@
-//! Envelopes from a data sheet's figures and points, and what another voltage or an amplifier makes of them.
+//! Envelopes from a data sheet's figures and points, and the effect of another voltage or an amplifier.
 
 use jred_machine::model::site::Site;
 use jred_sizing::catalogue::Motor;
@@ -74,7 +74,7 @@ fn the_s1_torque_keeps_to_power_and_peak() {
 
 #[test]
 fn a_lower_voltage_moves_corner_and_largest_speed() {
-    // 380 V mains instead of 460 V, nothing known of the winding: speeds in proportion.
+    // 380 V mains instead of 460 V, without winding data: speeds in proportion.
     let share = 380.0 / 460.0;
     let envelope = Envelope::at(&figures(), None, &site(560.0 * share));
     let torque = |n: f64| envelope.peak_torque(1.0, n);
@@ -87,7 +87,7 @@ fn a_lower_voltage_moves_corner_and_largest_speed() {
             .iter()
             .any(|a| a.contains("in proportion"))
     );
-    // The heat does not know of the voltage.
+    // Heat does not depend on the voltage.
     near(envelope.continuous_torque(400.0), 3.0, budget::CLOSED_FORM);
 }
 
@@ -122,7 +122,7 @@ fn with_the_winding_known_the_corner_moves_along_its_voltage_line() {
     motor.torque_at_max_speed = Some(3.0);
     motor.max_speed = Some(6000.0 * RPM);
     let envelope = Envelope::at(&motor, None, &site(400.0));
-    // The speed at which the peak current meets the voltage, phase by phase, by halving.
+    // The speed at which the peak current meets the voltage limit, phase by phase, by bisection.
     let reach = |bus: f64, torque: f64| {
         let i = torque / 0.85;
         let (mut low, mut high) = (0.0, 1e5);
@@ -165,7 +165,7 @@ fn a_stated_corner_says_how_much_voltage_the_drive_makes_use_of() {
         budget::CLOSED_FORM,
     );
     assert!(envelope.peak_torque(1.0, 2501.0 * RPM) < 9.0);
-    // From there along the line of the voltage that holds at the corner.
+    // From there along the line of the voltage at the corner.
     let i: f64 = 9.0 / 0.85;
     let needed = |n: f64, i: f64| (1.9 * i + 0.85 / 3.0 * n).hypot(4.0 * n * 7e-3 * i);
     let voltage = needed(2500.0 * RPM, i);
@@ -219,7 +219,7 @@ fn an_amplifier_caps_the_torque_and_brings_its_voltage() {
         300.0,
         budget::CLOSED_FORM,
     );
-    // The site's voltage is what there is.
+    // The site's voltage is used.
     let at = Envelope::at(&motor, Some(&amplifier(99.0, Some(280.0))), &site(560.0));
     near(at.max_speed(), 600.0, budget::CLOSED_FORM);
     motor.winding.torque_constant = None;
@@ -233,7 +233,7 @@ fn an_amplifier_caps_the_torque_and_brings_its_voltage() {
     );
 }
 
-/// A motor at a supply far above the voltage of its figures is not refused, but not passed without a word either.
+/// A motor at a supply far above the voltage of its figures is not refused, but reported.
 #[test]
 fn a_supply_of_another_class_is_remarked_upon() {
     let mut motor = figures();

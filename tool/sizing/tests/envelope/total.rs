@@ -1,4 +1,4 @@
-//! Any figures at all: no panic, no NaN.
+//! Arbitrary figures: no panic, no NaN.
 
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
@@ -117,7 +117,7 @@ proptest! {
     }
 }
 
-/// Where there is no torque, beyond the largest speed, none is used by none and all of it by any.
+/// Without torque, above the largest speed: zero torque uses 0 of it, any other all of it.
 #[test]
 fn nothing_uses_nothing_of_no_torque() {
     let motor = Motor {

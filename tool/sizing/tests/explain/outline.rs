@@ -1,4 +1,4 @@
-//! A duty without most of the instants that only resolve a peak: no rule comes out worse than over all of them.
+//! A duty without most of the instants that only resolve a peak: no rule becomes worse than over all of them.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -21,7 +21,7 @@ use super::parse;
 use crate::bus::drive::motor;
 use crate::support::{Folder, budget, near, press_text};
 
-/// The press with everything that a rule asks for, under these segments: way (deg; zero is a dwell) and time (ms).
+/// The press with the data for every rule, with these segments: distance (deg; zero is a dwell) and time (ms).
 fn press(segments: &[(i32, u32)]) -> MachineFile {
     let text = press_text();
     let (machine, _) = text.split_once("[[motion.segment]]").unwrap();
@@ -41,7 +41,7 @@ fn press(segments: &[(i32, u32)]) -> MachineFile {
     parse(&text)
 }
 
-/// A motor that runs into the weakened field, with a brake-less gearbox that has every rating.
+/// A motor with field weakening, and a gearbox with every rating.
 fn parts() -> (Motor, Gearbox, Amplifier) {
     let weakened = motor();
     let motor = Motor {
@@ -100,11 +100,11 @@ fn directly(
     findings
 }
 
-/// Segments, steps, which instants are without a weight, powers of ten of the alteration.
+/// Segments, steps, instants without a weight, powers of ten of the alteration.
 type Drawn = (Vec<(i32, u32)>, usize, Vec<bool>, [f64; 3]);
 
-/// Random motions of the press in few steps, some instants without a weight, altered at random. For every rule: no larger share
-/// of its limit, and never violated where the whole duty satisfies it.
+/// Random motions of the press in few steps, some instants without a weight, randomly altered. For every rule: no larger share of its limit, and
+/// never violated if the whole duty satisfies it.
 #[test]
 #[expect(clippy::too_many_lines, reason = "one random experiment")]
 fn what_an_outline_violates_is_violated() {
@@ -200,7 +200,7 @@ fn what_an_outline_violates_is_violated() {
     assert!(fails.get() > 500 && lower.get() > 50, "{fails:?} {lower:?}");
     let seen = seen.into_inner();
     for rule in Rule::ALL {
-        // Nothing here has a brake, and the site is as in the data sheets.
+        // Without a brake, and with the site of the data sheets.
         let direct = !rule.follows_time()
             && !matches!(
                 rule,
@@ -215,7 +215,7 @@ fn what_an_outline_violates_is_violated() {
     }
 }
 
-/// A recorded motion turns round within one stretch, between two instants that have a weight: its moves are counted over all.
+/// A recorded motion reverses within one stretch, between two weighted instants: its moves are counted over all instants.
 #[test]
 fn moves_between_two_weighted_instants_count() {
     let folder = Folder::new();

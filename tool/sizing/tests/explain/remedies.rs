@@ -1,4 +1,4 @@
-//! The values at which a drive begins to hold: closed forms, and the machine file with that value written into it.
+//! The values at which a drive becomes suitable: closed forms, and the machine file with that value.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use jred_sizing::select::size::Selection;
 use super::{duty_of, parse};
 use crate::support::{Folder, budget, edited, near, press_text};
 
-/// A wheel that is moved by half a turn and back, nothing else: T = α·(J_M·i + J/i).
+/// A wheel moved by half a turn and back: T = α·(J_M·i + J/i).
 const WHEEL: &str = r#"
 gravity = ["0 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -102,7 +102,7 @@ fn ranges_of_a_wheel_in_closed_form() {
     let [low, high] = found.range.unwrap();
     near("cycle time", low.value, share.sqrt(), budget::RANGE_END);
     assert_eq!(high.rule, None, "the slower the better");
-    // Nobody waits longer than twice as long.
+    // The cycle time is at most doubled.
     assert!((high.value - 2.0).abs() < 1e-12);
     // α·(J_M + m·J) = M
     let found = remedy(&remedies, Lever::MovingMass);
@@ -113,9 +113,9 @@ fn ranges_of_a_wheel_in_closed_form() {
         (30.0 / alpha - rotor) / load,
         budget::RANGE_END,
     );
-    // Nobody makes a machine lighter than by half.
+    // Masses are at most halved.
     assert_eq!((low.value, low.rule), (0.5, None));
-    // No load, no lever.
+    // No load, so no such quantity.
     assert!(
         remedies
             .remedies
@@ -161,7 +161,7 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
             .contains("moving masses 100 %: no value from 50 % to 100 % helps; at 50 %, the best")
     );
     assert_eq!(found.change(), None);
-    // As in the table of checks, digits beyond ten times the limit say nothing.
+    // As in the table of checks, figures beyond ten times the limit have few digits.
     let words = remedies.misses[0].sentence(remedies.words);
     assert!(
         words.contains("RMS torque uses > 1000 % of its limit"),
@@ -174,8 +174,7 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
     );
 }
 
-/// Between few steps the peak torque is resolved by instants without a weight, so that a range ends where the peak of the motion
-/// law says: α = 10/√3·s/t².
+/// With few steps the peak torque is resolved by instants without a weight, so a range ends at the peak of the motion law: α = 10/√3·s/t².
 #[test]
 fn a_peak_between_the_steps_ends_the_range() {
     let folder = Folder::new();
@@ -202,8 +201,8 @@ fn a_peak_between_the_steps_ends_the_range() {
     near("time", low.value, shortest, budget::PEAK_BETWEEN_STEPS);
 }
 
-/// The temperature of a motor that is far too small is beyond all measure, but it is not what the drive is refused for: the
-/// explanation begins with the rule that the ranking goes by.
+/// The temperature of a motor that is far too small is meaningless, but it is not the reason for the refusal: the explanation begins with the rule
+/// used for ranking.
 #[test]
 fn what_is_missed_is_what_the_ranking_goes_by() {
     let folder = Folder::new();
@@ -237,7 +236,7 @@ fn what_is_missed_is_what_the_ranking_goes_by() {
     assert!(remedies.misses.iter().all(|m| !m.rule.follows_time()));
 }
 
-/// The press under 25 kN: what the tool says about the best refused drives, written into the machine file.
+/// The press with 25 kN: the remedies of the best refused drives, written into the machine file.
 #[test]
 fn a_change_written_into_the_machine_file_does_what_was_said() {
     let text = edited(&press_text(), "\"-10 kN\"", "\"-60 kN\"");
@@ -310,8 +309,8 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
     assert!(checked >= 6, "{checked}");
 }
 
-/// Changes are sought where somebody would make them: what only three times the mass would mend has no remedy, and the text says where
-/// was sought. A drive that fits shows the whole range that it has left.
+/// Changes are limited to a reasonable range: if only three times the mass would help there is no remedy, and the text gives the range. A suitable
+/// drive shows its whole range.
 #[test]
 fn nobody_is_told_to_make_the_machine_heavier() {
     let folder = Folder::new();
@@ -326,7 +325,7 @@ fn nobody_is_told_to_make_the_machine_heavier() {
         gearbox: None,
         amplifier: None,
     };
-    // The RMS torque of 10 N m fits from 5.24 of its rating on, by alpha·(0.008 + m)/10.
+    // The drive is suitable for limits from 5.24 times its rating of 10 N m on, by alpha·(0.008 + m)/10.
     let alpha = duty.figures(|i| i.alpha).rms;
     let mut rules = only_rms();
     let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);

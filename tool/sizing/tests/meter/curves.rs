@@ -11,7 +11,7 @@ use crate::support::budget;
 
 const SPEEDS: u32 = 10_000;
 
-/// Holds a curve against the limit at many speeds, its own points and their neighbours.
+/// Checks a curve against the limit at many speeds, its own points and their neighbours.
 fn holds(what: &str, curve: &Below, end: f64, limit: impl Fn(f64) -> f64) {
     assert!((1..=MAX_POINTS).contains(&curve.points.len()), "{curve:?}");
     let read = Curve::new(&curve.points).unwrap();
@@ -27,7 +27,7 @@ fn holds(what: &str, curve: &Below, end: f64, limit: impl Fn(f64) -> f64) {
             found <= exact,
             "{what}: {found} above {exact} at {speed} of {end}, {curve:?}"
         );
-        // What the curve cannot know is not asked of it, nor that it rises again.
+        // A limit that is not finite is not checked.
         if exact.is_finite() {
             most = most.min(exact);
             largest = largest.max(most);
@@ -167,7 +167,7 @@ proptest! {
     }
 }
 
-/// A curve of straight lines is met in its knees, wherever they are: what is left is rounding.
+/// A curve of straight lines is matched at its knees: only roundings remain.
 #[test]
 fn straight_lines_are_met_in_their_knees() {
     let points = vec![[0.0, 3.0], [100.3, 2.5], [200.7, 1.0]];
@@ -196,7 +196,7 @@ fn straight_lines_are_met_in_their_knees() {
     }
 }
 
-/// A motor rated near rest: between two speeds where points may lie its constant power falls to a tenth.
+/// A motor rated near rest: its constant power falls to a tenth between two possible points.
 #[test]
 fn constant_power_from_a_low_speed_on() {
     for (torque, rated_speed) in [(20.0, 0.5), (20.0, 4.0), (0.02, 1.0)] {

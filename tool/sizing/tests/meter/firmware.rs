@@ -19,7 +19,7 @@ mod limits {
     include!("../data/meter_press.rs");
 }
 
-/// The meter after one cycle of `ticks` of a drive that follows the motion, read in the middle of each tick.
+/// The meter after one cycle of `ticks` of a drive that follows the motion, sampled in the middle of each tick.
 fn metered(file: &MachineFile, c: &Coefficients, ratio: f64, ticks: u32) -> Meter<f32> {
     let motion = file.motion.as_ref().unwrap();
     let step = motion.duration() / f64::from(ticks);
@@ -107,7 +107,7 @@ fn the_meter_reads_what_was_sized() {
     });
 }
 
-/// The figures and the verdicts of the rules that the meter stands for.
+/// The figures and the verdicts of the rules that the meter covers.
 #[test]
 fn the_meter_judges_as_sizing_does() {
     let file = read::read(&press_file()).unwrap();
@@ -159,7 +159,7 @@ fn the_meter_judges_as_sizing_does() {
             near(rule.name(), f64::from(found), sized, budget::METER_SIZED);
             assert_eq!(verdict, expected(check), "{rule:?}");
         }
-        // The largest share of the envelope, by a curve that lies below it.
+        // The largest share of the envelope, by a curve below it.
         let check = of(Rule::PeakTorque);
         assert_eq!(verdicts.peak_torque, expected(check));
         let share = f64::from(figures.peak_share.unwrap());
@@ -178,7 +178,7 @@ fn the_meter_judges_as_sizing_does() {
 fn expected(check: &Check) -> Verdict {
     match check.verdict {
         Sized::Pass => Verdict::Satisfied,
-        // The meter knows one limit: where there is only a warning, that of the warning.
+        // The meter has one limit: that of the warning, if there is only a warning.
         Sized::Warn | Sized::Fail => Verdict::Exceeded,
         Sized::Off | Sized::NotChecked => Verdict::NotChecked,
     }

@@ -1,4 +1,4 @@
-//! Play at the tool: the tool moved by hand through the play.
+//! Play at the tool: the tool moved through the play by hand.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
@@ -28,7 +28,7 @@ fn the_ram_has_play() {
         );
         let mut stand = Stand::new(&text);
         stand.gearbox.backlash = Some(8.0 * arcmin);
-        // The belt makes a third of it at the crank; the ram follows by the difference over the play, everywhere in the stroke.
+        // The belt makes a third of it at the crank; the ram moves by the difference over the play, everywhere in the stroke.
         let play = 8.0 * arcmin / 3.0 + own;
         let most = (0..36_000)
             .map(|k| f64::from(k).to_radians() / 100.0)
@@ -65,7 +65,7 @@ fn the_ram_has_play() {
     );
 }
 
-/// A link that turns: its angle has the play.
+/// A turning link: its angle has the play.
 #[test]
 fn the_rod_has_play() {
     let text = format!(

@@ -8,7 +8,7 @@ use super::Stand;
 
 const TORQUE_RULES: [Rule; 3] = [Rule::RmsTorque, Rule::PeakTorque, Rule::HoldingTorque];
 
-/// The same motor with every torque, and the power, this many times as large.
+/// The same motor with all torques and the power multiplied.
 fn stronger(motor: &Motor, times: f64) -> Motor {
     let more = |figure: Option<f64>| figure.map(|x| times * x);
     let curve = |points: &[[f64; 2]]| points.iter().map(|[n, m]| [*n, times * m]).collect();
@@ -20,13 +20,13 @@ fn stronger(motor: &Motor, times: f64) -> Motor {
         torque_at_max_speed: more(motor.torque_at_max_speed),
         peak_curve: curve(&motor.peak_curve),
         continuous_curve: curve(&motor.continuous_curve),
-        // The figures above give the envelope, so that it grows with them alone.
+        // The figures above give the envelope, so it scales with them.
         winding: Winding::default(),
         ..motor.clone()
     }
 }
 
-/// Verdict, and share of the rating that is used, of each of the rules that applies.
+/// Verdict and used share of each rule that applies.
 fn judged(stand: &Stand, geared: bool) -> Vec<(Rule, Verdict, f64)> {
     let found = TORQUE_RULES.into_iter().filter_map(|rule| {
         let finding = stand.finding(geared, &stand.file.rules, rule)?;
@@ -63,6 +63,6 @@ fn a_stronger_motor_never_turns_a_pass_into_a_fail() {
         }
     }
     println!("{smaller} figures smaller, {turned} verdicts better");
-    // It would be no test if nothing ever changed.
+    // The test must contain changes.
     assert!(smaller > 4 * motors.len() && turned > motors.len() / 4);
 }

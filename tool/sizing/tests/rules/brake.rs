@@ -50,8 +50,8 @@ const BRAKE: Brake = Brake {
     stops_per_hour: Some(20.0),
 };
 
-/// The lift by its own steps: mass m with the rotor's share, falling under its weight until the brake closes, then braked; work of the
-/// brake (J), way until it closes and until standstill (m).
+/// The lift in explicit steps: mass m with the rotor's share, falling under its weight until the brake closes, then braked; work of the brake (J),
+/// distance until it closes and until standstill (m).
 fn fall(brake: &Brake, rotor: f64, speed: f64) -> [f64; 3] {
     let mass = 60.0 + rotor * (RATIO / RADIUS).powi(2);
     let force = brake.dynamic_torque.unwrap_or(brake.torque) * RATIO / RADIUS;
@@ -95,7 +95,7 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
         1e-3,
     );
     near(
-        "until it stands",
+        "until it stops",
         number("until the brake closes and "),
         (way / RADIUS).to_degrees(),
         1e-3,
@@ -107,7 +107,7 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
     );
 }
 
-/// A brake that slips with less than the weight never stops it.
+/// A brake with a slip torque below the weight never stops it.
 #[test]
 fn a_brake_below_the_weight_takes_work_without_end() {
     let weight = 60.0 * 9.81 * RADIUS / RATIO;
@@ -134,7 +134,7 @@ fn a_brake_holds_with_a_factor() {
     }
 }
 
-/// A figure that the catalogue lacks is named; a brake that need not hold anything is judged where it has data.
+/// Missing data are named; a brake that need not hold anything is judged where it has data.
 #[test]
 fn missing_figures_of_a_brake_are_named() {
     let rules = RuleSet::default();
@@ -159,7 +159,7 @@ fn missing_figures_of_a_brake_are_named() {
     assert!(stand.finding(true, &rules, Rule::BrakeWork).is_some());
 }
 
-/// A crank whose inertia and weight change as it turns: whatever state the supply leaves it in, no stop takes more work.
+/// A crank whose inertia and weight change as it turns: from any state no stop takes more work.
 #[test]
 fn no_stop_of_a_crank_takes_more_work() {
     let mut stand = Stand::new(

@@ -23,13 +23,13 @@ fn torque_by_cramer(braking: &Braking, [inertia, driving]: [f64; 2]) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig { rng_seed: proptest::test_runner::RngSeed::Fixed(5), ..ProptestConfig::default() })]
 
-    /// The worst state by halving along the hull is the worst of all.
+    /// The worst state found by bisection along the hull is the worst of all.
     #[test]
     fn the_hull_holds_the_worst_state(
         states in prop::collection::vec((0.01f64..2.0, -50.0f64..50.0), 1..60),
         torque in 1.0f64..60.0, inertia in 1e-4f64..0.01, ratio in 1.0f64..50.0, back in 0.3f64..1.0,
     ) {
-        // Where inertia and load are constant, the states of a motion differ by roundings.
+        // With constant inertia and load the states of a motion differ by roundings.
         let near = |x: f64, k: u32| x * (1.0 + f64::from(k % 3) * f64::EPSILON);
         let states: Vec<[f64; 2]> = (states.into_iter())
             .flat_map(|(j, d)| (0..9).map(move |k| [near(j, k), near(d, k / 3)]))
@@ -53,7 +53,7 @@ proptest! {
     }
 }
 
-/// Without a rotor all of the motor's torque goes through the gearbox; before a machine without inertia nothing does.
+/// Without a rotor the whole motor torque passes the gearbox; without machine inertia none does.
 #[test]
 fn the_share_of_the_rotor() {
     let braking = |inertia: f64| Braking {
@@ -82,7 +82,7 @@ fn the_share_of_the_rotor() {
     near("halves", lossless.torque_at([0.16, 0.0]), 20.0, 1e-14);
 }
 
-/// The whole press, so many instants that nothing lies between them, each at full speed and at standstill, one by one.
+/// The press with a dense set of instants, each at full speed and at standstill.
 #[test]
 fn the_press_stops() {
     let mut stand = Stand::press();
@@ -105,7 +105,7 @@ fn the_press_stops() {
             for torque in [all, slow] {
                 let resists = torque * instant.omega.signum() / 3.0;
                 let load = instant.input_inertia;
-                // Deceleration from the whole, seen at the output, then the torque that this needs.
+                // Deceleration of the whole at the output, then the torque for it.
                 let sum = load + own * ratio * ratio / back;
                 let deceleration = (pull * ratio / back + resists) / sum;
                 worst = worst.max(load * deceleration - resists);
@@ -115,7 +115,7 @@ fn the_press_stops() {
         near("emergency torque", found.value, worst, budget::DUTY);
         assert_eq!(found.rating, 160.0);
     }
-    // It locks, and the rotor is too light to drag it on: no rigid body can say.
+    // A locking gearbox with a rotor too light to drag it: rigid bodies have no solution.
     stand.gearbox.back_efficiency = 2.0 - 1.0 / 0.1;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
     let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
@@ -130,7 +130,7 @@ fn the_press_stops() {
     );
 }
 
-/// Friction of the motor brakes as well: all of it at the largest speed, c + b·n.
+/// Friction of the motor also brakes: all of it at the largest speed, c + b·n.
 #[test]
 fn viscous_friction_of_the_motor_stops_too() {
     let mut stand = Stand::press();

@@ -6,7 +6,7 @@ use jred_machine::units::RPM;
 
 use super::{Stand, budget, edited, near, press_text};
 
-/// T2B is divided by the maker's factor for the cycles an hour; between the maker's points on straight lines.
+/// T2B is divided by the maker's factor for the cycles per hour, linear between the maker's points.
 #[test]
 fn shock_factors() {
     // One move in 0.5 s: 7200 cycles an hour.
@@ -104,7 +104,7 @@ fn without_starts_there_are_no_cycles() {
     near("mean speed", found.value, 60.0 * RPM * 15.0, 1e-9);
 }
 
-/// A rule of a gearbox without the figure is not checked, and says what is missing.
+/// A gearbox rule without its figure is not checked, and names the missing data.
 #[test]
 fn missing_figures_are_named() {
     let mut stand = Stand::new(&edited(&press_text(), "97 %", "96 %"));
@@ -121,7 +121,7 @@ fn missing_figures_are_named() {
     }
 }
 
-/// The mean of a gearbox is named where it is not the cubic one.
+/// The mean torque of a gearbox is named if it is not the cubic one.
 #[test]
 fn the_exponent_of_roller_bearings_is_said() {
     for (exponent, said) in [("3", false), ("10/3", true)] {
@@ -133,7 +133,7 @@ fn the_exponent_of_roller_bearings_is_said() {
     }
 }
 
-/// T2B/f_s by itself, for those who plan motions: f_s on the straight line between the maker's points.
+/// T2B/f_s alone, for motion planning: f_s linear between the maker's points.
 #[test]
 fn the_acceleration_torque_of_a_cycle_rate() {
     let stand = Stand::press();

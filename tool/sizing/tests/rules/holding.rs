@@ -1,4 +1,4 @@
-//! Torque at rest, and what a gearbox does with torque that flows back.
+//! Torque at rest, and torque that flows back through a gearbox.
 
 use jred_machine::model::operation::Operation;
 use jred_machine::model::rule::Rule;
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use super::{Stand, budget, near, press_text, within};
 
-/// A weight of 120 N m on a belt of 3 to 1 with 96 %, which goes round once and then hangs.
+/// A weight of 120 N m on a 3:1 belt of 96 %, which turns once and then hangs.
 const HOIST: &str = r#"
 gravity = ["0 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -44,7 +44,7 @@ fn hoist() -> Stand {
     Stand::new(&HOIST.replace("1 turn", "360 deg"))
 }
 
-/// The motor may have to hold against friction, the brake without its help.
+/// The motor may have to hold against friction; the brake holds without its help.
 #[test]
 fn a_weight_is_held() {
     let mut stand = hoist();
@@ -74,7 +74,7 @@ fn a_weight_is_held() {
         near("geared, brake", brake.value, at_input / 5.0, 1e-12);
         assert_eq!(brake.rating, 9.0);
     }
-    // A gearbox that cannot be driven back holds by itself.
+    // A self-locking gearbox holds alone.
     for back in [0.0, -0.4] {
         stand.gearbox.back_efficiency = back;
         assert_eq!(stand.found(true, Rule::HoldingTorque).value, 0.0);
@@ -84,8 +84,8 @@ fn a_weight_is_held() {
     }
 }
 
-/// A motor without a brake lets a weight fall that neither the machine's friction nor the gearbox holds: a warning says with how
-/// much, and the rule is not checked.
+/// A motor without a brake lets a weight fall that neither friction nor the gearbox holds: a warning gives the required torque, and the rule is not
+/// checked.
 #[test]
 fn what_falls_without_a_brake_is_said() {
     let rules = RuleSet::default();
@@ -121,7 +121,7 @@ fn what_falls_without_a_brake_is_said() {
     assert!(falls.finding(true, &rules, Rule::BrakeTorque).is_some());
 }
 
-/// At rest the torque of the time course lies within the band that friction allows, at the end that the rule judges.
+/// At rest the torque of the time course is within the friction band, at the end that the rule judges.
 #[test]
 fn the_time_course_rests_where_the_rule_says() {
     let stand = hoist();
@@ -145,7 +145,7 @@ fn constant_torque() {
     let mut stand = hoist();
     stand.motor.friction = [0.3, 0.002];
     stand.gearbox.no_load_torque = 0.15;
-    // The moment drives the shaft on: friction 7 N m and 0.5 N m s/rad against it.
+    // The moment drives the shaft: friction of 7 N m and 0.5 N m s/rad opposes it.
     let fastest = stand
         .duty
         .instants
@@ -156,7 +156,7 @@ fn constant_torque() {
     let own = 0.3 + 0.15 + 0.002 * motor_speed;
     let fanuc = jred_machine::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
     let found = stand.finding(true, &fanuc, Rule::ConstantTorque).unwrap();
-    // A process moment is not a constant load: what resists is friction alone, at its largest at full speed.
+    // A process moment is not a constant load: only friction resists, most at full speed.
     let resisting = (7.0 + 0.5 * fastest) / (3.0 * 0.96);
     near(
         "constant torque",
@@ -175,8 +175,7 @@ fn constant_torque() {
 proptest! {
     #![proptest_config(ProptestConfig { rng_seed: proptest::test_runner::RngSeed::Fixed(6), ..ProptestConfig::default() })]
 
-    /// A gearbox never gives more power than it gets, whichever way it flows and whether it locks or not; where the loss is
-    /// friction, it is the same both ways: |τ·n|·(1/η − 1).
+    /// A gearbox never outputs more power than it gets, in either direction, locking or not; a friction loss is the same both ways: |τ·n|·(1/η − 1).
     #[test]
     fn losses_are_never_gains(
         torque in -100.0f64..100.0, speed in -50.0f64..50.0,
@@ -197,7 +196,7 @@ proptest! {
         prop_assert!(loss >= -1e-12 * size, "{loss}");
         let expected = if driven && !by_friction { size * (1.0 - efficiency) } else { size * (1.0 / efficiency - 1.0) };
         prop_assert!((loss - expected).abs() <= 1e-12 * size / efficiency, "{loss} {expected}");
-        // At rest the band that friction leaves is centred on the torque without losses.
+        // At rest the friction band is centred on the lossless torque.
         if by_friction {
             let centre = 0.5 * (forth + back) * torque;
             prop_assert!((centre - torque / ratio).abs() <= 1e-12 * torque.abs());
@@ -221,7 +220,7 @@ fn hoist_once() -> (
     parts.clone()
 }
 
-/// The press holds its weight, and its loads where it stands: the same as every other derivation of it.
+/// The press holds its weight and its loads at rest, as in every other derivation.
 #[test]
 fn the_press_is_held() {
     let stand = Stand::new(&press_text());
@@ -230,7 +229,7 @@ fn the_press_is_held() {
     within("most", most, hold / 0.97, budget::SAME_SUMS);
 }
 
-/// What a figure is of is said where there is one: a motor with nothing to hold holds against no friction.
+/// The note on friction is given only for a torque: a motor with nothing to hold has none.
 #[test]
 fn the_torque_at_rest_is_explained() {
     let words = |moment: &str| {
@@ -254,7 +253,7 @@ fn the_torque_at_rest_is_explained() {
     );
 }
 
-/// Where the load drives, friction helps, but only what there is at any speed: τ·η_back/i − c; where it resists, c + b·n more.
+/// If the load drives, friction helps, but only the part present at any speed: τ·η_back/i − c; if it resists, c + b·n is added.
 #[test]
 fn a_load_that_drives_is_constant_too() {
     let mut stand = hoist();
@@ -279,7 +278,7 @@ fn a_load_that_drives_is_constant_too() {
     }
 }
 
-/// While the machine rests the motor may hold its weight, which heats it: of the rated losses (T/M₀)² for the share of the rest.
+/// While the machine rests the motor may hold its weight, which heats it: (T/M₀)² of the rated losses for the share of the rest.
 #[test]
 fn a_weight_that_is_held_at_rest_heats() {
     let mut stand = hoist();

@@ -1,4 +1,4 @@
-//! The inertia ratio: which figure of the curve λ(φ) is judged, and limits by moves per minute.
+//! The inertia ratio: the judged figure of the curve λ(φ), and limits by moves per minute.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
@@ -64,7 +64,7 @@ fn the_judged_figure_is_chosen() {
     );
 }
 
-/// 3 above 100 moves a minute, 5 above 60, and below that the data sheet's, which is not here.
+/// 3 above 100 moves per minute, 5 above 60, and below that the data sheet's, which is missing here.
 #[test]
 fn limits_by_moves_per_minute() {
     let set = jred_machine::read::rule_set("mitsubishi-mr-j2s", std::path::Path::new("")).unwrap();

@@ -1,4 +1,4 @@
-//! A judged drive: what is assumed of its data, what it uses, and where missing data belong.
+//! A judged drive: assumptions, use of limits, and the keys of missing data.
 
 use jred_machine::model::rules::{Limit, Verdict};
 use jred_sizing::catalogue::Amplifier;
@@ -6,7 +6,7 @@ use jred_sizing::judge::{Judged, Outcome, cure};
 
 use super::{Context, Drive, Rule, RuleSet, Stand, near, press_text};
 
-/// Each part whose data are second-hand is named, and no other.
+/// Every part with second-hand data is named, and no other.
 #[test]
 fn second_hand_data_are_named() {
     let mut stand = Stand::press();
@@ -36,7 +36,7 @@ fn second_hand_data_are_named() {
     }
 }
 
-/// The verdict of a drive is that of its worst rule, its use of a limit figure over limit, its power T·n of the rated point.
+/// The verdict of a drive is that of its worst rule; its use of a limit is figure over limit, its power T·n of the rated point.
 #[test]
 fn a_judged_drive_in_figures() {
     let mut stand = Stand::press();
@@ -67,7 +67,7 @@ fn a_judged_drive_in_figures() {
             judged.warnings().next(),
         )
     };
-    // Of all rules the speed alone is judged: at 100 %, and at so much that the drive uses half of it or twice as much.
+    // Only the speed is judged: at 100 %, and at limits of which the drive uses half or twice.
     let (share, ..) = judged(&stand);
     for rule in Rule::ALL {
         stand.file.rules.set(rule, Limit::default());
@@ -86,7 +86,7 @@ fn a_judged_drive_in_figures() {
         assert_eq!(used, (said.to_owned(), String::new()));
         assert_eq!((found, reasons.is_empty()), (holds, holds), "{reasons}");
     }
-    // At the limit itself the rule is satisfied.
+    // At the limit the rule is satisfied.
     stand.file.rules.set(
         Rule::Speed,
         Limit {
@@ -109,7 +109,7 @@ fn a_judged_drive_in_figures() {
     }
 }
 
-/// Whatever a rule lacks, the keys that are named for it are keys of the catalogue or of the machine file.
+/// The keys named for a rule's missing data are keys of the catalogue or of the machine file.
 #[test]
 fn missing_data_have_a_place() {
     let documents = [
@@ -133,7 +133,7 @@ fn missing_data_have_a_place() {
     }
 }
 
-/// The rules that are not checked are counted: of a motor without limits every rule that asks for one of its figures.
+/// The unchecked rules are counted: for a motor without limits every rule that needs one of its figures.
 #[test]
 fn rules_that_are_not_checked_are_counted() {
     let mut stand = Stand::new(&press_text());

@@ -1,11 +1,11 @@
-//! The holding torque: weight lasts without end, a process load as long as its dwell.
+//! The holding torque: weight lasts without end, a process load for its dwell.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 
 use super::{Stand, near};
 
-/// A hanging moment of 120 N m, and 300 N m of a process where the shaft stands, on a belt of 3 to 1 with 96 %.
+/// A hanging moment of 120 N m, and 300 N m of a process where the shaft rests, on a 3:1 belt of 96 %.
 fn press(before: &str, after: &str) -> Stand {
     Stand::new(&format!(
         r#"
@@ -53,13 +53,13 @@ fn a_process_load_lasts_as_long_as_its_dwell() {
     let mut stand = press("", DWELL);
     near("short", held(&mut stand, Some(1.5)), weight, 1e-12);
     near("long", held(&mut stand, Some(0.9)), both, 1e-12);
-    // Without a time constant a small motor's 10 s are taken.
+    // Without a time constant 10 s are used, that of a small motor.
     near("unknown", held(&mut stand, None), weight, 1e-12);
     let check = stand.check(false, &RuleSet::default(), Rule::HoldingTorque);
     for words in ["at most 1 s", "10 s, which is not given", "RMS torque"] {
         assert!(check.note.contains(words), "{}", check.note);
     }
-    // The brake holds whatever acts at the moment when it closes, however short that is.
+    // The brake holds all loads at the moment of closing, however short they are.
     stand.brake(9.0);
     near(
         "brake",
@@ -80,7 +80,7 @@ fn a_process_load_lasts_as_long_as_its_dwell() {
     assert!(rms * rms * 3.0 > both * both, "{rms}");
 }
 
-/// A dwell over the end of the cycle is one dwell.
+/// A dwell across the end of the cycle is one dwell.
 #[test]
 fn a_dwell_goes_on_over_the_end_of_a_cycle() {
     let mut stand = press(DWELL, DWELL);

@@ -1,4 +1,4 @@
-//! Moves, their rate, and the frequency with which they excite the machine.
+//! Moves, their rate, and the frequency of the machine's excitation.
 
 use super::{Stand, near};
 
@@ -41,7 +41,7 @@ fn a_turn_without_end_has_no_moves() {
 #[test]
 fn every_move_counts() {
     let law = "law = \"cycloidal\"";
-    // Two moves with a pause between, one right after the other, there and back.
+    // Two moves with a pause between, one directly after the other, there and back.
     for (segments, count, shortest) in [
         (
             vec![
@@ -120,7 +120,7 @@ fn every_move_counts() {
     }
 }
 
-/// A recorded motion that goes on over the end of its cycle: one move from before the end to after the start.
+/// A recorded motion that continues over the end of its cycle: one move from before the end to after the start.
 #[test]
 fn a_move_over_the_end_of_the_cycle_is_one() {
     use std::fmt::Write as _;
@@ -128,7 +128,7 @@ fn a_move_over_the_end_of_the_cycle_is_one() {
     let mut csv = "t [s],phi [deg]\n".to_owned();
     for k in 0..=200 {
         let t = f64::from(k) / 200.0;
-        // Rests from 0.3 s to 0.7 s of every second.
+        // At rest from 0.3 s to 0.7 s of every second.
         let z = ((t + 0.3) % 1.0 / 0.6).min(1.0);
         let turns = if t + 0.3 >= 1.0 { 1.0 } else { 0.0 };
         let phi = 360.0 * (turns + z * z * z * (10.0 - 15.0 * z + 6.0 * z * z));
@@ -141,7 +141,7 @@ fn a_move_over_the_end_of_the_cycle_is_one() {
         .unwrap();
     assert_eq!(duty.mechanics.moves, 1);
     near("moves a second", duty.mechanics.move_rate, 1.0, 1e-12);
-    // 0.6 s, but for what the curve through the positions swings around its ends.
+    // 0.6 s, except for the overshoot of the interpolated curve at its ends.
     let fastest = duty.figures(|i| i.omega).peak() / std::f64::consts::TAU;
     near("frequency", duty.mechanics.drive_frequency, fastest, 1e-12);
     assert!(fastest > 1.0 / 0.6);

@@ -1,4 +1,4 @@
-//! The overload of an amplifier: a figure only where both the motor's currents and the amplifier's time at its peak current are known.
+//! The overload of an amplifier: known only with the motor's currents and the amplifier's time at peak current.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;

@@ -7,7 +7,7 @@ use jred_machine::model::rules::Verdict;
 
 use super::{Stand, budget, near, press_text};
 
-/// Natural frequencies (Hz), rising, of a chain of masses with springs between neighbours; the first mass may be held.
+/// Natural frequencies (Hz) in rising order of a chain of masses with springs between neighbours; the first mass may be fixed.
 fn chain(held: bool, masses: &[f64], springs: &[f64]) -> Vec<f64> {
     let n = masses.len();
     let mut matrix = vec![vec![0.0; n]; n];
@@ -75,7 +75,7 @@ fn the_motor_holds_its_position() {
         let stand = stand(section);
         let load = stand.duty.figures(|i| i.input_inertia).max;
         let rotor = (8e-4 + 0.8e-4) * 25.0;
-        // Between two springs lies a coupling of hardly any mass.
+        // Two springs need a coupling of nearly zero mass between them.
         let (masses, springs) = if shaft.is_finite() {
             (vec![rotor, 1e-6 * load, load], vec![9000.0, shaft])
         } else {
@@ -154,7 +154,7 @@ fn nothing_known_is_not_checked() {
         assert_eq!(check.verdict, Verdict::NotChecked);
         assert!(check.note.contains("stiffness"), "{}", check.note);
     }
-    // Coupled directly, the shaft is all there is.
+    // Coupled directly: only the shaft.
     let stand = Stand::new(&format!(
         "{}\n[stiffness]\nshaft = \"2 kN m/rad\"\n",
         press_text()

@@ -1,4 +1,4 @@
-//! Heat and thin air: S1 torque and currents by formulas of the makers, and where these end.
+//! Temperature and altitude: S1 torque and currents by formulas of the makers, and their ranges.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{RuleSet, Verdict};
@@ -25,8 +25,8 @@ fn motor(limit: Option<f64>) -> Motor {
     }
 }
 
-/// The examples of Machine Design (a rise of 100 K at 40 °C, used at 65 °C: 13 % less) and of Kollmorgen (55 °C), Siemens' table over
-/// the altitude, and 1 % per kelvin where no temperature of the winding is known.
+/// The examples of Machine Design (a rise of 100 K at 40 °C, used at 65 °C: 13 % less) and of Kollmorgen (55 °C), Siemens' table over the altitude,
+/// and 1 % per kelvin without a known winding temperature.
 #[test]
 fn the_s1_torque_falls_as_makers_say() {
     let factor = |limit, ambient, altitude| motor(limit).derated(&at(ambient, altitude)).factor;
@@ -47,7 +47,7 @@ fn the_s1_torque_falls_as_makers_say() {
     for (altitude, expected) in [(2000.0, 0.95), (3000.0, 0.89), (4000.0, 0.84)] {
         near("altitude", factor(None, 40.0, altitude), expected, 0.005);
     }
-    // Cool air makes up for thin air: 90 % of (140 − 30)/(140 − 40) is 99 %.
+    // Cool air compensates for thin air: 90 % of (140 − 30)/(140 − 40) is 99 %.
     near(
         "cool",
         factor(Some(140.0), 30.0, 2000.0),
@@ -75,7 +75,7 @@ fn the_s1_torque_falls_as_makers_say() {
     near("end", derated.hottest, 55.0, 0.0);
 }
 
-/// The amplifier stands in its cabinet: 2.5 % per kelvin and 1 % per 100 m, or the maker's points.
+/// The amplifier is in its cabinet: 2.5 % per kelvin and 1 % per 100 m, or the maker's points.
 #[test]
 fn currents_fall_with_the_temperature_of_the_cabinet() {
     let mut amplifier = Amplifier {
@@ -107,8 +107,7 @@ fn press(surroundings: &str) -> Stand {
     Stand::new(&edited(&press_text(), "[motion]", &more))
 }
 
-/// Every S1 torque that a rule compares with is the reduced one, and the winding's share of its rise says the same: with an S1
-/// torque that is level over the speed it is (T_rms/T_S1)².
+/// Every rule uses the reduced S1 torque, and the winding's share of its rise agrees: with a constant S1 torque it is (T_rms/T_S1)².
 #[test]
 fn rules_judge_the_reduced_torque() {
     let level = |stand: &mut Stand| {
@@ -133,7 +132,7 @@ fn rules_judge_the_reduced_torque() {
         let site = hot.found(true, Rule::AmbientTemperature);
         assert_eq!([site.value, site.rating], [55.0, 60.0]);
     }
-    // The maker's factor reduces the torque at every speed, so the share counts that torque, too.
+    // The maker's factor reduces the torque at every speed, so the share uses that torque, too.
     let mut hot = press("ambient = \"55 degC\"");
     level(&mut hot);
     hot.motor.derating.temperature = vec![[40.0, 1.0], [60.0, 0.6]];
@@ -144,8 +143,7 @@ fn rules_judge_the_reduced_torque() {
     near("winding", winding.value / winding.rating, used, 1e-9);
 }
 
-/// Beyond its source no rule says what a motor can do: the site is violated by name, with the limit. A site as in the data sheet has
-/// nothing to judge.
+/// Outside its source no rule covers a motor: the site is violated by name, with the limit. A site as in the data sheet is not judged.
 #[test]
 fn a_site_beyond_all_rules_is_violated() {
     let rules = RuleSet::default();

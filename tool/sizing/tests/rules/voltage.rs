@@ -30,7 +30,7 @@ fn amplifier(mains: f64) -> Amplifier {
     }
 }
 
-/// The highest mains of each class with their tolerance, rectified; what is in no class is made for itself.
+/// The highest mains of each class with tolerance, rectified; a voltage outside all classes counts as its own.
 #[test]
 fn the_largest_voltage_of_every_class() {
     for (mains, highest) in [
@@ -57,7 +57,7 @@ fn the_largest_voltage_of_every_class() {
         let amplified = amplifier(mains).made_for().unwrap();
         assert_eq!(amplified, made);
     }
-    // The voltage of the figures: extra-low voltage up to 60 V, then the class of the mains that it is rectified from.
+    // The voltage of the figures: extra-low voltage up to 60 V, then the class of the mains.
     for (bus, largest) in [
         (12.0, 60.0),
         (48.0, 60.0),
@@ -77,7 +77,7 @@ fn the_largest_voltage_of_every_class() {
             budget::CLOSED_FORM,
         );
     }
-    // What the insulation withstands comes first, then the mains; nothing stated is nothing known.
+    // The insulation's voltage comes first, then the mains; without data nothing is known.
     let stated = motor(Some(230.0), Some(320.0), Some(800.0))
         .made_for()
         .unwrap();
@@ -137,7 +137,7 @@ fn a_motor_for_another_voltage_is_refused() {
     let mut low = press_at("bus_voltage = \"60 V\"");
     low.motor.bus_voltage = Some(48.0);
     assert_eq!(verdict(&low), Verdict::Pass);
-    // A bus voltage is taken as it is given, without the tolerance of mains.
+    // A bus voltage is used as given, without the tolerance of mains.
     let mut bus = press_at("bus_voltage = \"650 V\"");
     bus.motor.max_bus_voltage = Some(650.0);
     assert_eq!(verdict(&bus), Verdict::Pass);
@@ -180,7 +180,7 @@ fn what_is_said_about_it() {
     assert!(check.note.contains("[supply]"), "{}", check.note);
 }
 
-/// The limit is a share like those of the other rules.
+/// The limit is a share like those of other rules.
 #[test]
 fn a_rule_set_changes_the_limit() {
     let mut stand = press_at("mains_voltage = \"400 V\"\n[rules]\nmotor_voltage = \"170 %\"");
@@ -258,7 +258,7 @@ fn an_amplifier_for_another_voltage_is_refused() {
     );
 }
 
-/// Bigger motors that are known to be right come before smaller ones that are not, whatever the ranking.
+/// Larger motors that are certain come before smaller ones that are not, in any ranking.
 #[test]
 fn what_is_in_doubt_ranks_last() {
     let stand = press_at("mains_voltage = \"400 V\"");
@@ -295,7 +295,7 @@ fn what_is_in_doubt_ranks_last() {
             .filter(|c| c.drive.gearbox.is_some());
         known.map(|c| c.drive.motor.key.clone()).collect::<Vec<_>>()
     };
-    // What is to be asked of the maker is asked with its figures: of unknown voltages the smaller comes first.
+    // Uncertain drives are listed with their figures: of unknown voltages the smaller comes first.
     let expected = ["sure", "other", "unknown-other", "unknown"];
     assert_eq!(keys(&selection), expected);
     for objective in [Objective::Mass, Objective::Power, Objective::Energy] {
@@ -321,7 +321,7 @@ fn what_is_in_doubt_ranks_last() {
     let ranking = selection.ranking(stand.motor.kind.vocabulary());
     let said = [
         "makers' own figures first",
-        "figures of others",
+        "figures from others",
         "unknown voltage",
     ];
     let said = said.map(|words| ranking.find(words).unwrap());
@@ -335,7 +335,7 @@ fn what_is_in_doubt_ranks_last() {
     );
 }
 
-/// What the insulation withstands bounds the bus over the cycle too: the chopper may come on above it.
+/// The insulation's voltage also limits the bus over the cycle: the chopper may switch on above it.
 #[test]
 fn the_bus_keeps_within_the_insulation() {
     let stand =
@@ -355,7 +355,7 @@ fn the_bus_keeps_within_the_insulation() {
     );
 }
 
-/// Figures at stated mains are figures behind their rectifier: converted to the actual bus like those at a stated bus voltage.
+/// Figures at given mains are figures after their rectifier: converted to the actual bus like those at a given bus voltage.
 #[test]
 fn figures_at_mains_are_converted() {
     let mut by_bus = Stand::press().motor;
@@ -380,7 +380,7 @@ fn figures_at_mains_are_converted() {
             budget::CLOSED_FORM,
         );
     }
-    // An amplifier's mains give its bus where the machine file has none.
+    // An amplifier's mains give its bus voltage if the machine file has none.
     let on = Envelope::at(&by_mains, Some(&amplifier(320.0)), &Site::default());
     near(
         "on an amplifier",
@@ -390,8 +390,8 @@ fn figures_at_mains_are_converted() {
     );
 }
 
-/// A motor that is not made for the supply is named with its voltage before it is asked for anything, and after it the amplifier; one that is made for it
-/// or of which nobody knows is not.
+/// A motor not made for the supply is named with its voltage before any request for data, then the amplifier; a suitable one, or one without data, is
+/// not named.
 #[test]
 fn a_part_unfit_for_the_supply_is_named() {
     let unfit = |mains: Option<f64>, motor_class: Option<f64>, amplifier_class: Option<f64>| {
@@ -422,7 +422,7 @@ fn a_part_unfit_for_the_supply_is_named() {
     assert_eq!(unfit(None, low, None), None);
 }
 
-/// Where the machine file states no supply it is the amplifier's: its mains, else its bus voltage.
+/// Without a supply in the machine file that of the amplifier is used: its mains, otherwise its bus voltage.
 #[test]
 fn the_supply_of_an_amplifier_is_said() {
     let mut stand = Stand::press();

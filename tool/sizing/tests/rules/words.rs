@@ -1,4 +1,4 @@
-//! Every rule in words: unit, what the limit is of, and what is missing where a figure is.
+//! Every rule as text: unit, reference of the limit, and missing data.
 
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::supply::BrakeResistor;
@@ -8,7 +8,7 @@ use jred_sizing::motor::envelope::Prepared;
 
 use super::{Check, Context, Drive, Finding, Rule, RuleSet, Stand, near, press_text};
 
-/// A drive with every figure that a rule asks for: on its own bus, with a brake, limits of housing and play, and a resistor that comes on.
+/// A drive with the data of every rule: on its own bus, with a brake, limits of housing and play, and a resistor that switches on.
 fn full() -> (Stand, Amplifier) {
     let text = format!(
         "{}\n[tool]\npoint = \"slider\"\nplay = \"1 mm\"\n[stiffness]\nshaft = \"9000 N m/rad\"\nbacklash = \"6 arcmin\"\n",
@@ -181,11 +181,11 @@ fn every_rule_has_its_unit_and_names_its_limit() {
         assert!(check.note.contains(rating), "{rule:?}: {}", check.note);
         assert_ne!(check.verdict, Verdict::NotChecked, "{rule:?}");
     }
-    // All but the torque without acceleration, which is off unless a limit is given, and those of a hot or a high site.
+    // All except the torque without acceleration, which is off without a limit, and those of a hot or a high site.
     assert_eq!(found.len(), Rule::COUNT - 1 - 3);
 }
 
-/// What a figure is missing for is not checked, and named; all else stays as it was.
+/// A rule without its figure is not checked, and named; all else is unchanged.
 #[test]
 fn a_missing_figure_is_named() {
     type Change = fn(&mut Stand, &mut Amplifier);
@@ -287,7 +287,7 @@ fn a_missing_figure_is_named() {
     }
 }
 
-/// A thermal figure that cannot be one, which a program may hand in, is none.
+/// An impossible thermal figure, which a program may pass, is ignored.
 #[test]
 fn a_thermal_figure_that_is_none_is_not_used() {
     type Field = fn(&mut Motor) -> &mut Option<f64>;
@@ -317,7 +317,7 @@ fn a_thermal_figure_that_is_none_is_not_used() {
     }
 }
 
-/// Peaks are named after the part whose limit is the lower one; at equal limits it is the motor's own.
+/// Peaks are named after the part with the lower limit; at equal limits after the motor.
 #[test]
 fn the_peak_current_is_of_the_weaker_part() {
     for (motor, whose, limit) in [
@@ -339,7 +339,7 @@ fn the_peak_current_is_of_the_weaker_part() {
     }
 }
 
-/// Where or how a figure was found is said with it.
+/// A figure is reported with its position or method.
 #[test]
 fn places_are_said() {
     let found = judged(|_, _| {});

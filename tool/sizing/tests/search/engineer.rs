@@ -1,5 +1,5 @@
-//! Real machines and a small catalogue: the order of the drives against one worked out plainly from the text of the catalogue and the
-//! verdicts of the rules, and the brake resistor against trying one after the other.
+//! Real machines and a small catalogue: the order of the drives against one computed plainly from the catalogue's text and the verdicts of the rules,
+//! and the brake resistor against trying one after the other.
 
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::select::rank::{Objective, rank};
 use jred_sizing::select::size::{Certainty, Selection};
 
-/// The machines; the punch has no motion of its own.
+/// The machines; the punch has no motion in its file.
 const MACHINES: [(&str, &str); 8] = [
     ("knife", ""),
     ("lift", ""),
@@ -51,7 +51,7 @@ fn catalogue() -> Catalogue {
     Catalogue::open(&sources).unwrap()
 }
 
-/// A table of the catalogue: rows of cells by the names of the columns without their units.
+/// A table of the catalogue: rows of cells by column name without unit.
 struct Table(Vec<String>, Vec<Vec<String>>);
 
 impl Table {
@@ -68,7 +68,7 @@ impl Table {
         Self(head.collect(), rows.collect())
     }
 
-    /// A figure of the row with this key; zero where the drive has no such part.
+    /// A figure of the row with this key; zero if the drive has no such part.
     fn figure(&self, key: Option<&str>, column: &str) -> f64 {
         let Some(key) = key else { return 0.0 };
         let row = self.1.iter().find(|row| row[0] == key).unwrap();
@@ -80,8 +80,8 @@ impl Table {
 /// Keys of motor, gearbox and amplifier.
 type Keys = (String, Option<String>, Option<String>);
 
-/// Which drive a buyer would take first of two that hold: that with the smaller motor by rated power and torque, with fewer doubts,
-/// with the smaller amplifier, the smaller gearbox, less mass, the lower price.
+/// Which of two suitable drives a buyer would prefer: smaller motor by rated power and torque, fewer doubts, smaller amplifier, smaller gearbox, less
+/// mass, lower price.
 fn buyer(a: &(Keys, bool), b: &(Keys, bool)) -> Ordering {
     let [motors, gearboxes, amplifiers] =
         ["motors.csv", "gearboxes.csv", "amplifiers.csv"].map(Table::open);
@@ -150,7 +150,7 @@ fn drives_stand_in_the_order_in_which_a_buyer_takes_them() {
                 .iter()
                 .filter(|g| list.contains(&g.key.as_str()));
             for gearbox in std::iter::once(None).chain(fits.map(Some)) {
-                // Half to four times the standstill current; all are of one voltage.
+                // Half to four times the standstill current, at one voltage.
                 let current = motor.winding.standstill_current.unwrap();
                 let own = 0.5 * current..=4.0 * current;
                 let runs = catalogue.amplifiers.iter();
@@ -198,7 +198,7 @@ fn drives_stand_in_the_order_in_which_a_buyer_takes_them() {
     assert!(ranked > 20, "{ranked}");
 }
 
-/// The rules of the bus and the resistor with a resistor connected as if the machine file gave it.
+/// The rules of the bus and the resistor, with a resistor connected as if given in the machine file.
 fn bears(
     file: &MachineFile,
     cycle: &Cycle,
@@ -221,8 +221,7 @@ fn bears(
     .all(|(rule, finding)| file.rules.verdict(rule, finding) == Verdict::Pass)
 }
 
-/// The resistor that is chosen is the first, by power, that satisfies every rule when it is connected; none is chosen where the bus
-/// needs none.
+/// The chosen resistor is the first, by power, that satisfies every rule when connected; none is chosen if the bus needs none.
 #[test]
 fn the_resistor_is_the_smallest_that_satisfies_the_rules() {
     let catalogue = catalogue();
@@ -262,8 +261,8 @@ fn the_resistor_is_the_smallest_that_satisfies_the_rules() {
     assert!(chosen >= 5 && free >= 5, "{chosen} {free}");
 }
 
-/// Without the resistor that fits, the drives that need one are refused for that alone, come first among the refused ones, and the words
-/// say what the catalogue lacks.
+/// Without the suitable resistor, the drives that need one are refused for that reason alone, come first among the refused ones, and the text names
+/// what the catalogue lacks.
 #[test]
 fn what_the_catalogue_lacks_is_named() {
     let mut catalogue = catalogue();
@@ -320,7 +319,7 @@ fn what_the_catalogue_lacks_is_named() {
     );
 }
 
-/// What the parts are made for has no margin: neither a share nor a place in a ranking by margin.
+/// A voltage class has no margin: neither a share nor a rank by margin.
 #[test]
 fn what_the_parts_are_made_for_is_no_margin() {
     let catalogue = catalogue();

@@ -1,4 +1,4 @@
-//! The figures that drives are compared by: which are missing, and shares of what is allowed.
+//! The figures by which drives are compared: missing ones, and shares of the allowed value.
 
 use super::{case, catalogue, priced};
 use crate::support::{near, press_text};
@@ -10,7 +10,7 @@ use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::Objective;
 use jred_sizing::select::size::{Candidate, Selection};
 
-/// Where no suitable drive has a figure there is nothing to compare, and the sentence names the figures that are missing and no other.
+/// If no suitable drive has a figure there is nothing to compare; the sentence names the missing figures and no other.
 #[test]
 fn an_empty_front_says_what_is_missing() {
     let case = case(&press_text(), 200);
@@ -38,7 +38,7 @@ fn an_empty_front_says_what_is_missing() {
     assert_eq!(select(&Catalogue::default(), &objectives), (0, None));
 }
 
-/// High above the sea less of a rise is allowed, 10 % less at 2000 m: the same drive in the same duty uses more of it, by as much.
+/// At high altitude the allowed rise is smaller, 10 % at 2000 m: the same drive in the same duty uses a larger share of it.
 #[test]
 fn a_rise_is_compared_with_what_is_allowed() {
     let mut case = case(&press_text(), 200);
@@ -68,8 +68,8 @@ fn a_rise_is_compared_with_what_is_allowed() {
     }
 }
 
-/// The next smaller motor against every refused drive: none of them has a power between it and the smallest motor that fits, though
-/// this motor is refused behind other gearboxes; of its drives it is the one that misses by least.
+/// The next smaller motor against every refused drive: no refused drive has a power between it and the smallest suitable motor, which itself is
+/// refused with other gearboxes. Of the next motor's drives the closest one is named.
 #[test]
 fn no_refused_motor_lies_between_the_smallest_and_the_next() {
     let mut case = case(&press_text(), 200);
@@ -120,7 +120,7 @@ fn no_refused_motor_lies_between_the_smallest_and_the_next() {
         .find(|(power, _)| *power == Some(next))
         .unwrap();
     assert_eq!(closest.1, name);
-    // Without a limit every motor fits, and none is smaller; where none fits none is the next.
+    // Without a limit every motor is suitable, and none is smaller; if none is suitable none is next.
     case.file.rules.set(
         Rule::Speed,
         Limit {
@@ -137,7 +137,7 @@ fn no_refused_motor_lies_between_the_smallest_and_the_next() {
     assert_eq!(next, None, "of {fit} that fit, {} refused", refused.len());
 }
 
-/// Each column is named after its figure, with the unit of what has one.
+/// Each column is named after its figure, with its unit if it has one.
 #[test]
 fn columns_are_named_after_their_figures() {
     for (objective, unit) in [
@@ -156,7 +156,7 @@ fn columns_are_named_after_their_figures() {
     assert!(Objective::Temperature.column().contains("temperature"));
 }
 
-/// A drive link that slides needs a linear motor, unless a drive train makes it turn; a catalogue without one is refused, with the cure.
+/// A sliding drive link needs a linear motor, unless a drive train makes it rotary; a catalogue without one is refused, with the cure.
 #[test]
 fn motors_are_of_the_kind_of_the_input() {
     let slide = include_str!("../../../../machines/linear-gripper.toml").to_owned();

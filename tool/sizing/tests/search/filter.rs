@@ -13,7 +13,7 @@ fn pattern(text: &str) -> Vec<Pattern> {
     vec![Pattern::new(text).unwrap()]
 }
 
-/// How many drives a filter leaves: exactly those of the whole catalogue for which `expected` holds.
+/// Number of drives that a filter leaves: exactly those of the whole catalogue that satisfy `expected`.
 fn count(all: &Catalogue, filter: &Filter, expected: &dyn Fn(&Drive) -> bool) -> usize {
     let case = case(&press_text(), 64);
     let mut thinned = all.clone();
@@ -32,7 +32,7 @@ fn count(all: &Catalogue, filter: &Filter, expected: &dyn Fn(&Drive) -> bool) ->
     found.len()
 }
 
-/// A filter leaves exactly the drives that its words describe, counted over the whole catalogue by hand.
+/// A filter leaves exactly the drives of its description, counted over the whole catalogue by hand.
 #[test]
 fn filters_leave_what_they_say() {
     let all = priced();
@@ -132,8 +132,7 @@ fn filters_leave_what_they_say() {
     );
 }
 
-/// A filter leaves those refused in order, however many were refused before it: of 200 motors that are all too weak the
-/// strongest misses by least.
+/// A filter keeps the order of refused drives, however many were refused before: of 200 motors that are all too weak the strongest is closest.
 #[test]
 fn the_nearest_of_what_a_filter_leaves() {
     let case = case(&press_text(), 100);

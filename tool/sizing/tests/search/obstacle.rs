@@ -1,4 +1,4 @@
-//! Why no ratio holds every rule.
+//! Why no ratio satisfies every rule.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Limit;
@@ -11,8 +11,8 @@ use super::ratio::GEARS;
 use super::{case, catalogue};
 use crate::support::{budget, near, press_text};
 
-/// Where no ratio holds every rule, the reason is the true one: over a grid ten times as fine the named rule is broken
-/// everywhere and by as much as said, or the two rules hold on their sides of a gap only.
+/// If no ratio satisfies every rule, the reason is correct: on a grid ten times as fine the named rule is violated everywhere by the reported amount,
+/// or the two rules are satisfied only on their sides of a gap.
 #[test]
 fn reasons_where_no_ratio_holds() {
     let catalogue = catalogue();
@@ -106,7 +106,7 @@ fn reasons_where_no_ratio_holds() {
     assert!(seen[0] > 10 && seen[1] > 5, "{seen:?}");
 }
 
-/// Each reason in words: a voltage does not depend on the ratio, and where nothing of a limit is left there is no share of it to show.
+/// Each reason as text: a voltage does not depend on the ratio, and a limit of zero has no share.
 #[test]
 fn reasons_in_words() {
     let always = |rule, used| Obstacle::Always {

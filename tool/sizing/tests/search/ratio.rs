@@ -16,7 +16,7 @@ const CONVEYOR: &str = include_str!("../../../../machines/conveyor.toml");
 const HOIST: &str = include_str!("../../../../machines/hoist.toml");
 const SCREW: &str = include_str!("../../../../machines/ball-screw.toml");
 
-/// The drive of a motor and a gear of some ratio, as the tool's own drives are.
+/// The drive of a motor and a gear of some ratio, built as in the tool.
 fn coefficients(motor: &Motor, gear: Gear, ratio: f64) -> Coefficients {
     let gearbox = Gearbox {
         ratio,
@@ -65,7 +65,7 @@ fn motors() -> Vec<Motor> {
     motors
 }
 
-/// T_rms of the moments is that of the instants, and i* the ratio where it is smallest.
+/// T_rms from the moments equals that from the instants, and i* is the ratio of its minimum.
 #[test]
 fn best_ratio_by_golden_section() {
     for text in [press_text().as_str(), RACK, SCREW] {
@@ -94,7 +94,7 @@ fn best_ratio_by_golden_section() {
                     "{}",
                     motor.key
                 );
-                // The load factor is what the motor needs at i*.
+                // The load factor is the motor's requirement at i*.
                 let least = moments.rms_torque(best);
                 near(
                     "beta",
@@ -137,8 +137,8 @@ fn a_pure_inertia() {
     );
 }
 
-/// Where nothing accelerates, every larger ratio does; where nothing loads the output, every smaller one. The torque at the
-/// other end is the limit, and beyond it more.
+/// Without acceleration every larger ratio is suitable; without load at the output every smaller one. The torque at the other end is the limit, and
+/// exceeds it beyond.
 #[test]
 fn without_a_best_ratio_the_range_is_open() {
     let mut motor = catalogue().motors[5].clone();
@@ -165,7 +165,7 @@ fn without_a_best_ratio_the_range_is_open() {
     }
 }
 
-/// A motor whose S1 torque is the same at every speed.
+/// A motor with a constant S1 torque.
 fn flat(motor: &Motor) -> Motor {
     Motor {
         standstill_torque: motor.rated_torque,
@@ -178,8 +178,8 @@ fn flat(motor: &Motor) -> Motor {
     }
 }
 
-/// Every ratio of a catalogue that holds the RMS rule lies inside the range in closed form, and every other outside; there
-/// is a range exactly for accelerating factors above the load factor.
+/// Every ratio of a catalogue that satisfies the RMS rule is inside the closed-form range, every other outside; there is a range exactly for
+/// accelerating factors above the load factor.
 #[test]
 fn the_range_in_closed_form_is_that_of_the_catalogue_search() {
     let (mut inside, mut outside, mut hopeless) = (0, 0, 0);
@@ -245,8 +245,8 @@ fn the_range_in_closed_form_is_that_of_the_catalogue_search() {
     );
 }
 
-/// The range of all rules: catalogue drives inside hold every rule of the motor, those outside break one, and just beyond
-/// each end the named rule is broken.
+/// The range of all rules: catalogue drives inside satisfy every rule of the motor, those outside violate one, and just beyond each end the named
+/// rule is violated.
 #[test]
 fn ranges_of_all_rules() {
     let case = case(&press_text(), 200);
@@ -303,11 +303,11 @@ fn ranges_of_all_rules() {
     assert!(ends > 20, "only {ends} ends");
 }
 
-/// A motor tried with a gear has the torque and the speed of a drive with a gearbox of these figures, whichever way the power
-/// flows: a load that drives keeps the share 1 : η too.
+/// A motor with a gear has the torque and the speed of a drive with a gearbox of these figures, in both directions of power: a load that drives also
+/// keeps the share 1 : η.
 #[test]
 fn a_trial_is_the_drive_of_a_gearbox_with_these_figures() {
-    // Lowered, the load drives the motor.
+    // When lowered, the load drives the motor.
     let case = case(HOIST, 200);
     let catalogue = catalogue();
     let prepared = catalogue.prepare(&case.file.site);

@@ -54,7 +54,7 @@ fn samples<'s>(
     }
 }
 
-/// Draws have the mean and the spread that the file says, and do not depend on each other's order.
+/// Samples have the mean and the deviation of the file, independent of their order.
 #[test]
 fn draws_have_their_moments() {
     const N: u64 = 40_000;
@@ -100,8 +100,8 @@ fn draws_have_their_moments() {
     within("correlation", correlation, 0.0, 5.0 / 200.0);
 }
 
-/// The speed's share of its limit is proportional to the speed: with ±20 % about a share of 0.89 it holds in
-/// (1/0.89 − 1 + 0.2)/0.4 of all machines.
+/// The speed's share of its limit is proportional to the speed: with ±20 % about a share of 0.89 the rule is satisfied in (1/0.89 − 1 + 0.2)/0.4 of
+/// all machines.
 #[test]
 fn a_probability_in_closed_form() {
     const N: u64 = 2000;
@@ -128,7 +128,7 @@ fn a_probability_in_closed_form() {
     within("probability", found.share, expected, 4.0 * deviation);
 }
 
-/// One quantity has one tolerance in a machine file, and one among those given; one that is given replaces that of the file.
+/// A quantity has one tolerance in a machine file, and one on the command line, which replaces that of the file.
 #[test]
 fn a_quantity_has_one_tolerance() {
     let text = |lines: &str| format!("{RACK}\n[tolerance]\n{lines}\n");

@@ -1,4 +1,4 @@
-//! Temperature and current of a drive: which model its data allow, and what is said when they do not.
+//! Temperature and current of a drive: the model for the given data, and texts about missing data.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn cycle() -> Cycle {
     Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
 }
 
-/// A motor that turns the press without a gearbox.
+/// A motor that drives the press without a gearbox.
 fn motor() -> Motor {
     Motor {
         key: "m".to_owned(),
@@ -105,8 +105,7 @@ fn sums(motor: &Motor) -> (f64, f64) {
     )
 }
 
-/// The cycle lasts 0.5 s: the hottest point of bodies with 40 s and 2400 s lies close above the rise of the mean losses,
-/// which is in closed form.
+/// The cycle lasts 0.5 s: the hottest point of bodies with 40 s and 2400 s is close above the rise of the mean losses, which has a closed form.
 #[test]
 fn every_model_that_data_allow() {
     let (site, full) = (Site::default(), motor());
@@ -126,7 +125,7 @@ fn every_model_that_data_allow() {
         "{}",
         two.note
     );
-    // Thin air is named where it counts, above 1000 m.
+    // Thin air is reported where it has an effect, above 1000 m.
     for (altitude, thin) in [(1000.0, false), (1001.0, true)] {
         let mut high = site.clone();
         high.surroundings.altitude = altitude;
@@ -181,7 +180,7 @@ fn every_model_that_data_allow() {
         "{}",
         found.note
     );
-    // Every loss is at least that of the torque, and less than with the friction of the largest speed.
+    // Every loss is at least that of the torque, and less than with friction at the largest speed.
     let least = (rms * 2.0 / 50.0).powi(2);
     let value = 0.01 * found.value.unwrap();
     assert!(
@@ -190,7 +189,7 @@ fn every_model_that_data_allow() {
     );
 }
 
-/// The heat of both losses flows through the housing; the copper's are those at the temperature of the winding.
+/// The heat of both losses passes through the housing; the copper losses are those at the winding's temperature.
 #[test]
 fn the_housing_keeps_its_limit_where_it_is_known() {
     let at_most = |housing| {
@@ -219,7 +218,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
         let found = housing(&steady, &at_most(Some(40.0 + margin * expected)));
         assert_eq!(found.unwrap().verdict, verdict);
     }
-    // Bodies with time constants: the mean, but for a ripple.
+    // Bodies with time constants: the mean, except for a ripple.
     let found = housing(&motor(), &at_most(Some(70.0))).unwrap();
     let ripple = found.value.unwrap() / expected - 1.0;
     assert!(ripple.abs() < 0.01, "{ripple}");
@@ -238,7 +237,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
     }
 }
 
-/// The hottest point of the course that the page draws is the figure that is judged.
+/// The hottest point of the course on the page is the judged figure.
 #[test]
 fn the_course_of_the_temperatures_reaches_the_judged_figure() {
     let (motor, site, cycle) = (motor(), Site::default(), cycle());
@@ -303,7 +302,7 @@ fn what_is_missing_is_said() {
     }
 }
 
-/// So little cooling that the copper runs away.
+/// Too little cooling, so the copper losses run away.
 #[test]
 fn runaway_fails() {
     let mut hot = motor();
@@ -345,7 +344,7 @@ fn currents_follow_the_torque() {
     assert_eq!(check(&all, Rule::Overload).value, Some(0.0));
 }
 
-/// Friction at the motor's own speed, that of the input times the ratio: c·|n| and b·n², and the copper of the smaller torque.
+/// Friction at the motor's own speed, that of the input times the ratio: c·|n| and b·n², and the copper loss of the smaller torque.
 #[test]
 fn losses_behind_a_gearbox_are_at_the_speed_of_the_motor() {
     let (cycle, site, ratio) = (cycle(), Site::default(), 4.0);
@@ -386,7 +385,7 @@ fn losses_behind_a_gearbox_are_at_the_speed_of_the_motor() {
     near("friction", found.other, friction, budget::SIMPSON);
 }
 
-/// The duty type that the machine file states is named where it is not that of the cycle.
+/// The duty type in the machine file is reported if it differs from that of the cycle.
 #[test]
 fn a_stated_duty_type_is_compared() {
     let stated = |kind| {
@@ -403,7 +402,7 @@ fn a_stated_duty_type_is_compared() {
     );
 }
 
-/// A housing without a time constant is so slow that it keeps its mean rise, also through hours of work and of rest.
+/// A housing without a time constant counts as slow enough to keep its mean rise through hours of work and rest.
 #[test]
 fn a_housing_of_unknown_time_does_not_follow_the_rests() {
     let site = Site {

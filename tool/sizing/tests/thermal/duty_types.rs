@@ -12,7 +12,7 @@ use super::budget;
 use super::within;
 use crate::support::press_text;
 
-/// A flywheel on a shaft with friction, a load that opposes, and a motion.
+/// A flywheel on a shaft with friction, an opposing load, and a motion.
 fn machine(load: &str, motion: &str) -> Cycle {
     let text = format!(
         r#"
@@ -43,7 +43,7 @@ fn kind(load: &str, motion: &str) -> DutyType {
 }
 
 const FRICTION: &str = "opposing_moment = \"2 N m\"";
-/// So much that the machine never pushes its motor.
+/// Enough friction that the machine never drives its motor.
 const MUCH_FRICTION: &str = "opposing_moment = \"900 N m\"";
 const STEADY: &str = "type = \"constant-speed\"\nspeed = \"300 rpm\"";
 
@@ -75,9 +75,8 @@ fn each_type() {
     }
 }
 
-/// A long run at constant speed between short ramps: the starts do not count thermally.
-/// A speed that swings between half and one and a half of its mean never stops, though it brakes: S8. One that swings down to next to nothing
-/// does: S7.
+/// A long run at constant speed between short ramps: the starts have no thermal effect. A speed that oscillates between 0.5 and 1.5 times its mean
+/// never stops, though it brakes: S8. One that goes down to almost zero does: S7.
 #[test]
 fn a_speed_that_swings_does_not_stop() {
     let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
@@ -92,7 +91,7 @@ fn a_speed_that_swings_does_not_stop() {
         let found = Features::of(&Cycle::new(&duty), &direct, 1.0);
         assert_eq!(found.stops, swing > 0.9, "{swing}");
         assert_eq!(found.duty_type().number, number, "{swing}");
-        // Behind a gearbox all speeds are as many times as high.
+        // With a gearbox all speeds scale.
         for ratio in [-1e4, 1e-4, 1e4] {
             let geared = Features::of(&Cycle::new(&duty), &direct, ratio);
             assert_eq!(geared.stops, found.stops, "{swing} {ratio}");
@@ -122,8 +121,8 @@ fn features_are_counted() {
     }
 }
 
-/// A rotor under friction c that is accelerated for a quarter of the time and slowed down for another: of ∫T² these have
-/// (T₁² + T₂²)/(T₁² + 2c² + T₂²) with T₁ = c + J·α and T₂ = c − J·α.
+/// A rotor with friction c, accelerated for a quarter of the time and decelerated for another: their share of ∫T² is (T₁² + T₂²)/(T₁² + 2c² + T₂²)
+/// with T₁ = c + J·α and T₂ = c − J·α.
 #[test]
 fn the_share_of_the_acceleration_is_in_closed_form() {
     let quarters = "law = \"trapezoid\"\naccelerate = \"25 %\"\ndecelerate = \"25 %\"\nmove = \"360 deg\"\nduration = \"0.3 s\"";
@@ -133,7 +132,7 @@ fn the_share_of_the_acceleration_is_in_closed_form() {
     let [first, last] = [1.0, -1.0].map(|sign| (2.0 + sign * inertia * alpha).powi(2));
     let share = (first + last) / (first + 2.0 * 4.0 + last);
     assert!((0.5..0.97).contains(&share), "{share}");
-    // The ends of a quarter belong to one side or the other.
+    // The ends of a quarter may be on either side.
     within("share", found.accelerating, share, 0.01);
     within("rest", found.rest, 0.25, budget::SIMPSON);
 }
@@ -154,7 +153,7 @@ fn a_reversal_is_a_stop() {
     }
 }
 
-/// A motor brakes where its torque is against its speed, however small the torque is beside the speed, and in either direction.
+/// A motor brakes if its torque opposes its speed, however small the torque, in either direction.
 #[test]
 fn braking_is_torque_against_speed() {
     let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);

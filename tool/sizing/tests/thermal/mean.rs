@@ -25,8 +25,8 @@ fn runner(cases: u32) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[11; 32]))
 }
 
-/// S1 torques: from two figures, from points that fall however steeply, with or without a standstill torque above or below them,
-/// and under a largest power.
+/// S1 torques: from two figures, from points that fall with any slope, with or without a standstill torque above or below them, and limited by a
+/// largest power.
 fn continuous() -> impl Strategy<Value = Motor> {
     let figures =
         (0.2..3.0f64, 0.0..1.2f64, 0.0..1.0f64).prop_map(|(standstill, share, speed)| Motor {
@@ -57,7 +57,7 @@ fn continuous() -> impl Strategy<Value = Motor> {
     })
 }
 
-/// The same under short-time limits: none, a level one, a falling one that crosses the S1 torque, the voltage line of a winding.
+/// The same under short-time limits: none, a constant one, a falling one that crosses the S1 torque, the voltage line of a winding.
 fn motor() -> impl Strategy<Value = Motor> {
     let limit = prop_oneof![
         2 => Just(None).boxed(),
@@ -112,11 +112,11 @@ fn relative_losses_are_those_of_a_plain_loop() {
         let cycle = Cycle::new(&duty);
         let prepared = Prepared::new(&motor, None, &Site::default());
         let envelope = &prepared.envelope;
-        // Ratios that keep within the curve, reach its end or pass it.
+        // Ratios that stay within the curve, reach its end or exceed it.
         let ratio = ratio / cycle.peak_speed().max(1e-3);
         let model = Model::of(&motor, &prepared, &Surroundings::default(), 1.0);
         let Ok(model @ Model::Relative { standstill, .. }) = model else {
-            // A limit without any torque at standstill.
+            // A limit of zero torque at standstill.
             prop_assert_eq!(envelope.standstill(), 0.0);
             return Ok(());
         };
@@ -144,7 +144,7 @@ fn relative_losses_are_those_of_a_plain_loop() {
     runner(12_000).run(&every, check).unwrap();
 }
 
-/// What the S1 torque loses to speed is nothing where it is level: the mean is (T_rms/M₀)², as the rule for the RMS torque has it.
+/// A constant S1 torque loses nothing with speed: the mean is (T_rms/M₀)², as in the rule for the RMS torque.
 #[test]
 fn a_level_s1_torque_leaves_the_rms() {
     let check = |(duty, c): (_, Coefficients)| {
@@ -169,7 +169,7 @@ fn a_level_s1_torque_leaves_the_rms() {
     runner(200).run(&(duty(), coefficients()), check).unwrap();
 }
 
-/// A torque constant that saturates from some share of the largest torque on; with a field that is weakened or not.
+/// A torque constant that saturates from some share of the largest torque on, with and without field weakening.
 #[test]
 fn rms_currents_are_those_of_a_plain_loop() {
     let every = (
@@ -187,7 +187,7 @@ fn rms_currents_are_those_of_a_plain_loop() {
         let motor = Motor {
             rated_torque: Some(knee * peak),
             peak_torque: Some(2.0 * peak),
-            // Beyond the no-load speed of some.
+            // Above the no-load speed of some.
             max_speed: top.map(|top| top * 48.0 / slope),
             bus_voltage: Some(48.0),
             winding: Winding {
@@ -217,7 +217,7 @@ fn rms_currents_are_those_of_a_plain_loop() {
     runner(4000).run(&every, check).unwrap();
 }
 
-/// An instant without a weight, at which no amplifier could supply the current, leaves the mean as it is.
+/// An instant without a weight, at which no amplifier could supply the current, does not change the mean.
 #[test]
 fn an_instant_without_weight_adds_no_current() {
     let check = |(duty, c): (Duty, Coefficients)| {
@@ -253,7 +253,7 @@ fn an_instant_without_weight_adds_no_current() {
     runner(100).run(&(duty(), coefficients()), check).unwrap();
 }
 
-/// An S1 curve of one point, at rest, is level: at no speed anything is lost of it.
+/// An S1 curve of one point at rest is constant over the speed.
 #[test]
 fn a_curve_of_one_point_is_level() {
     let check = |(duty, c): (Duty, Coefficients)| {

@@ -1,4 +1,4 @@
-//! Shares of the rated rise, where only S1 torques are known: p = T²/M₀² + max(0, 1 − S1(n)²/M₀²).
+//! Shares of the rated rise if only S1 torques are known: p = T²/M₀² + max(0, 1 − S1(n)²/M₀²).
 
 use std::path::Path;
 
@@ -17,8 +17,8 @@ use jred_sizing::thermal::{Load, Model, allowed_rise};
 use super::near;
 use crate::support::press_text;
 
-/// The press lasts half a second: a motor with a time constant of minutes takes the mean of p, one without a time constant exactly that. From
-/// cold for a time t its rise is that of one body, mean·(1 − e^(−t/τ)).
+/// The press cycle takes half a second: a motor with a time constant of minutes has the mean of p, one without a time constant exactly. From cold,
+/// after a time t the rise is that of one body, mean·(1 − e^(−t/τ)).
 #[test]
 fn the_rise_is_the_mean_of_the_shares() {
     let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
@@ -85,7 +85,7 @@ fn the_rise_is_the_mean_of_the_shares() {
                 Hottest::Runaway => panic!("runaway"),
             }
         };
-        // The ripple of half a second in 300, and straight lines between samples.
+        // The ripple of half a second in 300 s, and linear interpolation between samples.
         near("S1", rise(&Operation::Continuous).unwrap(), mean, 3e-3);
         let short = rise(&Operation::Short { operating: 120.0 });
         assert_eq!(short.is_some(), time.is_some());
@@ -95,8 +95,8 @@ fn the_rise_is_the_mean_of_the_shares() {
     }
 }
 
-/// Up to the largest temperature, at least 40 °C below it for the rated rise; 1 % less for every 100 m above 1000 m. Where no temperature is known,
-/// the rated rise in surroundings of 40 °C at most.
+/// Up to the largest temperature, at least 40 °C below it for the rated rise; 1 % less for every 100 m above 1000 m. Without a known temperature: the
+/// rated rise in an ambient of 40 °C at most.
 #[test]
 fn the_rise_that_is_allowed() {
     let motor = |limit| Motor {
@@ -130,7 +130,7 @@ fn the_rise_that_is_allowed() {
             1e-12,
         );
     }
-    // A limit at or below the reference says nothing of the rated rise.
+    // A limit at or below the reference gives no rated rise.
     for unknown in [motor(None), motor(Some(40.0)), motor(Some(30.0))] {
         near(
             "share",
@@ -138,7 +138,7 @@ fn the_rise_that_is_allowed() {
             0.8,
             1e-12,
         );
-        // Above the reference it is the S1 torque that is reduced: the rise stays the rated one.
+        // Above the reference the S1 torque is reduced: the rise stays the rated one.
         assert_eq!(allowed_rise(&unknown, &at(40.5, 0.0), true), Some(1.0));
         near("S1", unknown.derated(&at(40.5, 0.0)).factor, 0.995, 1e-12);
     }

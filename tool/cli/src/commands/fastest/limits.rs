@@ -1,4 +1,4 @@
-//! What the command line allows a fastest motion.
+//! Limits of a fastest motion from the command line.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ use jred_machine::read;
 use jred_motion::fastest::tool_speed::MOST;
 use jred_motion::fastest::{JointForces, Limits, ToolSpeed, ToolSpeeds};
 
-/// The options that were given, but for those of which the answer speaks anyway: moves, drive and reserve.
+/// The given options, except moves, drive and reserve, which the answer contains anyway.
 fn asked(options: &Options) -> Vec<String> {
     let ends = options.ends.map(|ends| ends.word().to_owned());
     let given = [
@@ -44,7 +44,7 @@ fn asked(options: &Options) -> Vec<String> {
     given.chain(forces).collect()
 }
 
-/// The limits of the command line, and those of the gearbox; and what was asked for, in words.
+/// The limits of the command line and of the gearbox, and the request as text.
 ///
 /// # Errors
 /// Bad input.
@@ -132,7 +132,7 @@ fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
     Ok(forces)
 }
 
-/// Each with where it holds.
+/// The speed limits of the tool, and each as text with its range.
 fn tool_speeds(texts: &[String], file: &MachineFile) -> Result<(ToolSpeeds, Vec<String>)> {
     let mut all = ToolSpeeds::default();
     let mut words = Vec::new();
@@ -140,7 +140,7 @@ fn tool_speeds(texts: &[String], file: &MachineFile) -> Result<(ToolSpeeds, Vec<
         let (limit, own) = tool_speed(text, file)?;
         all = all.with(limit).ok_or_else(|| {
             miette!(
-                help = "one part of the way may take the place of two that touch",
+                help = "merge adjacent ranges into one",
                 "--max-tool-speed is given {} times, at most {MOST} are read",
                 texts.len()
             )
@@ -150,7 +150,7 @@ fn tool_speeds(texts: &[String], file: &MachineFile) -> Result<(ToolSpeeds, Vec<
     Ok((all, words))
 }
 
-/// Two positions of the drive link, and whether their part comes again with every turn: as angles of the drive link; a length along an axis does not.
+/// Two positions of the drive link, and whether their range repeats every turn: angles of the drive link do, lengths along an axis do not.
 fn part(
     [from, to]: [&str; 2],
     domain: Domain,
@@ -171,14 +171,14 @@ fn part(
             let lengths = read::drive_positions(from, domain, [axis, axis]);
             let between = both([drive, axis])?;
             if lengths.is_err() || read::drive_positions(to, domain, [axis, axis]).is_err() {
-                return Err("one position is an angle, the other a length; write both as angles of the drive link, which come again with every turn, or both as lengths".to_owned());
+                return Err("one position is an angle, the other a length; write both as angles of the drive link, which repeat every turn, or both as lengths".to_owned());
             }
             Ok((between, false))
         }
     }
 }
 
-/// "slider, 60 mm/s, 300 deg, 360 deg"; the limit, and where it holds.
+/// "slider, 60 mm/s, 300 deg, 360 deg": the limit, and its range as text.
 fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let given = format!("--max-tool-speed {}", plain::quoted(text));
     let mechanism = file.machine.mechanism();
@@ -216,20 +216,20 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let between = if turns && repeats {
         [start, end]
     } else {
-        // The axis may go back where the drive link goes on.
+        // The axis may move backward while the drive link moves forward.
         [start.min(end), start.max(end)]
     };
     let width = between[1] - between[0];
     if width == 0.0 || (repeats && width.abs() > domain.span()) {
         return Err(miette!(
-            help = "the part goes from the first position to the second, the way in which positions grow; on a turn the second may be the smaller one",
-            "{given}: from {from} to {to} is no part of the way"
+            help = "the range runs from the first position to the second in the direction of growing positions; on a turn the second may be smaller",
+            "{given}: {from} to {to} is not a valid range"
         ));
     }
     let over = if width < 0.0 {
         let rest = spoken.coordinate.shown(domain.span() + width);
         format!(
-            ", over the end of the turn, {} {} in all (for the other part swap the two positions)",
+            ", over the end of the turn, {} {} in all (for the other part swap the positions)",
             short(rest),
             spoken.coordinate.unit()
         )

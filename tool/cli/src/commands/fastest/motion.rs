@@ -1,4 +1,4 @@
-//! What is made as fast as possible: one move, or the motion of the file.
+//! The motion to optimise: one move, or the motion of the file.
 
 use miette::{Result, miette};
 
@@ -9,16 +9,16 @@ use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
 use jred_motion::way::Actuator;
 
-/// What is made as fast as possible.
+/// The motion to optimise.
 pub(super) enum Motion {
     /// One move.
     Move(Box<Task>),
-    /// That of the file.
+    /// The motion of the file.
     Chain(Chain),
 }
 
 impl Motion {
-    /// What the motion of the file is made of.
+    /// The parts of the file's motion.
     pub(super) const fn chain(&self) -> Option<&Chain> {
         match self {
             Self::Move(_) => None,
@@ -26,7 +26,7 @@ impl Motion {
         }
     }
 
-    /// It as fast as possible; or why it cannot be made, with the number of the move.
+    /// The fastest motion; otherwise the reason, with the number of the move.
     pub(super) fn fastest(
         &self,
         file: &MachineFile,
@@ -69,15 +69,15 @@ pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -
             let axis = file.axis();
             let unit = axis.coordinate.speed_unit();
             miette!(
-                help = "give --from and --to, or begin and end the cycle of [motion] at a place at which the machine is at rest",
+                help = "give --from and --to, or begin and end the cycle of [motion] at a position where the machine is at rest",
                 "the motion of {} {end} with {} {unit}, so its moves are not known",
                 file.name,
                 short(axis.rate(speed.abs()))
             )
         }
         NoMoves::AllKept => miette!(
-            help = "give --from and --to, or a [motion] with moves beside the constant speed",
-            "the motion of {} is nothing but constant speed, which is kept",
+            help = "give --from and --to, or a [motion] with moves in addition to the constant speed",
+            "{} moves at constant speed only, which is kept: there is nothing to optimise",
             file.name
         ),
     })?;

@@ -14,7 +14,7 @@ use jred_sizing::catalogue::MotorKind;
 /// The winding whose temperature is limited, and the limit (°C).
 ///
 /// # Errors
-/// A limit below the temperature of the surroundings, or a motor of whose temperatures nothing is known.
+/// A limit below the ambient temperature, or a motor without thermal data.
 pub(super) fn limit<'a>(
     options: &Options,
     chosen: &'a Chosen,
@@ -28,14 +28,14 @@ pub(super) fn limit<'a>(
     let Some(winding) = &chosen.winding else {
         return Err(miette!(
             help = "name a motor of the catalogue with --drive, or limit the RMS torque with --max-rms",
-            "{given} cannot be used: nothing is known of the temperatures of a motor that --torque describes"
+            "{given} cannot be used: a motor given by --torque has no thermal data"
         ));
     };
     let ambient = winding.ambient();
     if limit <= ambient {
         return Err(miette!(
             help = "give a temperature above it, or change `ambient` in [surroundings] of the machine file",
-            "{given} cannot be used: the surroundings have {} °C",
+            "{given} cannot be used: the ambient temperature is {} °C",
             short(ambient)
         ));
     }

@@ -54,7 +54,7 @@ impl NoMotion {
     pub fn cure(&self) -> String {
         match self {
             Self::Duty(fault) => fault.cure(),
-            Self::Machine(_) => "give a way on which the mechanism can be assembled".to_owned(),
+            Self::Machine(_) => "give positions between which the mechanism can be assembled".to_owned(),
             Self::NoWay => "give two different positions".to_owned(),
             Self::NoTorqueLimit(unit) => format!(
                 "take a motor with a peak {}, or give --torque",
@@ -79,8 +79,8 @@ impl NoMotion {
             Self::Stiff { .. } => {
                 "check viscous loads, which are very large for the inertia of the machine, and its masses and rotor_inertia".to_owned()
             }
-            Self::StartTooFast { .. } => "start more slowly, or give a longer way".to_owned(),
-            Self::EndTooFast { .. } => "end more slowly, or give a longer way".to_owned(),
+            Self::StartTooFast { .. } => "start more slowly, or give a longer distance".to_owned(),
+            Self::EndTooFast { .. } => "end more slowly, or give a longer distance".to_owned(),
             Self::NotAccurate { endless: true, .. } => {
                 "limit the speed (--max-speed): the slower the turn, the more accurately it is computed".to_owned()
             }
@@ -88,7 +88,7 @@ impl NoMotion {
                 "divide it: a start up to a speed (--to-speed), a run at that speed, and a stop from it (--from-speed); or limit the speed (--max-speed)".to_owned()
             }
             Self::LoadJumps { .. } => {
-                "limit the jerk (--max-jerk) instead, or give the load a course that rises over a way".to_owned()
+                "limit the jerk (--max-jerk) instead, or let the load rise over a distance".to_owned()
             }
             Self::RmsTooLarge { allowed, slow, .. } if slow >= allowed => {
                 "take a motor with more continuous torque or a larger gear ratio, or balance the weight; more time at rest helps where the machine is held with less".to_owned()
@@ -124,14 +124,14 @@ impl NoMotion {
                 if options.iter().all(|(rate, _)| rate != limit) {
                     cures.push(format!("a larger {}", limit.name()));
                 }
-                format!("allow {}, or give a longer way", cures.join(" or "))
+                format!("allow {}, or give a longer distance", cures.join(" or "))
             }
             Self::NotFound { limit: None, .. } => {
                 "give another limit: a slightly larger or smaller one may be found".to_owned()
             }
             Self::JointForce { .. } => LARGER_FORCE.to_owned(),
             Self::JointForceAlone => {
-                "leave one of them out: without --max-jerk, --max-torque-rate, --max-rms and --max-winding-temperature the forces in joints are limited".to_owned()
+                "leave one of them out: joint forces can be limited without --max-jerk, --max-torque-rate, --max-rms and --max-winding-temperature".to_owned()
             }
             Self::Empty(place) => match [place.least.1, place.most.1] {
                 [Binding::JointForce(_), Binding::JointForce(_)] => {

@@ -20,9 +20,9 @@ impl NoMotion {
                 axis,
             } => {
                 let slowly = if *stands {
-                    "while the machine stands there in a pause; its limit is"
+                    "while the machine rests there in a pause; its limit is"
                 } else {
-                    "in a machine that moves slowly; a motion that keeps the limit by its speed alone is not computed, and the limit is"
+                    "in a slowly moving machine; motions that satisfy the limit only by their speed are not computed, and the limit is"
                 };
                 write!(
                     f,
@@ -85,7 +85,7 @@ impl NoMotion {
         match self {
             Self::TooLong { turns, most } => write!(
                 f,
-                "the way of {} turns is too long: of a machine that changes within a turn, the fastest motion is computed over at most {} turns",
+                "the move of {} turns is too long: for a machine that varies within a turn, the fastest motion is computed over at most {} turns",
                 short(*turns),
                 short(most.floor())
             ),
@@ -99,7 +99,7 @@ impl NoMotion {
                 let place = axis.place(*phi);
                 write!(
                     f,
-                    "the way is too long, or the machine changes too much on it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} of itself, and the duration is known within {change:.0e} of itself"
+                    "the move is too long, or the machine varies too much over it, for an accurate motion: at {place} a limit is exceeded by {excess:.0e} (relative), and the relative error of the duration is up to {change:.0e}"
                 )
             }
             Self::LoadJumps {
@@ -121,7 +121,7 @@ impl NoMotion {
             }
             Self::JointForceAlone => write!(
                 f,
-                "a limit of the force in a joint goes neither with limits of jerk and torque rate nor with one of the RMS torque or of the winding's temperature that binds: that motion is not computed"
+                "limits of joint forces cannot be combined with limits of jerk or torque rate, nor with an active limit of the RMS torque or of the winding temperature"
             ),
             Self::NoTorqueLimit(unit) => write!(
                 f,
@@ -130,7 +130,7 @@ impl NoMotion {
             ),
             Self::NoSpeedLimit => write!(
                 f,
-                "nothing limits the speed of a motion that turns for ever: the motor's largest speed is not known"
+                "nothing limits the speed of an endless motion: the motor's largest speed is not known"
             ),
             Self::SelfLocking => write!(
                 f,
@@ -154,7 +154,7 @@ impl NoMotion {
                 let [least, most] = told_apart([*rms, *allowed]);
                 write!(
                     f,
-                    "no motion with an RMS {effort} of {most} {u} or less was found: the least one met was {least} {u}. ",
+                    "no motion with an RMS {effort} of {most} {u} or less was found: the smallest one found was {least} {u}. ",
                     effort = unit.vocabulary().torque.word,
                 )?;
                 if slow >= allowed {
@@ -166,7 +166,7 @@ impl NoMotion {
                 } else if *stopped {
                     write!(
                         f,
-                        "The search for slower motions, which may have less, did not come to its end"
+                        "The search for slower motions, which may have less, did not converge"
                     )
                 } else {
                     write!(
@@ -188,7 +188,7 @@ impl NoMotion {
                 };
                 write!(
                     f,
-                    "no motion with a winding of {} °C or less was found: in the coolest one the winding {greatest}, in surroundings of {} °C",
+                    "no motion with a winding of {} °C or less was found: in the coolest one the winding {greatest}, at an ambient temperature of {} °C",
                     short(*limit),
                     short(*ambient)
                 )
@@ -213,7 +213,7 @@ impl NoMotion {
                     )?,
                     None => write!(
                         f,
-                        "the search for a motion within the limits of jerk, {words} rate or RMS {words} did not come to its end, though no limit is exceeded where it stopped"
+                        "the search for a motion within the limits of jerk, {words} rate or RMS {words} did not converge, though no limit is exceeded where it stopped"
                     )?,
                 }
                 write!(
@@ -235,7 +235,7 @@ impl fmt::Display for Empty {
         let rate = |rate: f64| short(axis.rate(rate));
         write!(
             f,
-            "no acceleration is left at {} and {} {unit}: the {asks} asks for at least {} {unit}^2, the {allows} allows at most {}",
+            "no acceleration is left at {} and {} {unit}: the {asks} requires at least {} {unit}^2, the {allows} allows at most {}",
             axis.place(self.phi),
             rate(self.speed),
             rate(self.least.0),
@@ -247,13 +247,13 @@ impl fmt::Display for Empty {
 impl fmt::Display for NoMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Machine(error) => write!(f, "the way cannot be gone: {error}"),
+            Self::Machine(error) => write!(f, "the move is not possible: {error}"),
             Self::Duty(fault) => fault.fmt(f),
-            Self::NoWay => write!(f, "start and end are the same place: there is no way to go"),
+            Self::NoWay => write!(f, "start and end are the same position"),
             Self::Stops { .. } => self.stops(f),
             Self::Stiff { phi, axis } => write!(
                 f,
-                "the machine follows its friction so closely that the motion would take more than {MOST_STEPS} steps: it was followed to {}",
+                "viscous friction is so large for the inertia that the motion would need more than {MOST_STEPS} steps: it was computed up to {}",
                 axis.place(*phi)
             ),
             Self::RunsAway {
@@ -289,7 +289,7 @@ impl fmt::Display for NoMotion {
             }
             Self::StartTooFast { most, axis } => write!(
                 f,
-                "the start is too fast: the end and the limits on the way can be met from at most {} {}",
+                "the start is too fast: the end and the limits before it can be met from at most {} {}",
                 short(axis.rate(*most)),
                 axis.coordinate.speed_unit()
             ),

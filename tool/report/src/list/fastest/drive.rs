@@ -1,4 +1,4 @@
-//! What the motion asks of the drive: torque, speed, temperature of the winding, forces in joints, and what is left unused.
+//! Load of the drive in a motion: torque, speed, winding temperature, joint forces, and the reserve.
 
 use std::fmt::Write as _;
 
@@ -11,28 +11,28 @@ use jred_motion::fastest::{KeptPart, Reserve};
 use super::View;
 use crate::answer::Answer;
 
-/// Share below which an S1 torque is another one.
+/// Relative difference below which two S1 torques are the same.
 const ROUNDED: f64 = 1e-5;
 
-/// How warm the winding of the motor gets.
+/// Temperatures of the motor winding.
 pub struct Warmth {
-    /// Temperature (°C) of the surroundings.
+    /// Ambient temperature (°C).
     pub ambient: f64,
     /// Its temperatures.
     pub temperatures: Temperatures,
     /// The limit (°C).
     pub limit: f64,
-    /// Where that binds: the length (s) of the motion without it, and the RMS torque (N·m) to which it comes.
+    /// If the limit binds: duration (s) of the motion without it, and the RMS torque (N·m) that it allows.
     pub bound: Option<[f64; 2]>,
 }
 
 impl View<'_> {
-    /// What the motor does, and the pause that it needs.
+    /// The load of the motor, and the pause that it needs.
     pub(super) fn motor(&self, answer: &mut Answer) {
         let Vocabulary { torque, speed, .. } = self.words();
         let effort = torque.unit;
         let load = &self.cycle.load;
-        // A reserve of nothing stays a little below, too.
+        // Without a reserve, too, the allowed torque is slightly below S1.
         let is_less = load.allowed < (1.0 - ROUNDED) * load.continuous;
         let continuous = if load.continuous.is_finite() {
             format!(
@@ -91,11 +91,11 @@ impl View<'_> {
             Some(0.0) => {}
             _ if passes => {}
             _ if self.is_endless() => answer.warning(format!(
-                    "the RMS {torque} exceeds {what}, and a motion that turns for ever has no pause: take a larger drive, or a slower motion"
+                    "the RMS {torque} exceeds {what}, and an endless motion has no pause: take a larger drive, or a slower motion"
                 ),
             ),
             Some(pause) => answer.warning(format!(
-                    "the RMS {torque} exceeds {what}: repeated, the motion needs {} s more at rest each time",
+                    "the RMS {torque} exceeds {what}: when repeated, the motion needs {} s more rest each time",
                     short(pause)
                 ),
             ),
@@ -106,12 +106,12 @@ impl View<'_> {
         }
     }
 
-    /// What a kept part exceeds.
+    /// Warns if a kept part exceeds a limit.
     pub(super) fn exceeded(&self, part: &KeptPart, answer: &mut Answer) {
         let (share, limit) = part.excess;
         if part.exceeds() {
             let says = format!(
-                "what segment {} prescribes exceeds the limit of the {} by {}",
+                "segment {} exceeds the limit of the {} by {}",
                 part.kept.segment + 1,
                 limit.name_in(self.file),
                 percent(share)
@@ -133,7 +133,7 @@ impl View<'_> {
         )
     }
 
-    /// How warm the winding gets, and what its limit costs.
+    /// The temperature of the winding, and the cost of its limit.
     pub(super) fn winding(&self, warmth: &Warmth, answer: &mut Answer) {
         let Warmth {
             ambient,
@@ -168,11 +168,11 @@ impl View<'_> {
         }
         answer.fact("winding", says);
         let says = match bound {
-            None => "does not bind".to_owned(),
+            None => "not active".to_owned(),
             Some([free, rms]) => {
                 let whole = self.cycle.trace.duration();
                 format!(
-                    "binds: it comes to an RMS of {} {effort}; without it the whole motion takes {} s, {} less",
+                    "active: it limits the RMS to {} {effort}; without it the whole motion takes {} s, {} less",
                     short(*rms),
                     short(*free),
                     percent(1.0 - free / whole)
@@ -204,7 +204,7 @@ impl View<'_> {
         }
         if self.of_catalogue && asked.is_some() {
             return format!(
-                "none; `jred size` keeps {}: --reserve rules leaves that unused",
+                "none; the rules of `jred size` require {}: give --reserve rules",
                 shares(&asked)
             );
         }

@@ -1,4 +1,4 @@
-//! One of the moves: its phases, each at one limit, and what each limit costs.
+//! A move: its phases, each at one limit, and the cost of each limit.
 
 use std::fmt::Write as _;
 
@@ -13,13 +13,13 @@ use jred_sizing::study::cell::Cell;
 use super::View;
 use crate::answer::Answer;
 
-/// Share of the largest speed that is a rounding error: speeds are roots of energies.
+/// Share of the largest speed below which a speed is a rounding error: speeds are roots of energies.
 const STANDS: f64 = 1e-8;
 
-/// Share by which a speed must fall within a phase for that to be shown.
+/// Relative drop of the speed within a phase from which it is shown.
 const DIP: f64 = 5e-4;
 
-/// Share of a move's time below which a phase is none.
+/// Phases shorter than this share of the move's time are dropped.
 const LEAST_PHASE: f64 = 1e-9;
 
 impl View<'_> {
@@ -42,7 +42,7 @@ impl View<'_> {
             let _ = write!(text, " ({} s in the file)", short(before));
         }
         answer.heading(text);
-        // Where a turn closes a phase may have no length.
+        // Where a turn closes, a phase may have no duration.
         let least = LEAST_PHASE * made.fastest.time;
         let phases = made.fastest.phases.iter();
         let phases: Vec<&Phase> = phases
@@ -94,7 +94,7 @@ impl View<'_> {
         unlimited(made, &phases, answer);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;
-            // These are limits of the whole motion, whose own time stands above.
+            // Limits of the whole motion, whose own duration is printed above.
             let alone = match cost.limit {
                 Binding::RmsTorque | Binding::WindingTemperature => "this move alone takes ",
                 _ => "",
@@ -109,7 +109,7 @@ impl View<'_> {
     }
 }
 
-/// Without a limit, or with more of the motor's own.
+/// The change of the limit: removed, or raised for those of the motor.
 pub(super) fn eased(cost: &Cost, file: &MachineFile) -> String {
     let more = percent(MORE);
     match cost.limit {
@@ -149,7 +149,7 @@ fn dip(made: &Made, phase: &Phase) -> Option<f64> {
     (least < ends * (1.0 - DIP)).then_some(least)
 }
 
-/// What the times before the first phase and behind the last one are.
+/// Reports the times before the first and after the last phase, in which no limit is active.
 fn unlimited(made: &Made, phases: &[&Phase], answer: &mut Answer) {
     let whole = made.fastest.time;
     for (time, place) in [

@@ -1,4 +1,4 @@
-//! How the rules of sizing judge the motion, and what was lowered for them.
+//! Verdicts of the sizing rules on the motion, and the limits lowered for them.
 
 use jred_machine::model::rule::Rule;
 use jred_machine::number::rounding::{percent, short};
@@ -9,7 +9,7 @@ use super::View;
 use crate::answer::Answer;
 
 impl View<'_> {
-    /// The rules that the motion keeps, and those that it does not.
+    /// The rules that the motion satisfies, and those that it violates.
     pub(super) fn rules(&self, judged: &Judged, answer: &mut Answer) {
         let kept: Vec<String> = judged
             .kept()
@@ -36,7 +36,7 @@ impl View<'_> {
         }
     }
 
-    /// What was lowered, and to how much.
+    /// A lowered limit.
     fn cap(&self, cap: Cap, value: f64) -> String {
         let words = self.words();
         let (torque, speed) = (words.torque, words.speed);
@@ -56,15 +56,15 @@ impl View<'_> {
     }
 }
 
-/// What keeps a rule that the motion violates.
+/// The cure for a violated rule.
 fn cure(judged: &Judged, check: &Check) -> &'static str {
     if judged.sought.contains(&check.id) {
-        return "; no slower motion that was tried keeps it";
+        return "; no slower motion that was tried satisfies it";
     }
     match check.id {
         Rule::RmsTorque | Rule::WindingTemperature | Rule::HousingTemperature => {
-            "; --max-rms s1 keeps it"
+            "; --max-rms s1 satisfies it"
         }
-        _ => "; the motion is not made for it",
+        _ => "; the motion does not account for it",
     }
 }

@@ -48,7 +48,7 @@ impl<'c> Asked<'c> {
         let all = selection.fit.len() + selection.refused.len();
         let kind = self.candidate.drive.motor.kind;
         let Some(rank) = self.rank else {
-            // The values are in the table of its rules.
+            // The values are in the table of the drive's rules.
             let judged = selection.judged(&self.candidate);
             let broken = judged
                 .checks

@@ -1,4 +1,4 @@
-//! The answer on one screen: the drive, whether it can be ordered as it is, the limits that it uses most, and the next choices.
+//! The first screen: the drive, whether it can be ordered as it is, the limits that it uses most, and the next choices.
 
 use std::fmt::Write as _;
 
@@ -18,16 +18,16 @@ use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::size::{Candidate, Selection};
 
-/// Rules that are shown.
+/// Number of rules that are shown.
 const SHOWN: usize = 3;
 
-/// Rules that are shown of a drive that violates some.
+/// Number of rules that are shown for a drive that violates some.
 const SHOWN_VIOLATED: usize = 6;
 
-/// By this factor the rated power of the next choice is larger, or smaller.
+/// Factor between the rated powers of a drive and the next larger or smaller choice.
 const STEP: f64 = 1.03;
 
-/// Width of the name at the beginning of a line.
+/// Width of the name at the start of a line.
 const NAME: usize = 11;
 
 /// Width of the first screen in a pipe or a file.
@@ -46,13 +46,13 @@ impl Screen {
             .fill(text, &format!(" {name:<NAME$}"), &rest, says);
     }
 
-    /// Sentences of their own.
+    /// A sentence without a name.
     pub(super) fn says(self, text: &mut String, says: &str) {
         self.narrow().fill(text, "", "    ", says);
     }
 }
 
-/// The first screen of a drive: the best one, one that was asked for, or the closest if none is suitable.
+/// The first screen of a drive: the best one, a requested one, or the closest one if none is suitable.
 pub(super) fn brief(
     screen: Screen,
     file: &MachineFile,
@@ -99,7 +99,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     let gearbox = drive
         .gearbox
         .map_or("none, directly coupled".to_owned(), |g| {
-            // Many makers have the ratio in the name.
+            // Many makers include the ratio in the name.
             let ratio = (!g.model.contains("i=")).then(|| format!("i = {}", short(g.ratio)));
             named(&g.maker, &g.model, &gearbox_key, ratio.as_slice())
         });
@@ -116,11 +116,11 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     let brake = match of(Rule::BrakeTorque) {
         None => "not needed".to_owned(),
         Some(check) if check.verdict == Verdict::NotChecked => judged.least_brake.map_or_else(
-            || "needed; the catalogue states none of this motor".to_owned(),
+            || "needed; the catalogue gives none for this motor".to_owned(),
             |torque| {
                 let words = &drive.motor.kind.vocabulary().torque;
                 format!(
-                    "at least {} {} is needed; the catalogue states none of this motor",
+                    "at least {} {} is needed; the catalogue gives none for this motor",
                     short(torque / words.scale),
                     words.unit
                 )
@@ -154,7 +154,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     screen.entry(text, "resistor", &resistor);
 }
 
-/// What is missing before the drive can be ordered.
+/// Data that are missing before the drive can be ordered.
 fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
     let drive = &judged.drive;
     let mut missing = Vec::new();
@@ -182,7 +182,7 @@ fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
     missing
 }
 
-/// The rules that use most of their limits, or are violated, and how many there are of each verdict.
+/// The rules that use most of their limits, or are violated, and the number of rules by verdict.
 fn limits(screen: Screen, text: &mut String, judged: &Judged) {
     let is = |verdict: Verdict| move |check: &&Check| check.verdict == verdict;
     let fails = judged.checks.iter().any(|c| c.verdict == Verdict::Fail);
@@ -192,7 +192,7 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
         let checked = judged.checks.iter();
         checked.filter(|check| !check.used().is_empty()).collect()
     };
-    // Warnings first: they are lines of their own otherwise.
+    // Warnings first; without this they would be lines of their own.
     shown.sort_by(|a, b| {
         let by_use = b.use_of_limit().total_cmp(&a.use_of_limit());
         b.verdict.cmp(&a.verdict).then(by_use)
@@ -309,7 +309,7 @@ pub(super) fn choices(screen: Screen, selection: &Selection) -> String {
     text
 }
 
-/// How many drives there are, and where to read on.
+/// The number of drives, and the options that show more.
 pub(super) fn further(screen: Screen, selection: &Selection, list: List) -> String {
     let mut text = String::new();
     let [fit, refused] = [selection.fit.len(), selection.refused.len()];
@@ -324,7 +324,7 @@ pub(super) fn further(screen: Screen, selection: &Selection, list: List) -> Stri
     .filter_map(|(is_open, hint)| is_open.then_some(hint))
     .collect();
     let many = match fit {
-        // The violated rules say so.
+        // The violated rules already tell.
         0 => String::new(),
         1 => format!("1 of {} drives satisfies every rule. ", fit + refused),
         _ => format!("{fit} of {} drives satisfy every rule. ", fit + refused),

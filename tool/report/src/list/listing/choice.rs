@@ -1,4 +1,4 @@
-//! Which drives of a selection are listed.
+//! Selection of the drives to list.
 
 use miette::{Result, miette};
 
@@ -13,17 +13,17 @@ use jred_sizing::select::size::{Candidate, Selection};
 pub struct List {
     /// Number of ranked drives.
     pub top: usize,
-    /// Number of refused drives, those that miss by least first.
+    /// Number of refused drives, those closest to their limits first.
     pub nearest: usize,
-    /// Every refused drive instead.
+    /// List every refused drive instead.
     pub refused: bool,
-    /// Every drive instead.
+    /// List every drive instead.
     pub all: bool,
-    /// A line for every drive instead of one for every motor.
+    /// List every drive instead of one per motor.
     pub all_gearboxes: bool,
-    /// The duty, every rule, what is not checked and the ranking, below the first screen.
+    /// Show the duty, every rule, missing checks and the ranking below the first screen.
     pub full: bool,
-    /// The ranking below the first screen.
+    /// Show the ranking below the first screen.
     pub is_ranked: bool,
     /// An explanation follows.
     pub explained: bool,
@@ -43,7 +43,7 @@ impl List {
         }
     }
 
-    /// The same, and after them the first drive of each certainty that is not among them.
+    /// The same, then the first drive of each certainty that is not among them.
     pub fn ranked<'c>(&self, selection: &Selection<'c>) -> Vec<(usize, Candidate<'c>)> {
         let mut listed = self.fit(selection);
         let last = listed.last().map_or(0, |(rank, _)| *rank);
@@ -53,7 +53,7 @@ impl List {
         listed
     }
 
-    /// The refused drives to list, those that miss by least first.
+    /// The refused drives to list, those closest to their limits first.
     pub fn refused<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
         if self.all || self.refused {
             return selection.first_refused(usize::MAX);
@@ -62,11 +62,10 @@ impl List {
     }
 }
 
-/// The drive to be explained: the one called `name`, or the best one, or, if none is suitable, the closest one. `None` if
-/// there is no drive.
+/// The drive to explain: the one called `name`, otherwise the best one, or the closest one if none is suitable. `None` if there is no drive.
 ///
-/// A name has the keys of the catalogue, in capitals or not: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
-/// "MOTOR + GEARBOX on AMPLIFIER". Without amplifier it is the first of the drives that differ in nothing else.
+/// Names have the keys of the catalogue, case-insensitive: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as in tables, "MOTOR, direct" and "MOTOR +
+/// GEARBOX on AMPLIFIER". Without an amplifier the first of the drives that differ only in it is taken.
 ///
 /// # Errors
 /// No drive of that name.
@@ -102,7 +101,7 @@ pub fn explained<'c>(
     ))
 }
 
-/// All that a drive is called: with its amplifier and without, a direct drive also by its motor alone.
+/// All names of a drive: with and without its amplifier; a direct drive also by its motor alone.
 fn names(drive: &Drive) -> [String; 4] {
     let alone = Drive {
         amplifier: None,
@@ -113,7 +112,7 @@ fn names(drive: &Drive) -> [String; 4] {
     [motor(&full), motor(&alone), full, alone]
 }
 
-/// A drive's name with one way of joining its parts, in small letters: "m+g on a", "m+direct".
+/// A drive's name in lower case with uniform separators: "m+g on a", "m+direct".
 fn plain(name: &str) -> String {
     let name = name.to_lowercase().replacen(", direct", "+direct", 1);
     name.split('+').map(str::trim).collect::<Vec<_>>().join("+")

@@ -5,7 +5,7 @@ use jred_machine::number::csv;
 use jred_sizing::judge::Judged;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
-/// Columns, a row for every rule of every drive that is listed.
+/// Columns; a row for every rule of every listed drive.
 const COLUMNS: [&str; 15] = [
     "rank",
     "motor",
@@ -24,8 +24,8 @@ const COLUMNS: [&str; 15] = [
     "brake resistor",
 ];
 
-/// Every rule of every drive that is listed as a row, part by part, a drive each; "verdict" is the rule's, and "certainty" that of a drive that fits. "brake resistor" is the one chosen from the catalogue. The drive asked for comes
-/// first, with its rank if it fits, and is left out of the list.
+/// A row for every rule of every listed drive, in parts of one drive. "verdict" is that of the rule, "certainty" that of a suitable drive; "brake
+/// resistor" is the one chosen from the catalogue. A requested drive comes first, with its rank if it is suitable, and is left out of the list.
 pub fn csv<'c>(
     list: List,
     selection: &'c Selection<'c>,

@@ -13,14 +13,14 @@ use jred_machine::units::Vocabulary;
 use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 
-/// The explanation of one drive, and the refused drives that miss by least.
+/// The explanation of one drive, and of the refused drives closest to their limits.
 #[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
 pub struct Explanation {
-    /// Torque and inertia of the drive, part by part; `None` if only refused drives were asked for.
+    /// Torque and inertia of the drive, part by part; `None` if only refused drives were requested.
     pub contributions: Option<Breakdown>,
-    /// How far each quantity may change, or the changes it would need.
+    /// The range of each quantity, or the changes that are needed.
     pub change: Option<Remedies>,
-    /// The same of the nearest refused drives.
+    /// The same for the closest refused drives.
     #[serde(rename = "nearest refused")]
     pub nearest: Vec<Remedies>,
 }

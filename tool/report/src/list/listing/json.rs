@@ -27,7 +27,7 @@ use jred_sizing::select::size::{Candidate, Certainty, Selection};
 pub struct Notes<'a> {
     /// Possible mistakes in the machine file.
     pub warnings: &'a [String],
-    /// The motion that the drives are judged with, if one was made for them.
+    /// The motion that the drives are judged with, if it was computed for them.
     pub motion: Option<&'a MotionData>,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct SizeData<'a> {
 }
 
 impl Data for SizeData<'_> {
-    // The number is raised whenever a key is removed or changes its meaning.
+    // Raised whenever a key is removed or changes its meaning.
     const FORM: &'static str = "jred-size/4";
 }
 
@@ -154,7 +154,7 @@ struct Counts {
     drives: usize,
     /// Drives that violate no rule.
     fit: usize,
-    /// Those of them with rules that are not checked.
+    /// Suitable drives with rules that are not checked.
     #[serde(rename = "fit, not all rules checked")]
     partly: usize,
     /// Drives that violate a rule.
@@ -195,7 +195,7 @@ struct ViolationData {
     id: Rule,
     /// Refused drives that violate it; rules over time are judged only where all others are satisfied.
     drives: usize,
-    /// Those of them that violate no other rule.
+    /// Refused drives that violate no other rule.
     #[serde(rename = "drives, nothing else")]
     alone: usize,
 }
@@ -253,8 +253,8 @@ pub(crate) struct DriveData<'a> {
     assumptions: Vec<String>,
 }
 
-/// The listed drives and the requested one with every digit, and the numbers of all; part by part, a drive each: the text of
-/// all drives of a catalogue is many times larger than they are.
+/// The listed drives and the requested one with every digit, and the numbers of all. In parts of one drive: the text of a whole catalogue is many
+/// times larger than its drives.
 pub fn json(
     list: List,
     file: &MachineFile,
@@ -267,7 +267,7 @@ pub fn json(
     let first = selection.fit.first().or(selection.refused.first());
     let shown = asked.map(|asked| &asked.candidate).or(first);
     let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
-    // The drive link's own units: a rotary motor may drive a slide through a screw.
+    // In units of the drive link; a rotary motor may drive a slide through a screw.
     let effort = duty.figures(|i| i.terms.total());
     let speed = duty.figures(|i| i.omega);
     let link = match file.machine.mechanism().coordinate() {
@@ -313,7 +313,7 @@ pub fn json(
         explanation,
         motion: notes.motion,
     };
-    // Only a map whose keys are no text cannot be written.
+    // Serialisation fails only for a map whose keys are not text.
     let data = serde_json::to_value(data).unwrap_or_default();
     let value = Value::Object(headed(SizeData::FORM, &file.title, data));
     let text = format!("{value:#}\n");
@@ -377,7 +377,7 @@ fn gaps(selection: &Selection, kind: MotorKind) -> Vec<GapData> {
     gaps.collect()
 }
 
-/// Reasons for which drives are refused. Where one fits, they are not needed, and would mean judging all drives in full.
+/// Reasons for which drives are refused. Empty where one fits: computing them would judge all drives in full.
 fn violated(selection: &Selection, kind: MotorKind) -> Vec<ViolationData> {
     if !selection.fit.is_empty() {
         return Vec::new();

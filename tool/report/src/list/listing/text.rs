@@ -22,14 +22,14 @@ use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Judged, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Class, Gap, Selection};
 
-/// Rules that are listed on the first screen if no drive satisfies all.
+/// Number of rules on the first screen if no drive satisfies all.
 const MOST_VIOLATED: usize = 2;
 
 /// Width of the column "limit is".
 const NOTE_WIDTH: u16 = 72;
 
-/// Duty, best drive with every rule, ranking, and the refused ones if asked for; a drive that was asked for by name instead of the
-/// best, with why it stands where it does.
+/// Duty, best drive with every rule, ranking, and the refused drives on request. A drive requested by name replaces the best one, with the reason for
+/// its rank.
 pub fn text(
     list: List,
     file: &MachineFile,
@@ -95,7 +95,7 @@ pub fn text(
     parts.concat()
 }
 
-/// The duty at the input, and all that is known of a drive.
+/// The duty at the input, and all data of a drive.
 fn full(file: &MachineFile, duty: &Duty, judged: &Judged) -> String {
     let input_power = |i: &Instant| i.input_torque * i.input_speed;
     let words = judged.drive.motor.kind.vocabulary();
@@ -123,7 +123,7 @@ fn full(file: &MachineFile, duty: &Duty, judged: &Judged) -> String {
     )
 }
 
-/// The supply that motors and amplifiers are judged at.
+/// The supply for which motors and amplifiers are judged.
 fn supply(site: &Site) -> String {
     match (site.mains_voltage, site.bus_voltage) {
         (Some(mains), Some(bus)) => {
@@ -134,7 +134,7 @@ fn supply(site: &Site) -> String {
     }
 }
 
-/// The drive that was asked for, every rule, and the best one's name.
+/// The requested drive with its rules, and the name of the best one.
 fn asked_text(asked: &Asked, selection: &Selection) -> String {
     let (name, place) = (asked.candidate.drive.name(), asked.place(selection));
     let best = match selection.fit.first() {
@@ -145,7 +145,7 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     format!("Requested drive: {name}\n{place}{best}\n")
 }
 
-/// For each rule that is violated how many drives violate it, and the one of them that is refused by least.
+/// For each violated rule the number of drives that violate it, and the closest of them.
 pub(crate) fn violations(selection: &Selection) -> Vec<String> {
     let lines = selection.violations().into_iter().map(|violation| {
         let closest = &selection.judged(&violation.closest);
@@ -154,7 +154,7 @@ pub(crate) fn violations(selection: &Selection) -> Vec<String> {
             let limit = check
                 .bound()
                 .map_or_else(String::new, |b| format!(", limit {b}"));
-            // A part is missing, and the note says which.
+            // A part is missing; the note names it.
             let note = if check.id.is_yes_or_no() {
                 format!(" ({})", check.note)
             } else {
@@ -165,7 +165,7 @@ pub(crate) fn violations(selection: &Selection) -> Vec<String> {
         let words = closest.drive.motor.kind.vocabulary();
         let alone = match violation.alone {
             0 => String::new(),
-            n => format!(", {n} by nothing else"),
+            n => format!(", {n} for no other reason"),
         };
         format!(
             "  {}: {}{alone}; the closest, {}: {figures}",
@@ -177,7 +177,7 @@ pub(crate) fn violations(selection: &Selection) -> Vec<String> {
     lines.collect()
 }
 
-/// How many drives violate no rule, and how certain their data are; the first drive of each certainty.
+/// The number of suitable drives by certainty, with the first drive of each.
 fn counts(selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
     let mut text = format!(
@@ -216,12 +216,14 @@ pub(super) fn kilowatts(power: f64) -> String {
     format!("{} kW", significant(power / 1e3, 3))
 }
 
-/// What is known of a drive.
+/// The certainty of a drive's data.
 const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
-        Certainty::Pairing => "whose amplifier nobody pairs with the motor (†), of known voltage",
+        Certainty::Pairing => {
+            "whose amplifier no source pairs with the motor (†), of known voltage"
+        }
         Certainty::Voltage => "of unknown voltage (–)",
     }
 }
@@ -233,14 +235,12 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
         Certainty::Others => {
             "its figures are not all the makers' own; check them against the data sheets"
         }
-        Certainty::Pairing => "nobody states that this amplifier runs this motor; ask the makers",
-        Certainty::Voltage => {
-            "the catalogue does not state what voltage it is made for; ask the makers"
-        }
+        Certainty::Pairing => "no source pairs this amplifier with this motor; ask the makers",
+        Certainty::Voltage => "the catalogue does not give its voltage class; ask the makers",
     }
 }
 
-/// The rules that are not checked for some of the suitable drives, and what would cure it.
+/// The rules that are not checked for some of the suitable drives, with the cure.
 fn not_checked(selection: &Selection, words: &Vocabulary) -> Option<String> {
     let gaps = selection.gaps();
     if gaps.is_empty() {
@@ -258,7 +258,7 @@ fn not_checked(selection: &Selection, words: &Vocabulary) -> Option<String> {
     Some(text)
 }
 
-/// A rule that is not checked for some drives in a line.
+/// A rule that is not checked for some drives.
 pub(crate) fn gap_text(gap: &Gap, words: &Vocabulary) -> String {
     format!(
         "{}: {} (no data: {}); needs {}",
@@ -269,8 +269,7 @@ pub(crate) fn gap_text(gap: &Gap, words: &Vocabulary) -> String {
     )
 }
 
-/// The smaller motors that violate no rule and rank lower, because less is certain of them; why no still smaller motor will do:
-/// the next smaller one, and the rules that it violates.
+/// Smaller suitable motors, which rank lower because their data are less certain; then the next smaller one with the rules that it violates.
 pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
     let power = |candidate: &Candidate| candidate.drive.motor.rated_power();
     let mut least = selection
@@ -279,7 +278,7 @@ pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
         .and_then(power)
         .unwrap_or(f64::INFINITY);
     let mut lines = Vec::new();
-    // Ranked by something else, the first of a class is not its smallest.
+    // Under another ranking the first drive of a class is not its smallest.
     let by_size = selection.ranking.is_none();
     for class in selection.classes().iter().filter(|_| by_size) {
         if let Some(power) = power(&class.first).filter(|power| *power < least) {
@@ -297,7 +296,7 @@ pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
     lines
 }
 
-/// Why no smaller motor will do: the next smaller one, and the rules that it violates.
+/// The next smaller motor, and the rules that it violates.
 fn next_smaller(selection: &Selection) -> Option<String> {
     let next = &selection.judged(&selection.next_smaller()?);
     Some(format!(
@@ -372,7 +371,7 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
 fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
-        // Less than the sixth digit of the largest value is shown as zero.
+        // Values below the sixth digit of the largest one are shown as zero.
         let noise = 5e-6 * figures.peak();
         let cells = figures
             .values()
@@ -408,7 +407,7 @@ fn drive_text(judged: &Judged) -> String {
     )
 }
 
-/// The rules that were checked as a table, the others in a line.
+/// The checked rules as a table, the others in a line.
 fn rules_table(judged: &Judged) -> String {
     let mut table = text_table(&[
         "rule", "figure", "limit", "used", "margin", "verdict", "limit is",
@@ -431,7 +430,7 @@ fn rules_table(judged: &Judged) -> String {
         .filter(open)
         .map(|check| format!("{} ({})", check.rule, check.note))
         .collect();
-    // The last column alone is broken into lines.
+    // Only the last column is wrapped.
     table
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(1000);
@@ -459,7 +458,7 @@ pub(crate) fn margin(check: &Check) -> String {
     }
 }
 
-/// A figure of the catalogue, or a dash where it has none.
+/// A figure of the catalogue, or a dash without data.
 pub(crate) fn figure(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), short)
 }

@@ -1,4 +1,4 @@
-//! What happened in a simulated motion, sentence by sentence.
+//! Events of a simulated motion, one sentence each.
 
 use jred_machine::analysis::simulate::{BRIEFEST_FLIGHT, Rest, Stop, beside_name};
 use jred_machine::model::axis::Axis;
@@ -13,7 +13,7 @@ use crate::answer::Answer;
 use crate::list::driven::{Turns, driven};
 
 impl View<'_> {
-    /// What happened on the way, sentence by sentence.
+    /// Adds the events, one sentence each.
     pub(super) fn sentences(&self, answer: &mut Answer) {
         let axis = self.machines.first.axis();
         let effort = self.effort_unit();
@@ -56,7 +56,7 @@ impl View<'_> {
         }
     }
 
-    /// An instant (s); 0 if it is that but for the rounding of the whole time.
+    /// An instant (s); 0 below the rounding error of the whole time.
     fn time(&self, t: f64) -> String {
         shown(t, self.simulation.duration)
     }
@@ -86,7 +86,7 @@ impl View<'_> {
         let (far, way) = longest(|rest| rest.way.abs())?;
         let (slow, time) = longest(|rest| rest.time)?;
         Some(format!(
-            "of {count} instants over the cycle before, the longest way to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
+            "of {count} instants over the cycle before, the longest distance to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
             self.way(axis, way.way),
             self.time(way.time),
             from(far),
@@ -96,7 +96,7 @@ impl View<'_> {
         ))
     }
 
-    /// What acts, is carried and moves by the clock of `[motion]`, of each machine.
+    /// Loads, payloads and carriages of each machine that follow the clock of `[motion]`.
     pub(super) fn by_motion(&self) -> Vec<String> {
         let duration = self.simulation.duration;
         let machines = self.machines.all().enumerate();
@@ -111,7 +111,7 @@ impl View<'_> {
         lines.collect()
     }
 
-    /// The size of a way; zero if it is only a rounding error compared with the way of the whole motion.
+    /// The magnitude of a distance; 0 below the rounding error of the whole motion.
     fn way(&self, axis: &Axis, way: f64) -> String {
         let positions = self.found.states.iter().map(|[phi, ..]| *phi);
         let first = positions.clone().next().unwrap_or(0.0);
@@ -119,7 +119,7 @@ impl View<'_> {
         shown(axis.shown_way(way).abs(), axis.shown_way(most))
     }
 
-    /// When the speed that was asked for is reached.
+    /// Time and distance to the requested speed.
     fn reached(&self, axis: &Axis) -> Option<String> {
         let speed = self.simulation.to_speed?;
         let unit = axis.coordinate.speed_unit();
@@ -145,7 +145,7 @@ impl View<'_> {
         })
     }
 
-    /// What the motor gives at most.
+    /// The largest torque and power of the motor.
     fn effort(&self) -> Option<String> {
         let effort = self.found.effort?;
         let unit = self.effort_unit();
@@ -270,7 +270,7 @@ impl View<'_> {
     }
 }
 
-/// What the drive bears more than it may, and how warm it gets.
+/// Limits of the drive that are exceeded, and the temperature rise.
 fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<String> {
     let place = |peak: &Peak| format!("at {} s, {}", short(peak.time), axis.place(peak.phi));
     let mut lines = Vec::new();

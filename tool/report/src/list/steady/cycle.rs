@@ -46,7 +46,7 @@ pub(super) fn describe(answer: &mut Answer, cycle: &Cycle) {
 }
 
 fn speeds(answer: &mut Answer, figures: &Figures) {
-    // Speeds and torques count along the motion, as its fastest and slowest instants do.
+    // Speeds and torques count along the motion, as the fastest and slowest instants do.
     let backwards = if figures.mean_speed < 0.0 {
         "; all speeds and torques along the motion, in which φ falls"
     } else {
@@ -108,7 +108,7 @@ fn works(answer: &mut Answer, figures: &Figures) {
     );
 }
 
-/// What the loads do to a machine that they drive.
+/// Reports process loads that drive the machine.
 fn process(answer: &mut Answer, figures: &Figures) {
     let energy = figures.energy;
     let turns = Turns {

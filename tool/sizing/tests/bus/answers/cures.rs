@@ -1,4 +1,4 @@
-//! Each change alone is enough, and a little less is not.
+//! Each change alone is sufficient, and slightly less is not.
 
 use jred_machine::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::cure::{Bound, Change, Cure, share};
@@ -10,7 +10,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use super::super::{budget, near, random_curve};
 use super::{NOTHING, RESISTOR, answer};
 
-/// The supply with these changes, each figure a share beyond what it must be: to the safe side, or if negative to the other.
+/// The supply with these changes, each figure beyond its bound by a share: on the safe side, or if negative on the other.
 fn changed(supply: &Supply, changes: &[Change], beyond: f64) -> Supply {
     let mut supply = *supply;
     let mut resistor = supply.brake_resistor.unwrap_or(RESISTOR);
@@ -41,7 +41,7 @@ fn changed(supply: &Supply, changes: &[Change], beyond: f64) -> Supply {
     supply
 }
 
-/// The words give each bound with four digits, rounded to the side where it is enough.
+/// The text gives each bound with four digits, rounded to the sufficient side.
 fn words_are_enough(cure: &Cure) {
     for change in &cure.changes {
         let (word, value, side) = match change.bound {
@@ -57,8 +57,7 @@ fn words_are_enough(cure: &Cure) {
     }
 }
 
-/// Of the changes that an answer proposes every one suffices alone, and none of a resistor asks for more than is needed. A bus that holds
-/// asks for nothing.
+/// Every proposed change suffices alone, and none requires a larger resistor than needed. A bus that satisfies all rules has no cures.
 #[track_caller]
 fn cures_are_enough(curves: &[PowerCurve], supply: &Supply, in_step: bool, needed: bool) -> usize {
     let found = answer(curves, supply, in_step);
@@ -95,7 +94,7 @@ fn cures_are_enough(curves: &[PowerCurve], supply: &Supply, in_step: bool, neede
             mended.failed()
         );
         if needed && cure.changes[0].key.starts_with("brake_resistor") {
-            // Each change is needed: without a thousandth of it, with all others, something fails.
+            // Each change is needed: with a thousandth less of it, and all others, a rule fails.
             for k in 0..cure.changes.len() {
                 let mut supply = changed(supply, &cure.changes, 1e-9);
                 supply = changed(&supply, &cure.changes[k..=k], -1e-3);
@@ -119,13 +118,13 @@ fn each_cure_alone_is_enough() {
     let mut cures = [0; 4];
     for _ in 0..25 {
         let curve = [random_curve(&mut random, 0.8, 6000.0)];
-        // No resistor: one, more capacitance, or a supply that takes energy back.
+        // Without a resistor: add one, add capacitance, or use a supply that takes energy back.
         let bare = Supply {
             max_voltage: Some(790.0),
             ..full
         };
         cures[0] += cures_are_enough(&curve, &bare, true, false);
-        // A resistor that is too weak, in one way or in all.
+        // A resistor that is too weak, in one figure or in all.
         let weak = BrakeResistor {
             resistance: 30.0,
             power: 10f64.powf(random.random_range(1.0..4.0)),
@@ -138,7 +137,7 @@ fn each_cure_alone_is_enough() {
             ..full
         };
         cures[1] += cures_are_enough(&curve, &weak, true, true);
-        // More than it takes at the chopper's voltage: the bus rises beyond its limit.
+        // More power than it dissipates at the chopper's voltage: the bus exceeds its limit.
         let high = Supply {
             brake_resistor: Some(BrakeResistor {
                 resistance: 400.0,
@@ -154,7 +153,7 @@ fn each_cure_alone_is_enough() {
     assert!(cures.iter().all(|count| *count > 12), "{cures:?}");
 }
 
-/// Braking with 6 kW for half a second, once in two: ½·C·(U² − U₀²) = 3 kJ, U²/R = 6 kW, 1.5 kW on average.
+/// Braking with 6 kW for half a second in every two: ½·C·(U² − U₀²) = 3 kJ, U²/R = 6 kW, 1.5 kW on average.
 #[test]
 fn cures_by_hand() {
     let curve = || {
@@ -188,14 +187,14 @@ fn cures_by_hand() {
     };
     let expected = 2.0 * 3000.0 / (800.0f64.powi(2) - 560.0f64.powi(2));
     near("C", 1e-6 * capacitance, expected, budget::BUS);
-    // A supply that takes it back: 6 kW at most, 1.5 kW on average.
+    // A supply that takes it back: 6 kW peak, 1.5 kW on average.
     let words = &found.cures[2].words;
     assert!(
         words.contains("6000 W peak, at most 1500 W mean"),
         "{words}"
     );
 
-    // With a resistor the capacitance need only keep it off: up to the chopper's voltage.
+    // With a resistor the capacitance only has to keep the voltage below the chopper's.
     let with = Supply {
         brake_resistor: Some(BrakeResistor {
             power: 10.0,
@@ -215,7 +214,7 @@ fn cures_by_hand() {
     assert_eq!(what, Judged::Mean);
     near("lacks", lacking, burnt / 2.0 - 10.0, budget::BUS);
 
-    // A resistance below what the chopper may switch is too small, however much it takes.
+    // A resistance below the chopper's least one is too small, whatever its power.
     let small = Supply {
         brake_resistor: Some(BrakeResistor {
             resistance: 20.0,
@@ -226,7 +225,7 @@ fn cures_by_hand() {
     };
     let found = answer(&[curve()], &small, true);
     assert_eq!(found.lacks(), [(Judged::Resistance, 10.0)]);
-    // One that never comes on: only the resistance is asked for, and no capacitance helps.
+    // A resistor that never switches on: only the resistance is judged, and no capacitance helps.
     let gentle = PowerCurve::new([[0.0, 100.0], [1.0, 100.0], [1.0, -5.0], [2.0, -5.0]], 2.0);
     let found = answer(&[gentle], &small, true);
     let keys: Vec<&str> = found.cures[0]
@@ -247,7 +246,7 @@ fn cures_by_hand() {
     );
 }
 
-/// Cycles without a common period: what all of them feed back at once, and on average, is enough for any phases.
+/// Cycles without a common period: the simultaneous peak of all axes, and the mean, bound any phases.
 #[test]
 fn without_a_common_period_the_bounds_are_enough() {
     let brakes = |period: f64, back: f64| {
@@ -311,7 +310,7 @@ fn without_a_common_period_the_bounds_are_enough() {
                 .contains("no common period within 100000 cycles")
         );
     }
-    // What is not known is asked for in words.
+    // Missing data are requested in the text.
     let open = Supply {
         capacitance: Some(1e-5),
         max_voltage: Some(750.0),
@@ -330,7 +329,7 @@ fn without_a_common_period_the_bounds_are_enough() {
     );
 }
 
-/// Figures of five digits and more are rounded to four as well, to the side where they are enough.
+/// Figures of five digits and more are also rounded to four, to the sufficient side.
 #[test]
 fn large_figures_are_rounded_to_the_safe_side() {
     let curve = PowerCurve::new(
@@ -359,7 +358,7 @@ fn large_figures_are_rounded_to_the_safe_side() {
     );
 }
 
-/// A supply that keeps the bus at its limit can take energy back; one above the limit helps nothing.
+/// A supply at the bus's voltage limit can take energy back; one above the limit is not a cure.
 #[test]
 fn a_supply_at_the_limit_may_take_energy_back() {
     let curve = || {
@@ -384,8 +383,8 @@ fn a_supply_at_the_limit_may_take_energy_back() {
     }
 }
 
-/// Two axes whose braking is too much for a resistor in step and nothing half a period apart: they may be shifted, unless the resistance is
-/// below what the chopper may switch, which no phases mend.
+/// Two axes whose braking exceeds a resistor in step and cancels half a period apart: shifting is a cure, unless the resistance is below the
+/// chopper's least one.
 #[test]
 fn phases_do_not_mend_a_resistance() {
     let curve = || {

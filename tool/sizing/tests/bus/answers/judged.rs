@@ -1,4 +1,4 @@
-//! What is judged, what is asked for, and what is said of it.
+//! Judged figures, requested data, and the text about them.
 
 use jred_machine::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::conflict::Conflict;
@@ -10,7 +10,7 @@ use super::super::near;
 use super::{NOTHING, RESISTOR, answer};
 use crate::support::within;
 
-/// Whoever gives what is asked for is not asked for it again, until nothing is open; what is asked for is one of the figures that are not checked.
+/// Data that were given are not requested again, until nothing is open; only figures that are not checked are requested.
 #[test]
 fn questions_are_closed_by_what_they_ask_for() {
     let brakes = PowerCurve::new(
@@ -53,7 +53,7 @@ fn questions_are_closed_by_what_they_ask_for() {
         };
         assert_eq!(asked, expected);
     }
-    // With a resistor all of its figures are asked for, where it comes on; a voltage that nothing limits is no question.
+    // With a resistor that switches on all of its figures are requested; an unlimited voltage is not.
     let resistor = Supply {
         capacitance: Some(1e-4),
         chopper_voltage: Some(700.0),
@@ -75,7 +75,7 @@ fn questions_are_closed_by_what_they_ask_for() {
             "brake_resistor.pulse_energy"
         ]
     );
-    // It holds the voltage where it comes on, which is no rise without one.
+    // The resistor holds its switch-on voltage, which is not a rise without one.
     let words = &answer(std::slice::from_ref(&brakes), &resistor, false).open()[0].words;
     assert!(
         words.contains("rises from 560 V to 700 V: give max_voltage"),
@@ -83,7 +83,7 @@ fn questions_are_closed_by_what_they_ask_for() {
     );
     let drives = PowerCurve::new([[0.0, 2500.0], [2.0, 2500.0]], 2.0);
     assert_eq!(keys(&resistor, &drives), ["max_voltage"]);
-    // More comes back than is drawn, and nothing takes it.
+    // More is regenerated than drawn, and nothing absorbs it.
     let hoist = PowerCurve::new(
         [[0.0, 100.0], [1.0, 100.0], [1.0, -300.0], [2.0, -300.0]],
         2.0,
@@ -95,7 +95,7 @@ fn questions_are_closed_by_what_they_ask_for() {
     let found = answer(&[hoist], &unbounded, false);
     assert!(found.judged()[0].is_infinite() && found.open().is_empty());
     assert!(!found.holds() && found.failed()[0].limit.is_none());
-    // What rises is said, from where to where.
+    // The text gives start and end of the rise.
     let found = answer(&[brakes], &unbounded, false);
     let highest = (560.0f64.powi(2) + 2.0 * 3500.0 / 1e-4).sqrt();
     let words = &found.open()[0].words;
@@ -107,7 +107,7 @@ fn questions_are_closed_by_what_they_ask_for() {
     );
 }
 
-/// A figure at its limit satisfies it, on the right side of it; without a figure nothing is known, without a limit it fails.
+/// A figure at its limit satisfies it, from the correct side. Without a figure nothing is known; without a limit it fails.
 #[test]
 fn checks_hold_on_their_side() {
     let check = |what, figure, limit| BusCheck {
@@ -144,7 +144,7 @@ fn checks_hold_on_their_side() {
     }
 }
 
-/// Each names its two voltages, which is which, and the keys to change.
+/// Each names its two voltages with their meaning, and the keys to change.
 #[test]
 fn conflicts_name_their_voltages() {
     for (conflict, voltages, words) in [
@@ -190,7 +190,7 @@ fn conflicts_name_their_voltages() {
             assert!(found.contains(key), "{key}: {found}");
         }
     }
-    // Where nothing comes back no resistor is needed, and the conflict does not matter.
+    // Without regenerated energy no resistor is needed, and the conflict is irrelevant.
     let late = Supply {
         capacitance: Some(1e-4),
         chopper_voltage: Some(850.0),
@@ -207,7 +207,7 @@ fn conflicts_name_their_voltages() {
     assert!(matches!(found.conflict(), Some(Conflict::LateChopper { .. })) && found.need.is_none());
 }
 
-/// Of the resistors that meet what is needed the smallest, of equal ones the cheapest; the maker's own figures come first.
+/// Of the sufficient resistors the smallest, of equal ones the cheapest; the maker's own figures come first.
 #[test]
 fn the_smallest_resistor_that_is_enough_is_proposed() {
     let brakes = PowerCurve::new(
@@ -256,7 +256,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
     {
         assert!(!need.is_met(&other("", change)), "{k}");
     }
-    // No figure of the pulse is no objection.
+    // A missing figure of the pulse does not exclude it.
     assert!(need.is_met(&other("", &|r| r.pulse_energy = None)));
     let list = [
         other("small but third-party", &|r| r.from_maker = false),
@@ -273,7 +273,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
         Some("small but third-party")
     );
     assert_eq!(proposed(&list[4..]), None);
-    // The chopper may not switch what would be needed.
+    // The chopper cannot switch the required resistance.
     let impossible = Supply {
         min_resistance: Some(2.0 * need.largest_resistance),
         ..supply
@@ -299,7 +299,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
     );
 }
 
-/// Two equal axes half a period apart do nothing to the bus, in step everything: what is judged is the worst of all phases, or what they do in step.
+/// Two equal axes half a period apart cancel on the bus, in step they add up: judged are the worst phases, or those in step.
 #[test]
 fn the_worst_phases_are_judged() {
     let brakes = PowerCurve::new(
@@ -334,7 +334,7 @@ fn the_worst_phases_are_judged() {
             within("judged", found, expected, 1e-6 * expected);
         }
     }
-    // Requirements in words: all of its figures.
+    // The required figures in the text: all of them.
     let bare = Supply {
         brake_resistor: None,
         max_voltage: Some(710.0),
@@ -349,7 +349,7 @@ fn the_worst_phases_are_judged() {
     );
 }
 
-/// Of two axes half a period apart one takes what the other gives: a common resistor saves what two would burn; in step it saves nothing.
+/// Two axes half a period apart, one drawing the energy of the other: a common resistor saves what two would dissipate; in step it saves nothing.
 #[test]
 fn what_a_common_resistor_saves() {
     let brakes = PowerCurve::new(
