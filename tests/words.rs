@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 
 /// A phrase (lower case), and how often it may be in comments, documents and messages: those of the snapshots, as a user reads them.
 const CEILINGS: [(&str, [usize; 3]); 14] = [
-    ("// what ", [300, 0, 0]),
-    ("no number", [20, 1, 0]),
-    ("is none", [20, 1, 0]),
-    ("are none", [20, 1, 0]),
-    ("for ever", [10, 1, 0]),
+    ("// what ", [40, 1, 0]),
+    ("no number", [4, 1, 0]),
+    ("is none", [4, 1, 3]),
+    ("are none", [0, 1, 0]),
+    ("for ever", [1, 1, 0]),
     ("for want of", [0, 1, 0]),
-    ("looked at", [15, 1, 0]),
-    (" a hair", [6, 1, 0]),
-    ("of itself", [10, 1, 0]),
-    ("so many", [40, 1, 0]),
-    ("whichever", [15, 1, 0]),
-    ("sought", [10, 1, 0]),
-    ("mind: ", [0, 1, 0]),
-    ("stands beside", [2, 1, 0]),
+    ("looked at", [1, 1, 0]),
+    (" a hair", [1, 1, 0]),
+    ("of itself", [0, 1, 0]),
+    ("so many", [5, 0, 0]),
+    ("whichever", [2, 1, 0]),
+    ("sought", [0, 1, 0]),
+    ("mind: ", [0, 0, 0]),
+    ("stands beside", [0, 1, 0]),
 ];
 
 /// A count may be this much below its ceiling; then the ceiling must fall.
@@ -52,6 +52,13 @@ fn lines(root: &Path, end: &str, keeps: fn(&str) -> bool) -> Vec<String> {
     lines.collect()
 }
 
+/// Whether a line has the phrase as whole words.
+fn has(line: &str, phrase: &str) -> bool {
+    let is_letter = |c: char| c.is_alphabetic();
+    let mut ends = line.match_indices(phrase).map(|(at, _)| &line[at + phrase.len()..]);
+    ends.any(|rest| phrase.ends_with(' ') || !rest.starts_with(is_letter))
+}
+
 #[test]
 fn nobody_writes_the_dialect() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -73,7 +80,7 @@ fn nobody_writes_the_dialect() {
             .iter()
             .zip([&comments, &documents, &messages].into_iter().zip(ceilings))
         {
-            let count = lines.iter().filter(|line| line.contains(phrase)).count();
+            let count = lines.iter().filter(|line| has(line, phrase)).count();
             if count > ceiling {
                 wrong.push(format!("{phrase:?} is in {count} lines of {place}, above {ceiling}: docs/glossary.md has better words"));
             } else if count + SLACK < ceiling {

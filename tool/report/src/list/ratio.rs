@@ -62,7 +62,7 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
             "best ratio: the ratio with the smallest RMS torque, which is listed as RMS. RMS ratio: range in which \
              that torque is within the limit for the rated torque. Ratio: range in which the motor satisfies every \
              rule (S1 torque at its speed, peak torque, speed, holding torque and inertia ratio); limited by: the rule \
-             violated below and above the range, or the reason why there is none."
+             violated below and above the range, or the reason why no ratio satisfies them."
                 .to_owned(),
             "gearboxes: those in the catalogue with a ratio in the range; in brackets: the drive violates a rule \
              because of the limits, inertia or losses of the gearbox."
