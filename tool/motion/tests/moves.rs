@@ -1,7 +1,7 @@
 //! What motions are made of.
 
 use jred::machine::motion::Law;
-use jred_machine::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, Segment};
 use jred_motion::moves::{Move, NoMoves, Part, chain};
 
 /// Moves, a pause, a move that goes on through a joint of two segments in motion, and one straight back.

@@ -1,6 +1,6 @@
 //! What was found, written: tables, listings, plots and pages.
 //!
-//! Behind [`jred_machine`], [`jred_sizing`] and [`jred_motion`], whose results are data, and before the command, which prints.
+//! Behind [`jred_file`], [`jred_sizing`] and [`jred_motion`], whose results are data, and before the command, which prints.
 //!
 //! 1. [`table`]: columns, rows and sheets as aligned tables, CSV or JSON.
 //! 2. [`answer`] and [`list`]: the answers of the commands, each built once and rendered as text, CSV, JSON and HTML.

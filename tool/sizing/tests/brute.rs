@@ -1,7 +1,7 @@
 //! What a cycle asks of a drive, by plain loops over its samples: the oracle of `Cycle`'s own way, and what it is timed against.
 #![allow(dead_code)]
 
-use jred_machine::analysis::duty::{Duty, Smooth};
+use jred_analysis::duty::{Duty, Smooth};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::cycle::{Cycle, Peak};
 use jred_sizing::motor::envelope::Envelope;

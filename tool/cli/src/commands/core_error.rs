@@ -1,7 +1,7 @@
 //! The core's errors in a report: what is wrong, and its cure as help.
 
 use jred::Error;
-use jred_machine::analysis::duty::Fault;
+use jred_analysis::duty::Fault;
 use miette::{Report, miette};
 
 /// The report of what stands in the way of a duty.

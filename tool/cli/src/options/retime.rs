@@ -13,7 +13,7 @@ use jred_motion::retime::Goal;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
-jred_machine::words! {
+jred_file::words! {
     /// How a move begins and ends.
     pub enum Ends default Free {
         /// The acceleration jumps at rest: the least of all motions.

@@ -1,7 +1,7 @@
 //! How finely a cycle is sampled.
 
 use clap::Args;
-use jred_machine::analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
+use jred_analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
 
 /// Largest error that can be asked for.
 const MOST_TOLERANCE: f64 = 1e-2;

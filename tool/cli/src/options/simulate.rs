@@ -16,7 +16,7 @@ pub struct Simulate {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// By how much a further machine's drive link is ahead of that start, e.g. "180 deg"; one for each of them, in their order.
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_machine::read::angle_argument)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::angle_argument)]
     pub phase: Vec<f64>,
     /// The drive in the place of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its
     /// full torque.

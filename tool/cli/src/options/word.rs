@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use jred_machine::number::words::Word;
+use jred_file::number::words::Word;
 
 /// Reads a word; the help lists all of them with what they mean.
 pub(super) fn word<T: Word>() -> impl TypedValueParser<Value = T> {

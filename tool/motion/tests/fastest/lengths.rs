@@ -1,6 +1,6 @@
 //! Ways of every length: between its nodes, too, a motion asks for no more torque than the motor has, in steps however short.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, NoMotion, solve};
 
 use super::{fastest, machine, motor, scales, table, task};

@@ -1,7 +1,7 @@
 //! A search of its own: polynomials with fourteen free coefficients over the time, by Levenberg and Marquardt's method.
 
 use jred::mechanism::TrainOutput;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::gentlest::{Objective, Travel};
 
 use super::{best, example, travel};

@@ -1,7 +1,7 @@
 //! A one-sided contact that a motion loses, in words.
 
-use jred_machine::model::axis::Axis;
-use jred_machine::number::rounding::short;
+use jred_file::model::axis::Axis;
+use jred_file::number::rounding::short;
 use jred_motion::contact::Broken;
 
 /// Where it is lost, when and by what force.

@@ -1,6 +1,6 @@
 //! The words for process loads that drive a machine, for every listing that knows what they do in a turn.
 
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 /// Share of the energy turned over from which the work of process loads drives the machine.
 const DRIVING: f64 = 1e-3;

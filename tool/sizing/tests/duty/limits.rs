@@ -1,6 +1,6 @@
 //! The torque-speed limits of motors, and what is assumed where the data sheet does not say.
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;

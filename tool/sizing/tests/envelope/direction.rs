@@ -1,7 +1,7 @@
 //! Quadrants: what a motor draws depends on whether it drives or brakes, not on which way it turns; and torque that is the same at every speed.
 
-use jred_machine::model::site::Site;
-use jred_machine::units::RPM;
+use jred_file::model::site::Site;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Prepared};
 

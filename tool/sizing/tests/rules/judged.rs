@@ -1,6 +1,6 @@
 //! A judged drive: what is assumed of its data, what it uses, and where missing data belong.
 
-use jred_machine::model::rules::{Limit, Verdict};
+use jred_file::model::rules::{Limit, Verdict};
 use jred_sizing::catalogue::Amplifier;
 use jred_sizing::judge::{Judged, Outcome, cure};
 

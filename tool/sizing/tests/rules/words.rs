@@ -1,8 +1,8 @@
 //! Every rule in words: unit, what the limit is of, and what is missing where a figure is.
 
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::supply::BrakeResistor;
-use jred_machine::units::RPM;
+use jred_file::model::rules::Verdict;
+use jred_file::model::supply::BrakeResistor;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor};
 use jred_sizing::motor::envelope::Prepared;
 

@@ -1,7 +1,7 @@
 //! How the rules of sizing judge the motion, and what was lowered for them.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::number::rounding::{percent, short};
+use jred_file::model::rule::Rule;
+use jred_file::number::rounding::{percent, short};
 use jred_motion::fastest::ruled::{Cap, Judged};
 use jred_sizing::judge::check::Check;
 
