@@ -1,6 +1,7 @@
-//! Commands for developers of jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`.
+//! Commands for developers of jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`, `cargo xtask book`.
 #![forbid(unsafe_code)]
 
+mod book;
 mod bounds;
 mod c;
 mod calls;
@@ -37,6 +38,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Book(book::Options),
     Perf(perf::Options),
     Loaded(loaded::Options),
     C(c::Options),
@@ -45,6 +47,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
+        Command::Book(options) => book::run(&options),
         Command::Perf(options) => perf::run(&options),
         Command::Loaded(options) => loaded::run(&options),
         Command::C(options) => c::run(&options),

@@ -23,6 +23,7 @@ mod many_rows;
 mod meter;
 mod motions;
 mod outputs;
+mod pages;
 mod points;
 mod press;
 mod reactions;

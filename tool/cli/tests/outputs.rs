@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use jred_cli::output::{Output, write};
 
-use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text};
+use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text, shipped};
 
 /// A file of the repository.
 fn of_repository(path: &str) -> String {
@@ -200,7 +200,7 @@ fn leftovers_are_passed_over() {
 /// The inertia of a planetary gear is constant: no rounding error of its derivative is printed as a value.
 #[test]
 fn what_is_zero_is_printed_as_zero() {
-    let machine = press_file().with_file_name("linkage-planetary.toml");
+    let machine = shipped("linkage-planetary.toml");
     let reduced = jred([&"reduce", &machine, &"--positions", &"12"])
         .ends(0)
         .out;
@@ -209,7 +209,7 @@ fn what_is_zero_is_printed_as_zero() {
     for line in reduced.lines().chain(explained.lines()) {
         assert!(!line.contains("e-1"), "{line}");
     }
-    let bucket = press_file().with_file_name("excavator-bucket.toml");
+    let bucket = shipped("excavator-bucket.toml");
     let explained = jred([&"size", &bucket, &"--explain"]).out;
     assert!(explained.contains(" 0.0 %") && !explained.contains("-0.0 %"));
 }

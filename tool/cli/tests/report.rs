@@ -7,7 +7,7 @@ mod words;
 
 use std::path::Path;
 
-use crate::support::{Folder, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, edited_press, jred, press_file, press_text, shipped};
 
 /// The elements `<svg …>…</svg>`, parsed.
 fn plots(page: &str) -> Vec<&str> {
@@ -358,7 +358,7 @@ fn the_page_of_a_simulation() {
 fn the_page_of_a_simulation_that_slides() {
     let folder = Folder::new();
     let plot = folder.path("plot.html");
-    let machine = press_file().with_file_name("linear-gripper.toml");
+    let machine = shipped("linear-gripper.toml");
     jred([&"simulate", &machine, &"--plot", &plot]).ends(0);
     let page = std::fs::read_to_string(plot).unwrap();
     check_plots(&page, 6);
@@ -379,7 +379,7 @@ fn the_potential_names_its_springs() {
     };
     let press = page("press.html", &press_file());
     assert!(press.contains("weight −U′") && !press.contains("springs −U′"));
-    let lever = press_file().with_file_name("linkage-cam-lever.toml");
+    let lever = shipped("linkage-cam-lever.toml");
     let lever = page("lever.html", &lever);
     assert!(lever.contains("weight and springs −U′"));
     assert!(!lever.contains("weight −U′"));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::support::schema::{VALIDATORS, faults};
-use crate::support::{Run, jred_with, press_file};
+use crate::support::{Run, jred_with, shipped};
 use jred_report::schemas;
 
 fn folder() -> PathBuf {
@@ -44,56 +44,74 @@ fn the_schemas_are_those_of_the_types() {
 
 #[test]
 fn every_answer_follows_its_schema() {
-    let press = press_file();
-    let with = |name: &str| press.with_file_name(name).display().to_string();
-    let files = [
-        press.display().to_string(),
-        with("hoist.toml"),
-        with("ball-screw.toml"),
-        with("belt-axis.toml"),
-        with("linkage-cam-lever.toml"),
-        with("pick-and-place.toml"),
-    ];
+    let folder = shipped("");
     let mut runs: Vec<Vec<String>> = Vec::new();
-    for file in &files {
-        for command in [
-            "check",
-            "reduce",
-            "reduce --points --reactions",
-            "size --explain --all --motor sgm*",
-            "size --pareto mass,rms-torque",
-            "ratio",
-            "bus",
-            "simulate --duration 0.2s",
-            "steady --torque 20Nm --delta 0.05",
-            "steady --mean-speed 60rpm",
-            "balance --least holding",
-            "fastest",
-            "retime",
-            "sensitivity",
-            "tolerance --samples 8",
-            "export --torque-error 1% --format json",
-            "export --prove --torque-error 5% --format json --type i32",
-        ] {
-            let mut words = command.split(' ').map(str::to_owned);
-            let name = words.next().unwrap();
-            runs.push([vec![name, file.clone()], words.collect()].concat());
+    for (machines, commands) in [
+        (
+            &[""][..],
+            &[
+                "rules",
+                "rules fanuc",
+                "split --ratio 50 --stages 2 --pinion 0.2kgcm^2",
+            ][..],
+        ),
+        (
+            &[
+                "press",
+                "hoist",
+                "linear-gripper",
+                "linkage-cam-lever",
+                "pick-and-place",
+            ],
+            &[
+                "check",
+                "reduce",
+                "reduce --points",
+                "simulate",
+                "size",
+                "fastest",
+                "retime",
+            ],
+        ),
+        (
+            &["press", "ball-screw"],
+            &[
+                "reduce --reactions --positions 24",
+                "size --explain --top 3",
+                "size --pareto power,mass",
+                "bus",
+                "steady --delta 0.05",
+                "steady --mean-speed 60rpm",
+                "balance --counterweight crank,20kg,200mm",
+                "tolerance --samples 8 --tolerance motion.segment.1.duration=5%",
+                "export --torque-error 1Nm",
+                "export --torque-error 1Nm --type i32 --layout spline --prove",
+            ],
+        ),
+        (
+            &["press"],
+            &[
+                "ratio",
+                "size --motion best",
+                "fastest --drive sgm7a-25a+tp004mf-4 --reserve rules",
+            ],
+        ),
+        (&["belt-axis"], &["sensitivity --change 5"]),
+    ] {
+        for machine in machines {
+            for command in commands {
+                let mut words: Vec<String> = command.split(' ').map(str::to_owned).collect();
+                if !machine.is_empty() {
+                    let file = folder.join(format!("{machine}.toml"));
+                    words.insert(1, file.display().to_string());
+                }
+                words.extend(["--format", "json"].map(str::to_owned));
+                runs.push(words);
+            }
         }
     }
-    runs.extend(
-        [
-            "rules",
-            "rules fanuc",
-            "split --ratio 50 --stages 2 --pinion 0.001",
-        ]
-        .map(|c| c.split(' ').map(str::to_owned).collect()),
-    );
     let mut met = BTreeSet::new();
-    for mut run in runs {
-        let formats = run.iter().any(|word| word == "--format");
-        if !formats {
-            run.extend(["--format".to_owned(), "json".to_owned()]);
-        }
+    for run in runs {
         let answer: Run = jred_with(&run);
         // A command that does not apply to the machine says so.
         if answer.code == 2 || answer.out.is_empty() {

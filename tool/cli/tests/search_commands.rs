@@ -1,6 +1,6 @@
 //! What `jred size` and `jred ratio` print of a search: ranking, filters, fronts, ratios.
 
-use crate::support::{jred, near, press_file, within};
+use crate::support::{jred, near, press_file, shipped, within};
 use jred_analysis::checked;
 use jred_analysis::duty::{Duty, STEPS};
 use jred_sizing::catalogue::Catalogue;
@@ -147,7 +147,7 @@ fn the_command_lists_ratios() {
 /// At constant speed there is no best ratio: the range of the RMS torque is open above, and a note says why.
 #[test]
 fn an_open_range_of_ratios_is_said_to_be_open() {
-    let conveyor = press_file().with_file_name("conveyor.toml");
+    let conveyor = shipped("conveyor.toml");
     let table = jred([&"ratio", &conveyor, &"--motor", &"sgmsh-30a"]).ends(0);
     assert!(table.out.contains(" or more"), "{}", table.out);
     assert!(table.out.contains("nothing accelerates"), "{}", table.out);

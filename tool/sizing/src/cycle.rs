@@ -28,7 +28,6 @@ mod factor;
 mod floor;
 pub mod form;
 mod front;
-mod kernels;
 mod power;
 mod repeats;
 pub(crate) mod speeds;

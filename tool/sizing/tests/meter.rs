@@ -4,7 +4,7 @@ mod curves;
 mod firmware;
 
 use crate::brute;
-use crate::support::{budget, edited_press, near, press_file};
+use crate::support::{budget, edited_press, near, press_file, shipped};
 use jred::duty::Curve;
 use jred_analysis::checked;
 use jred_analysis::duty::{Duty, STEPS};
@@ -90,7 +90,7 @@ fn violated_rules_are_named() {
 /// The figures of the cycle in the source are those of plain loops over its samples: with a drive to which energy comes back.
 #[test]
 fn sized_figures_are_those_of_the_samples() {
-    let file = checked::read(&press_file().with_file_name("hoist.toml")).unwrap();
+    let file = checked::read(&shipped("hoist.toml")).unwrap();
     with_limits(&file, |context, limits| {
         let source = limits.source("hoist.toml");
         let sized = source.split_once("pub const SIZED").unwrap().1;

@@ -5,7 +5,7 @@ mod tolerance;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::support::{Folder, budget, near, press_file, press_text, within};
+use crate::support::{Folder, budget, near, press_text, shipped, within};
 use jred_analysis::checked;
 use jred_analysis::duty::{Duty, Instant, Sampling};
 use jred_file::model::rule::Rule;
@@ -143,7 +143,7 @@ fn some_sections_do_not_reach_the_cycle() {
     const STEPS: usize = 60;
     let mut kept = 0;
     for name in ["hoist", "press", "rack", "toggle-press", "turntable"] {
-        let path = press_file().with_file_name(format!("{name}.toml"));
+        let path = shipped(format!("{name}.toml"));
         let study = Study::open(&path, strong(), None, STEPS).unwrap();
         let nominal = study.machine(&[]).unwrap().cycle;
         for (quantity, found) in study.document.quantities().iter().enumerate() {
@@ -378,7 +378,7 @@ fn shares_do_not_depend_on_the_sampling() {
         "toggle-press",
         "hoist",
     ] {
-        let path = press_file().with_file_name(format!("{name}.toml"));
+        let path = shipped(format!("{name}.toml"));
         let shares = |sampling: Sampling| {
             let study = Study::open(&path, strong(), None, sampling).ok()?;
             let filter = Filter::default();

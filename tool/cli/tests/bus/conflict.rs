@@ -88,7 +88,7 @@ fn a_chopper_above_the_highest_voltage() {
     // What is advised mends it.
     before[1].1 = "740 V".to_owned();
     let (text, answer) = run(&folder, &before, &[], &more, 1);
-    assert!(text.contains("resistor    required: "), "{text}");
+    assert!(text.contains("resistor     required: "), "{text}");
     assert!(!text.contains("no brake resistor can work here"), "{text}");
     assert!(answer["conflict"].is_null() && speaks_of_resistors(&answer));
     let kinds = mend(&folder, &before, &[], &more);

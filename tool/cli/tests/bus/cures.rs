@@ -3,11 +3,11 @@
 use serde_json::Value;
 
 use super::command::figure;
-use crate::support::{Folder, Run, jred_with, press_file, press_text};
+use crate::support::{Folder, Run, jred_with, press_text, shipped};
 
 /// A vertical axis that feeds back more than half of what it draws.
 fn lift() -> String {
-    std::fs::read_to_string(press_file().with_file_name("ball-screw.toml")).unwrap()
+    std::fs::read_to_string(shipped("ball-screw.toml")).unwrap()
 }
 
 /// Keys of `[supply]` and their values.
@@ -201,10 +201,10 @@ fn a_resistor_that_is_too_weak() {
     for more in [&["--in-step"][..], &[]] {
         let (text, answer) = run(&folder, &before, &[&lift], more, 1);
         for words in [
-            "resistor    is short of",
+            "  is short of",
             "W mean power",
             "J pulse energy",
-            "resistor    required: ",
+            "  required: ",
         ] {
             assert!(text.contains(words), "{words}\n{text}");
         }

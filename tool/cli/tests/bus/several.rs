@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use super::command::{SUPPLY, figure, says};
-use crate::support::{Folder, Run, budget, edited_press, near, press_file, press_text};
+use crate::support::{Folder, Run, budget, edited_press, near, press_file, press_text, shipped};
 
 fn lift() -> PathBuf {
-    press_file().with_file_name("ball-screw.toml")
+    shipped("ball-screw.toml")
 }
 
 /// The command with a few steps only.

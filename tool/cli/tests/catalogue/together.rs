@@ -3,7 +3,7 @@
 
 use super::{refuses, size_with};
 use crate::support::catalogue::{FIRST, HEADER, SECOND};
-use crate::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, press_file, shipped};
 
 const GEARBOX: &str = "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],max_input_speed [rpm],\
                        input_inertia [kg cm^2],efficiency [%],source\n";
@@ -178,7 +178,7 @@ fn given_twice() {
 
 #[test]
 fn a_folder_of_machines_is_no_catalogue() {
-    let machines = press_file().parent().unwrap().to_owned();
+    let machines = shipped("");
     for path in [machines.as_path(), &press_file()] {
         let run = jred([&"size", &press_file(), &"--catalogue", &path]).ends(2);
         run.says(&[

@@ -5,7 +5,7 @@ use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{Image, Phase, Rows16, Set, Spline, curves};
 
 use super::{export_of, words_of};
-use crate::support::{Folder, press_file};
+use crate::support::{Folder, shipped};
 
 const TABLE: &str = include_str!("friction_by_direction.toml");
 /// A motion in both directions, in place of one that turns.
@@ -88,8 +88,7 @@ fn a_joint_has_its_friction_in_both_directions() {
 fn a_slider_has_its_friction_in_both_directions() {
     let folder = Folder::new();
     let file = folder.path("slider.toml");
-    let feeder =
-        std::fs::read_to_string(press_file().with_file_name("shaking-feeder.toml")).unwrap();
+    let feeder = std::fs::read_to_string(shipped("shaking-feeder.toml")).unwrap();
     let text = feeder
         .replace(
             "[\"0 m/s^2\", \"-9.81 m/s^2\"]",

@@ -3,10 +3,10 @@
 use serde_json::Value;
 
 use super::export_of;
-use crate::support::press_file;
+use crate::support::shipped;
 
 fn chosen(file: &str, more: &[&str]) -> Value {
-    let file = press_file().with_file_name(file);
+    let file = shipped(file);
     let more = [more, &["--format", "json"]].concat();
     export_of(&file, &more, None).ends(0).json()
 }

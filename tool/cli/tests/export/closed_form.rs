@@ -5,7 +5,7 @@ use jred::{Image, ImageError, Phase, Reducible as _, Set, SliderCrankForm, Splin
 
 use super::images::{errors, machine};
 use super::{export_of, feeder_form, number_after, words_of};
-use crate::support::{Folder, press_file};
+use crate::support::{Folder, press_file, shipped};
 
 const SET: Set = curves::LOAD
     | curves::VISCOUS
@@ -14,10 +14,6 @@ const SET: Set = curves::LOAD
     | terms::INERTIA_COS
     | terms::LOAD_SIN
     | terms::LOAD_COS;
-
-pub(super) fn shipped(name: &str) -> std::path::PathBuf {
-    press_file().with_file_name(name)
-}
 
 /// Whatever error is asked for, down to single precision's own: the form meets it.
 #[test]

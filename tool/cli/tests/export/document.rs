@@ -7,7 +7,7 @@ use jred::{Cubic, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16};
 
 use super::reader::{Read, Reader};
 use super::{KINDS, image, images_of};
-use crate::support::{Folder, budget, press_file};
+use crate::support::{Folder, budget, shipped};
 
 /// The library's reading of the same image at these places.
 fn library(words: &[u32], kind: (&str, &str), places: &[u32]) -> Vec<Read> {
@@ -139,7 +139,7 @@ fn the_document_gives_the_curves_of_other_machines() {
         ("excavator-bucket.toml", [0.151, 0.339]),
         ("geneva.toml", [TAU, TAU * TAU]),
     ] {
-        let file = press_file().with_file_name(machine);
+        let file = shipped(machine);
         for (words, kind) in images_of(&file, 1500, range).iter().zip(KINDS) {
             compare(words, kind);
         }

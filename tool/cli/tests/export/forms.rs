@@ -212,7 +212,7 @@ fn compiled(folder: &Folder, files: &[&str]) -> Result<(), String> {
 #[test]
 fn two_tables_of_one_name_do_not_compile() {
     let folder = Folder::new();
-    let four_bar = super::closed_form::shipped("four-bar.toml");
+    let four_bar = crate::support::shipped("four-bar.toml");
     let write = |file: &std::path::Path, out: &str, more: &[&str]| {
         let fixed = [
             "--format",

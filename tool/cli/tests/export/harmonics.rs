@@ -5,7 +5,7 @@ use jred::{Harmonic, Image, ImageError, Phase, Reducible as _, Set, Spline, curv
 
 use super::images::{machine, random};
 use super::{export, export_of, number_after, words_of};
-use crate::support::{Folder, budget, press_file};
+use crate::support::{Folder, budget, press_file, shipped};
 
 /// The press without its pressing force, whose edges need a table.
 fn smooth(folder: &Folder) -> std::path::PathBuf {
@@ -133,7 +133,7 @@ fn what_has_an_edge_or_a_stroke_is_refused() {
     let (run, _) = export(&folder, &[&harmonic[..], &["--max-cells", "8"]].concat());
     run.ends(1)
         .says(&["harmonics reach a torque error", "needs a table"]);
-    let stroke = press_file().with_file_name("linear-gripper.toml");
+    let stroke = shipped("linear-gripper.toml");
     let arguments = ["--layout", "harmonic", "--torque-error", "2 N"];
     export_of(&stroke, &arguments, None)
         .ends(1)

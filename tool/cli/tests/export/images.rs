@@ -10,7 +10,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 
 use super::{KINDS, export, export_of, image, number_after, words_of};
-use crate::support::{Folder, budget, press_file};
+use crate::support::{Folder, budget, press_file, shipped};
 
 /// The curves of the press.
 const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -180,7 +180,7 @@ fn every_type_and_layout_holds_its_error() {
 #[test]
 fn every_machine_holds_its_error() {
     let folder = Folder::new();
-    let machines = press_file().parent().unwrap().to_path_buf();
+    let machines = shipped("");
     let mut files: Vec<_> = std::fs::read_dir(machines)
         .unwrap()
         .map(|entry| entry.unwrap().path())

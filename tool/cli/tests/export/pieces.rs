@@ -13,7 +13,7 @@ use jred_file::model::machine::MachineFile;
 
 use super::images::{errors, machine};
 use super::{KINDS, export_of, press_pieces};
-use crate::support::{Folder, Run, budget, edited_press, press_file};
+use crate::support::{Folder, Run, budget, edited_press, press_file, shipped};
 
 /// The curves of the press.
 const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -253,7 +253,7 @@ fn a_single_piece_begins_at_its_edge() {
             .contains("piece(0x2aaaaaab, &TABLE_1)?,")
     );
 
-    let gripper = press_file().with_file_name("linear-gripper.toml");
+    let gripper = shipped("linear-gripper.toml");
     let ends = [
         "--torque-error",
         "2 N",
@@ -268,7 +268,7 @@ fn a_single_piece_begins_at_its_edge() {
 /// A stroke is cut inside, from its start to its end.
 #[test]
 fn a_stroke_in_pieces_holds_its_error() {
-    let gripper = press_file().with_file_name("linear-gripper.toml");
+    let gripper = shipped("linear-gripper.toml");
     let arguments = [
         "--torque-error",
         "2 N",

@@ -4,7 +4,7 @@ use jred::Image;
 use serde_json::Value;
 
 use super::{export_of, words_of};
-use crate::support::{Folder, press_file};
+use crate::support::{Folder, press_file, shipped};
 
 #[test]
 fn a_proof_is_printed_and_stated_in_the_image() {
@@ -48,7 +48,7 @@ fn a_proof_is_printed_and_stated_in_the_image() {
 
 #[test]
 fn what_is_not_proven_is_named_and_ends_with_1() {
-    let cam = press_file().with_file_name("cam-translating.toml");
+    let cam = shipped("cam-translating.toml");
     let run = export_of(&cam, &["--torque-error", "0.5 N m", "--prove"], None);
     let run = run.ends(1);
     let why = "not proven: the motion that joint \"";

@@ -1,12 +1,12 @@
 //! What `jred export` says when there is no table, word by word.
 
 use super::{export_of, number_after};
-use crate::support::{Folder, edited_press, press_file};
+use crate::support::{Folder, edited_press, press_file, shipped};
 
 /// What goes by the motion is in no table over the position.
 #[test]
 fn what_goes_by_the_motion_is_refused() {
-    let lift = press_file().with_file_name("pick-and-place.toml");
+    let lift = shipped("pick-and-place.toml");
     let run = export_of(&lift, &["--torque-error", "1 N m"], None).ends(2);
     run.says(&[
         "load \"suction cup pressed on the part\" acts in segment 1: that goes by [motion], and a table is over the position",
@@ -42,7 +42,7 @@ fn a_table_too_coarse_names_the_cells() {
         ("load-table.toml", &reciprocal),
         ("six-link.toml", &reciprocal),
     ] {
-        let file = press_file().with_file_name(name);
+        let file = shipped(name);
         let run = export_of(&file, asked, None).ends(1);
         let most = asked[if asked.len() > 6 { 5 } else { 3 }];
         run.says(&[
@@ -179,7 +179,7 @@ fn another_layout_is_offered_where_it_does() {
 
 #[test]
 fn a_kink_of_the_mechanism_is_named() {
-    let geneva = press_file().with_file_name("geneva.toml");
+    let geneva = shipped("geneva.toml");
     let more = [
         "--torque-error",
         "0.0001 N m",
@@ -283,7 +283,7 @@ fn a_layout_that_the_type_has_not() {
 /// A drive link that slides has forces and speeds in m/s.
 #[test]
 fn quantities_of_a_link_that_slides() {
-    let hoist = press_file().with_file_name("excavator-bucket.toml");
+    let hoist = shipped("excavator-bucket.toml");
     export_of(&hoist, &["--torque-error", "100 N"], None).ends(0);
     let run = export_of(&hoist, &["--torque-error", "100 N m"], None).ends(2);
     run.says(&["--torque-error \"100 N m\" cannot be used", "N"]);
@@ -338,8 +338,8 @@ fn a_narrow_load_is_not_stepped_over() {
 #[test]
 fn pieces_that_are_not_possible() {
     let folder = Folder::new();
-    let gripper = press_file().with_file_name("linear-gripper.toml");
-    let plain = press_file().with_file_name("planetary.toml");
+    let gripper = shipped("linear-gripper.toml");
+    let plain = shipped("planetary.toml");
     let refused = |file: &std::path::Path, more: &[&str], words: &[&str]| {
         let more = [&["--torque-error", "2 N m"], more].concat();
         export_of(file, &more, None).ends(2).says(words);

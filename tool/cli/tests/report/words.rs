@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::{charts, plain};
-use crate::support::{Folder, jred, press_file, within};
+use crate::support::{Folder, jred, press_file, shipped, within};
 
 const LINEAR: &str = "\
 key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],source
@@ -15,7 +15,7 @@ own-m,linear,Own,M,140,3,150,450,4,1.8,invented
 fn a_page_of_a_linear_motor_speaks_of_masses() {
     let folder = Folder::new();
     let motors = folder.file("motors.csv", LINEAR);
-    let machine = press_file().with_file_name("linear-gripper.toml");
+    let machine = shipped("linear-gripper.toml");
     let path = folder.path("report.html");
     let run = jred([
         &"size",
@@ -56,7 +56,7 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
 #[test]
 fn a_slide_behind_a_screw_has_its_own_units() {
     let folder = Folder::new();
-    let gripper = press_file().with_file_name("linear-gripper.toml");
+    let gripper = shipped("linear-gripper.toml");
     let gripper = std::fs::read_to_string(gripper).unwrap();
     let (gripper, _) = gripper.split_once("[simulation]").unwrap();
     let screw = "[[drive_train]]\ntype = \"ball-screw\"\nlead = \"20 mm\"\ninertia = \"0.2 kg cm^2\"\n\n[motion]\n";

@@ -27,8 +27,14 @@ pub(crate) fn jred<const N: usize>(arguments: [&dyn AsRef<std::ffi::OsStr>; N]) 
 
 /// The same with any number of arguments.
 pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
+    jred_in(std::path::Path::new("."), arguments)
+}
+
+/// The same in a folder.
+pub(crate) fn jred_in(folder: &std::path::Path, arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"));
     command
+        .current_dir(folder)
         .env("NO_COLOR", "1")
         // How long a command takes is nobody's message.
         .env("JRED_PROGRESS", "never")
@@ -106,7 +112,7 @@ impl Run {
 pub(crate) fn sizeable_machines() -> Vec<std::path::PathBuf> {
     // No drive of the catalogue slides, and no ratio over the time can be sized.
     let refused = ["linear-gripper.toml", "variator-press.toml"];
-    let files = std::fs::read_dir(press_file().parent().unwrap()).unwrap();
+    let files = std::fs::read_dir(shipped("")).unwrap();
     let files = files.map(|entry| entry.unwrap().path());
     let is_machine = |file: &std::path::PathBuf| {
         file.extension().is_some_and(|end| end == "toml")

@@ -11,7 +11,7 @@ use jred_motion::way::Actuator;
 use jred_sizing::cycle::form::Coefficients;
 
 use super::{close, motor, table, task};
-use crate::support::press_file;
+use crate::support::{press_file, shipped};
 
 /// What is left of the time where pieces meet the switching points.
 pub(super) const NEAR: f64 = 1e-6;
@@ -343,7 +343,7 @@ fn a_phase_at_two_limits_is_one() {
 /// Where a torque is in the way of a limited jerk, the jerk is among the cures.
 #[test]
 fn the_cure_names_the_jerk() {
-    let path = press_file().with_file_name("eccentric-press.toml");
+    let path = shipped("eccentric-press.toml");
     let file = jred_analysis::checked::read(&path).unwrap();
     let asked = Task {
         limits: Limits {

@@ -9,7 +9,7 @@ use jred_sizing::cycle::form::Coefficients;
 
 use super::jerk::{NEAR, ROUNDING, WITHIN, cubic, seven, smooth};
 use super::{close, motor, table, task};
-use crate::support::{edited_press, press_file};
+use crate::support::{edited_press, press_file, shipped};
 
 /// What is left of the time where a limit that does not bind changes the way in which the search comes to its end [3e-8].
 const CHANGES_NOTHING: f64 = 1e-6;
@@ -165,8 +165,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
 /// Where two parabolas of a cam meet the torque jumps; a limited jerk bears it.
 #[test]
 fn a_load_that_jumps_has_no_torque_rate() {
-    let text =
-        std::fs::read_to_string(press_file().with_file_name("cam-translating.toml")).unwrap();
+    let text = std::fs::read_to_string(shipped("cam-translating.toml")).unwrap();
     let file = super::machine(&text.replace("modified-sine", "parabola"));
     let limits = Limits {
         torque_rate: Some(1e3),

@@ -1,5 +1,7 @@
 //! The data of an answer as JSON, and the schema of it.
 
+use std::collections::BTreeSet;
+
 use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -54,6 +56,11 @@ pub(crate) fn of<D: Data>() -> (&'static str, Schema) {
     (D::FORM, root::<D>(D::FORM, D::HAS_COURSE))
 }
 
+/// The keys of an object.
+fn names(map: &Map<String, Value>) -> Vec<Value> {
+    map.keys().cloned().map(Value::from).collect()
+}
+
 fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
     let generator = SchemaGenerator::new(SchemaSettings::draft2020_12().for_serialize());
     let mut schema = generator.into_root_schema_for::<D>();
@@ -74,20 +81,17 @@ fn root<D: JsonSchema>(form: &'static str, has_course: bool) -> Schema {
             "type": "array", "items": { "type": "array", "items": { "type": ["number", "null"] } },
         }));
     }
-    let own = schema.remove("properties");
-    let required = schema.remove("required");
-    let names = |map: &Map<String, Value>| map.keys().cloned().map(Value::from).collect::<Vec<_>>();
-    let mut all = names(&head);
-    all.extend(
-        required
-            .and_then(|r| r.as_array().cloned())
-            .unwrap_or_default(),
-    );
-    all.extend(names(&tail));
-    head.extend(
-        own.and_then(|own| own.as_object().cloned())
-            .unwrap_or_default(),
-    );
+    let own = schema.remove("properties").unwrap_or_default();
+    for (key, value) in own.as_object().into_iter().flatten() {
+        head.entry(key.clone()).or_insert_with(|| value.clone());
+    }
+    let required = schema.remove("required").unwrap_or_default();
+    let required = required.as_array().into_iter().flatten();
+    let mut all: Vec<Value> = vec!["schema".into(), "title".into()];
+    all.extend(required.chain(&names(&tail)).cloned());
+    // A form that has its own head names it twice.
+    let mut known = BTreeSet::new();
+    all.retain(|key| known.insert(key.to_string()));
     head.extend(tail);
     schema.insert("title".into(), form.into());
     schema.insert("properties".into(), head.into());

@@ -1,9 +1,6 @@
 //! A few stretches that cover the cycle, contiguous in memory, so that one pass finds those that can contain a peak.
 
-use pulp::Arch;
-
 use super::Sample;
-use super::kernels::{Above, Bounds, Signs};
 use super::tree::{Direction, Node, Tree};
 use crate::cycle::form::LOADS;
 
@@ -13,10 +10,9 @@ pub(super) const WIDTH: usize = 32;
 const _: () = assert!(WIDTH <= u32::BITS as usize, "a bit for each stretch");
 
 /// The stretches: their positions in the tree, and bounds of a torque on them. Each array contains one figure of all stretches, so that the compiler
-/// vectorises the loops with the widest instructions of the processor.
+/// vectorises the loops.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
-    vectors: Arch,
     /// Indices of the nodes in order of time; those beyond `len` are unused.
     pub(super) nodes: [u32; WIDTH],
     /// Number of stretches.
@@ -35,7 +31,6 @@ pub(super) struct Front {
 impl Front {
     pub(super) fn new(tree: &Tree, samples: &[Sample], largest: &[f64; LOADS]) -> Self {
         let mut front = Self {
-            vectors: Arch::new(),
             nodes: [0; WIDTH],
             len: 0,
             middle: [[0.0; WIDTH]; LOADS],
@@ -93,23 +88,17 @@ impl Front {
     /// Upper bound of |c·x| on each stretch; zero beyond `len`.
     pub(super) fn bounds(&self, c: &[f64; LOADS]) -> [f64; WIDTH] {
         let mut bounds = [0.0; WIDTH];
-        self.vectors.dispatch(Bounds {
-            front: self,
-            c,
-            found: &mut bounds,
-        });
+        let magnitude = c.map(f64::abs);
+        for (k, bound) in bounds.iter_mut().enumerate() {
+            *bound = self.bound(c, &magnitude, k);
+        }
         bounds
     }
 
     /// Whether a torque c·x opposes the speed anywhere, by more than `slack`. It is decided if an end of a stretch shows it, or if no stretch can
     /// contain it; otherwise the error is a bit for each stretch that can.
     pub(super) fn against_speed(&self, c: &[f64; LOADS], slack: f64) -> Result<bool, u32> {
-        let mut least = [0.0; WIDTH];
-        let lowest = self.vectors.dispatch(Signs {
-            front: self,
-            c,
-            least: &mut least,
-        });
+        let (lowest, least) = self.signs(c);
         if lowest < -slack {
             return Ok(true);
         }
@@ -123,13 +112,35 @@ impl Front {
         if open == 0 { Ok(false) } else { Err(open) }
     }
 
+    /// The least T·sgn n at an end of a stretch, and a lower bound on each stretch.
+    fn signs(&self, c: &[f64; LOADS]) -> (f64, [f64; WIDTH]) {
+        let magnitude = c.map(f64::abs);
+        let [first, last] = &self.directions;
+        let (mut least, mut ends) = ([0.0; WIDTH], [0.0f64; WIDTH]);
+        for (k, (least, end)) in least.iter_mut().zip(&mut ends).enumerate() {
+            let (middle, half) = (form(c, &self.middle, k), form(c, &self.half, k));
+            *end = (first[k] * (middle - half)).min(last[k] * (middle + half));
+            *least = self.direction[k] * middle - half.abs() - form(&magnitude, &self.reach, k);
+        }
+        (
+            ends.iter().fold(0.0, |lowest: f64, end| lowest.min(*end)),
+            least,
+        )
+    }
+
     /// Upper bound over all stretches of |c·x| minus a line over speed, given by its value at rest and its slope.
     pub(super) fn most_above(&self, c: &[f64; LOADS], line: [f64; 2]) -> f64 {
-        self.vectors.dispatch(Above {
-            front: self,
-            c,
-            line,
-        })
+        let bounds = self.bounds(c);
+        let above = bounds.iter().zip(self.floors(line));
+        let above = above.map(|(bound, floor)| bound - floor);
+        above.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Upper bound of |c·x| on a stretch: the larger magnitude of middle ± half is the sum of both magnitudes.
+    fn bound(&self, c: &[f64; LOADS], magnitude: &[f64; LOADS], k: usize) -> f64 {
+        form(c, &self.middle, k).abs()
+            + form(c, &self.half, k).abs()
+            + form(magnitude, &self.reach, k)
     }
 
     /// The end of the speed range at which a line of this slope is smallest, for each stretch; it is the same end on all.
@@ -147,6 +158,10 @@ impl Front {
         }
         floors
     }
+}
+
+fn form(c: &[f64; LOADS], x: &[[f64; WIDTH]; LOADS], k: usize) -> f64 {
+    c[0] * x[0][k] + (c[1] * x[1][k] + c[2] * x[2][k]) + (c[3] * x[3][k] + c[4] * x[4][k])
 }
 
 #[cfg(test)]

@@ -206,6 +206,7 @@ struct RankedData<'a> {
     #[serde(flatten)]
     drive: DriveData<'a>,
     /// Rank among the drives that violate no rule, from 1; null: refused.
+    #[schemars(range(min = 1))]
     rank: Option<usize>,
 }
 

@@ -1,7 +1,5 @@
 //! Whether a torque opposes the speed, by the ends of stretches and by bounds between them.
 
-use pulp::NullaryFnOnce as _;
-
 use super::*;
 use crate::cycle::form::Coefficients;
 
@@ -120,13 +118,7 @@ fn the_signs_are_those_of_the_samples() {
         .flat_map(|stretch| [stretch, mirrored(stretch)])
     {
         let (front, samples) = front(&[stretch]);
-        let mut least = [0.0; WIDTH];
-        let lowest = Signs {
-            front: &front,
-            c: &C,
-            least: &mut least,
-        }
-        .call();
+        let (lowest, least) = front.signs(&C);
         let ends = along(&samples[0]).min(along(&samples[2]));
         assert!(
             (lowest - ends.min(0.0)).abs() < 1e-12,
@@ -137,14 +129,7 @@ fn the_signs_are_those_of_the_samples() {
     }
     // Equal ends, and only α deviates, to where it brakes: the bound is reached.
     let (front, samples) = front(&[[[1.0, 20.0, 10.0], [-60.0, 20.0, 10.0], [1.0, 20.0, 10.0]]]);
-    let mut least = [0.0; WIDTH];
-    let front = &front;
-    Signs {
-        front,
-        c: &C,
-        least: &mut least,
-    }
-    .call();
+    let (_, least) = front.signs(&C);
     assert!(
         (least[0] - along(&samples[1])).abs() < 1e-12,
         "{}",
@@ -153,13 +138,7 @@ fn the_signs_are_those_of_the_samples() {
     // Nothing deviates, and the ends differ: the bound is the lower one.
     let (front, samples) =
         self::front(&[[[1.0, 20.0, 10.0], [3.0, 25.0, 11.0], [5.0, 30.0, 12.0]]]);
-    let mut least = [0.0; WIDTH];
-    Signs {
-        front: &front,
-        c: &C,
-        least: &mut least,
-    }
-    .call();
+    let (_, least) = front.signs(&C);
     assert!(
         (least[0] - along(&samples[0])).abs() < 1e-12,
         "{}",
