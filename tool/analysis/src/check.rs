@@ -31,20 +31,17 @@ pub fn check(unchecked: Unchecked) -> Result<MachineFile> {
 /// Checks that the reduced inertia is positive at every angle, including the drive train.
 fn inertia(unchecked: &Unchecked) -> Result<()> {
     let file = unchecked.file();
-    let report = |error: &Error| {
-        let problem = unchecked.in_mechanism(error.to_string(), "in this machine");
-        problem.help(error.cure().to_string())
-    };
+    let report = |error: Error| unchecked.in_mechanism(Problem::of(error), "in this machine");
     let train = file.train_inertia();
     let inertia = |phi: f64| {
-        let reduction = file.bare_reduction(phi).map_err(|error| report(&error))?;
+        let reduction = file.bare_reduction(phi).map_err(report)?;
         Ok(reduction.inertia + train)
     };
     let domain = file.machine.domain();
     let (from, to) = (domain.position(0.0), domain.position(1.0));
     let step = domain.span() / (POSITIONS - 1) as f64;
     let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
-    let all = file.over_range().map_err(|error| report(&error))?;
+    let all = file.over_range().map_err(report)?;
     // A turn ends at its start.
     let (mut before, mut steepest) = (None, 0.0_f64);
     if let (Domain::Turn, Some((_, last))) = (domain, all.last()) {
@@ -95,7 +92,7 @@ fn no_inertia(unchecked: &Unchecked, place: Option<f64>) -> Problem {
         )
     };
     let what = format!("the reduced inertia is zero at {place}");
-    unchecked.in_mechanism(what, "in this machine").help(help)
+    unchecked.in_mechanism(Problem::new(what).help(help), "in this machine")
 }
 
 /// Most passages of the edges of loads and cams in a motion: between any two of them it has separate instants.
@@ -113,7 +110,7 @@ fn passages(unchecked: &Unchecked) -> Result<()> {
     );
     let help =
         "describe one cycle that repeats, or fewer turns; a load without between has no edges";
-    Err(unchecked.in_motion(message, "in this motion").help(help))
+    Err(unchecked.in_motion(Problem::new(message).help(help), "in this motion"))
 }
 
 /// Checks that every cam contact presses and every rope pulls over the whole motion. A cam that guides its follower on both sides needs no check.
@@ -122,11 +119,8 @@ fn contacts(unchecked: &Unchecked) -> Result<()> {
     let Some(motion) = &file.motion else {
         return Ok(());
     };
-    let lost = contact::lost(file, motion).map_err(|error: Error| {
-        unchecked
-            .in_mechanism(error.to_string(), "in this mechanism")
-            .help(error.cure().to_string())
-    })?;
+    let lost = contact::lost(file, motion)
+        .map_err(|error| unchecked.in_mechanism(Problem::of(error), "in this mechanism"))?;
     let Some(lost) = lost else {
         return Ok(());
     };
@@ -140,5 +134,5 @@ fn contacts(unchecked: &Unchecked) -> Result<()> {
     } else {
         "in this cam"
     };
-    Err(unchecked.in_mechanism(message, label).help(parted.cure))
+    Err(unchecked.in_mechanism(Problem::new(message).help(parted.cure), label))
 }

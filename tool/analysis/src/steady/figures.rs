@@ -92,31 +92,41 @@ pub struct Energies {
     pub losses: f64,
 }
 
+/// The nodes of a turn that begins with the speed `begin`, and the indices of those that are rows, at least `positions`.
+fn integrated(
+    turning: &Turning,
+    begin: f64,
+    positions: usize,
+) -> Result<(Vec<(f64, State)>, Vec<usize>), SteadyError> {
+    let finer = FEWEST.div_ceil(positions);
+    let places = turning.places(positions * finer);
+    let mut nodes: Vec<(f64, State)> = Vec::with_capacity(places.len());
+    let mut listed = Vec::new();
+    let mut even = 0usize;
+    for (x, part) in places {
+        let y = match nodes.last() {
+            None => starting(begin),
+            Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
+                Reached::End(y) => y,
+                // A fixed point just above a standstill is not a cycle.
+                Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
+            },
+        };
+        if part {
+            if even.is_multiple_of(finer) {
+                listed.push(nodes.len());
+            }
+            even += 1;
+        }
+        nodes.push((x, y));
+    }
+    Ok((nodes, listed))
+}
+
 impl Figures {
     /// The turn that begins with the speed `begin`, with at least `positions` rows.
     pub(super) fn of(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
-        let finer = FEWEST.div_ceil(positions);
-        let places = turning.places(positions * finer);
-        let mut nodes: Vec<(f64, State)> = Vec::with_capacity(places.len());
-        let mut listed = Vec::new();
-        let mut even = 0usize;
-        for (x, part) in places {
-            let y = match nodes.last() {
-                None => starting(begin),
-                Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
-                    Reached::End(y) => y,
-                    // A fixed point just above a standstill is not a cycle.
-                    Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
-                },
-            };
-            if part {
-                if even.is_multiple_of(finer) {
-                    listed.push(nodes.len());
-                }
-                even += 1;
-            }
-            nodes.push((x, y));
-        }
+        let (nodes, listed) = integrated(turning, begin, positions)?;
         let fastest = extreme_speed(turning, &nodes, begin, 1.0)?;
         let slowest = extreme_speed(turning, &nodes, begin, -1.0)?;
         let Some((_, [_, period, motor, process, losses, torques, squares])) =

@@ -2,7 +2,7 @@
 
     pip install -r requirements.txt
     python cross_check.py JRED            compare only
-    python cross_check.py JRED --write    and write the results, which `cargo test -p jred-machine cross_check` reads
+    python cross_check.py JRED --write    and write the results, which `cargo test -p jred-analysis cross_check` reads
 
 JRED is the built command, such as target/debug/jred. The machine file gives dimensions and loads; joints, equations and signs are stated here anew.
 Exit status 1 if a figure violates the tolerance, 2 if JRED is not given or not there.

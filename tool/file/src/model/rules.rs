@@ -1,6 +1,6 @@
 //! A rule set: the rules that are checked, with their limits and sources.
 //!
-//! The built-in sets are files of `tool/machine/rules`; `docs/sizing-rules.md` lists them with their sources.
+//! The built-in sets are files of `tool/file/rules`; `docs/sizing-rules.md` lists them with their sources.
 
 use serde::Serialize;
 

@@ -84,11 +84,7 @@ pub(super) fn read(
                 loads.push(NamedLoad { name, load });
                 Ok(machine.with_load(load)?)
             })
-            .map_err(|error| {
-                section
-                    .problem(error.to_string(), "in this machine")
-                    .help(error.cure().to_string())
-            })?;
+            .map_err(|error| section.error(error, "in this machine"))?;
         carriages.push(carriage);
     }
     Ok((machine, carriages))

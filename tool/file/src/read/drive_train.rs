@@ -73,8 +73,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
         }
         fits(&item, linear.as_ref(), drive, stages.is_empty())?;
     }
-    DriveTrain::new(stage::train(stages)?, branches)
-        .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))
+    DriveTrain::new(stage::train(stages)?, branches).map_err(Problem::of)
 }
 
 /// A shaft beside the chain, driven by the shaft before or after a stage.

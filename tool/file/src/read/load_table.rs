@@ -47,11 +47,9 @@ pub(super) fn read(
         turns = least_common_multiple(turns, own);
         let stand_ins = table(section, &mechanism, drive, (gravity, own), files)?;
         let first = mechanism.own_loads().len();
-        mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
-            section
-                .problem(format!("{}: {error}", section.title()), "this table")
-                .help(error.cure().to_string())
-        })?;
+        mechanism = mechanism
+            .with_stand_ins(&stand_ins)
+            .map_err(|error| section.titled(error, "this table"))?;
         if mechanism.own_loads().len() > MAX_LOADS {
             return Err(section
                 .problem(format!("more than {MAX_LOADS} loads"), "one too many")

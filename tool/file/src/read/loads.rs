@@ -152,11 +152,7 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     effect.check(mechanism, &item)?;
     let mut load = Load::new(link, action)
         .and_then(|load| load.at(point))
-        .map_err(|error| {
-            section
-                .problem(error.to_string(), "in this load")
-                .help(error.cure().to_string())
-        })?;
+        .map_err(|error| section.error(error, "in this load"))?;
     if let Some(window) = window {
         load = load.within(window);
     }

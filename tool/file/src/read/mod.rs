@@ -135,14 +135,14 @@ impl Unchecked {
         &self.file
     }
 
-    /// A problem of the mechanism, at its header.
-    pub fn in_mechanism(&self, message: impl Into<String>, label: &str) -> Problem {
-        Problem::new(message).at(self.mechanism.clone(), label)
+    /// Marks the header of the mechanism.
+    pub fn in_mechanism(&self, problem: Problem, label: &str) -> Problem {
+        problem.at(self.mechanism.clone(), label)
     }
 
-    /// A problem of the motion, at its header.
-    pub fn in_motion(&self, message: impl Into<String>, label: &str) -> Problem {
-        Problem::new(message).at(self.motion.clone(), label)
+    /// Marks the header of the motion.
+    pub fn in_motion(&self, problem: Problem, label: &str) -> Problem {
+        problem.at(self.motion.clone(), label)
     }
 }
 
@@ -219,11 +219,8 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
     let gravity = gravity(&root)?;
     let section = root.section("mechanism")?;
     let (mechanism, flywheel) = mechanism::read(&section, gravity, files)?;
-    let drive_link = DriveLink::of(&mechanism).map_err(|error| {
-        section
-            .problem(error.to_string(), "in this mechanism")
-            .help(error.cure().to_string())
-    })?;
+    let drive_link =
+        DriveLink::of(&mechanism).map_err(|error| section.error(error, "in this mechanism"))?;
     if let (true, Some(item)) = (
         drive_link.slides() && flywheel > 0.0,
         section.peek("flywheel"),
@@ -241,11 +238,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
     let variator = variator::read(&root, drive_link)?;
     let machine = loaded(mechanism, &loads, &elements)
         .and_then(|m| Ok(m.with_gravity(gravity)?.with_flywheel(flywheel)?))
-        .map_err(|error| {
-            section
-                .problem(error.to_string(), "in this machine")
-                .help(error.cure().to_string())
-        })?;
+        .map_err(|error| section.error(error, "in this machine"))?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
     let moved = motion.as_ref();
     let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, moved)?;

@@ -90,10 +90,8 @@ pub(super) fn read(
     if scheduled.is_empty() && payloads.is_empty() && carriages.is_empty() {
         return Ok(Schedule::default());
     }
-    Schedule::new(machine, (scheduled, payloads, carriages), motion).map_err(|error| {
-        root.problem(error.to_string(), "in this machine")
-            .help(error.cure().to_string())
-    })
+    Schedule::new(machine, (scheduled, payloads, carriages), motion)
+        .map_err(|error| root.error(error, "in this machine"))
 }
 
 /// A load of the schedule.

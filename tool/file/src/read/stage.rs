@@ -150,7 +150,7 @@ pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Pla
         let efficiency = last.stage.efficiency();
         last.stage = Stage::new(last.stage.ratio(), [driver, driven + inertia])
             .and_then(|stage| stage.with_efficiency(efficiency))
-            .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))?;
+            .map_err(Problem::of)?;
     }
     Ok(stages)
 }
@@ -242,12 +242,9 @@ pub(super) fn train(stages: Vec<Placed>) -> Result<Train> {
         );
     }
     let stages: Vec<Stage> = stages.into_iter().map(|placed| placed.stage).collect();
-    Train::new(&stages)
-        .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))
+    Train::new(&stages).map_err(Problem::of)
 }
 
 fn core(section: &Section, error: RangeError) -> Problem {
-    section
-        .problem(format!("{}: {error}", section.title()), "in this stage")
-        .help(error.cure().to_string())
+    section.titled(error, "in this stage")
 }

@@ -236,11 +236,7 @@ fn creep(item: &Item) -> Result<Slip> {
         torque,
     })
     .map(|contact| Slip::Creep(Adhesion::Line(contact)))
-    .map_err(|error| {
-        section
-            .problem(error.to_string(), "in this table")
-            .help(error.cure().to_string())
-    })
+    .map_err(|error| section.error(error, "in this table"))
 }
 
 /// `curve = [["0.5 %", "12 N m"], …]`: slip over the torque at the contact.
@@ -305,9 +301,7 @@ fn add(course: &mut Ratio, section: &Section) -> Result<()> {
         None => Law::Polynomial345,
     };
     section.finish()?;
-    course.shift(at.si, duration, to, law).map_err(|error| {
-        section
-            .problem(error.to_string(), "in this shift")
-            .help(error.cure().to_string())
-    })
+    course
+        .shift(at.si, duration, to, law)
+        .map_err(|error| section.error(error, "in this shift"))
 }

@@ -41,6 +41,12 @@ impl Problem {
         }))
     }
 
+    /// The problem of an error of the core, with its cure.
+    pub fn of(error: impl Into<jred::Error>) -> Self {
+        let error = error.into();
+        Self::new(error.to_string()).help(error.cure().to_string())
+    }
+
     /// Marks a place in the text.
     #[must_use]
     pub fn at(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
@@ -48,10 +54,10 @@ impl Problem {
         self
     }
 
-    /// Adds the cure.
+    /// Adds the cure; an empty one is none.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.0.help = Some(help.into());
+        self.0.help = Some(help.into()).filter(|help| !help.is_empty());
         self
     }
 

@@ -95,11 +95,9 @@ fn element(
             .help("name the two bodies alone, such as between = [\"ground\", \"rocker\"]"));
     }
     let markers = [ends[0].marker, ends[1].marker];
-    let element = law.element(markers).map_err(|error| {
-        section
-            .problem(error.to_string(), &format!("in this {key}"))
-            .help(error.cure().to_string())
-    })?;
+    let element = law
+        .element(markers)
+        .map_err(|error| section.error(error, &format!("in this {key}")))?;
     Survey {
         section,
         between: &between,

@@ -28,11 +28,9 @@ pub(super) struct Survey<'a> {
 impl Survey<'_> {
     pub(super) fn check(&self, element: &Element, mechanism: &AnyMechanism) -> Result<()> {
         let length = |phi: f64| -> Result<Transfer> {
-            let frames = mechanism.frames(phi).map_err(|error| {
-                self.section
-                    .problem(error.to_string(), "in this mechanism")
-                    .help(error.cure().to_string())
-            })?;
+            let frames = mechanism
+                .frames(phi)
+                .map_err(|error| self.section.error(error, "in this mechanism"))?;
             Ok(element.length(&frames))
         };
         let domain = mechanism.domain();

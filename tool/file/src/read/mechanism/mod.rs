@@ -336,10 +336,5 @@ fn link(section: &Section) -> Result<Link> {
 
 /// An error of the core without a key to show it at.
 fn core(section: &Section, error: impl Into<Error>) -> Problem {
-    let error = error.into();
-    let problem = section.problem(format!("{}: {error}", section.title()), "in this table");
-    match error.cure().to_string() {
-        cure if cure.is_empty() => problem,
-        cure => problem.help(cure),
-    }
+    section.titled(error, "in this table")
 }

@@ -145,11 +145,8 @@ pub(in crate::read) fn difference(
     start: f64,
     way: f64,
 ) -> Result<Option<Difference>> {
-    repeats::difference(prescribed.machine, prescribed.advance(start, way)).map_err(|error| {
-        section
-            .problem(error.to_string(), "in this motion")
-            .help(error.cure().to_string())
-    })
+    repeats::difference(prescribed.machine, prescribed.advance(start, way))
+        .map_err(|error| section.error(error, "in this motion"))
 }
 
 /// "J_red is 0.12 kg m^2 at φ = 40 deg, and 0.13 kg m^2 a cycle later"

@@ -55,8 +55,7 @@ pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> 
     join::resolve(&written, &mut segments, start, prescribed);
     let motion = Motion::segments(start, &segments, cyclic).map_err(|(index, error)| {
         let part = parts.get(index).unwrap_or(section);
-        part.problem(format!("{}: {error}", part.title()), "this segment")
-            .help(error.cure().to_string())
+        part.titled(error, "this segment")
     })?;
     let motion = prescribed.of_tool(motion);
     chain.check_stroke(&motion, prescribed.drive)?;

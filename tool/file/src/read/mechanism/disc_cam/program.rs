@@ -276,7 +276,6 @@ fn problem(
             .at(part(next).header(), label(to))
             .help("put a segment with law = \"polynomial-5\" between them: it takes its end velocities from its neighbours")
         }
-        _ => (section.problem(error.to_string(), "in this cam program"))
-            .help(error.cure().to_string()),
+        _ => section.error(*error, "in this cam program"),
     }
 }
