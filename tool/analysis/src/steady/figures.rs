@@ -58,7 +58,7 @@ pub struct Figures {
     pub course: Columns,
     /// z = ½ω² at equal positions over the turn.
     #[serde(skip)]
-    pub(super) nodes: Vec<(f64, State)>,
+    pub(super) nodes: Nodes,
 }
 
 /// Torque of the motor over a cycle (N·m).
@@ -92,15 +92,18 @@ pub struct Energies {
     pub losses: f64,
 }
 
+/// States over the position.
+type Nodes = Vec<(f64, State)>;
+
 /// The nodes of a turn that begins with the speed `begin`, and the indices of those that are rows, at least `positions`.
 fn integrated(
     turning: &Turning,
     begin: f64,
     positions: usize,
-) -> Result<(Vec<(f64, State)>, Vec<usize>), SteadyError> {
+) -> Result<(Nodes, Vec<usize>), SteadyError> {
     let finer = FEWEST.div_ceil(positions);
     let places = turning.places(positions * finer);
-    let mut nodes: Vec<(f64, State)> = Vec::with_capacity(places.len());
+    let mut nodes = Nodes::with_capacity(places.len());
     let mut listed = Vec::new();
     let mut even = 0usize;
     for (x, part) in places {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::reader;
-use crate::support::{budget, press_file};
+use crate::support::{budget, shipped};
 use jred_analysis::duty::{Duty, Instant, LEAST_TOLERANCE, Sampling};
 
 /// The integrands that figures are made of.
@@ -26,7 +26,7 @@ const INTEGRANDS: [fn(&Instant) -> f64; 14] = [
 
 #[test]
 fn every_machine_has_the_integrals_of_a_smaller_tolerance() {
-    let folder = press_file();
+    let folder = shipped("press.toml");
     let folder = folder.parent().unwrap();
     let mut machines = 0;
     for entry in std::fs::read_dir(folder).unwrap() {

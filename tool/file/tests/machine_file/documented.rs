@@ -43,7 +43,7 @@ fn every_type_of_mechanism_has_a_page_an_example_and_a_machine() {
 
     let mut shown = BTreeSet::new();
     let pages = files("docs/mechanisms", "md");
-    let others = files("docs", "md");
+    let others = [files("docs", "md"), files("docs/commands", "md")].concat();
     for page in pages.iter().chain(&others) {
         let text = fs::read_to_string(page).unwrap();
         for example in blocks(&text, "toml\n") {
