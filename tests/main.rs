@@ -76,3 +76,4 @@ mod there_and_back;
 mod toggle_press;
 mod transfer;
 mod unfold;
+mod words;

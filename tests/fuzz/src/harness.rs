@@ -22,6 +22,7 @@ use jred_file::number::columns::Columns;
 use jred_report::list::inspection;
 use jred_report::table::output::{Format as Sheet, write};
 use jred_report::table::rows::RowFormat;
+use jred_report::table::screen::Screen;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::fit_input;
@@ -278,9 +279,10 @@ fn computed(text: &str, files: &BTreeMap<String, String>) -> bool {
         written(&found.columns);
     }
     if let Ok(findings) = Findings::of(&file) {
-        let json = inspection::json(&findings).to_string();
-        sound(&json);
-        sound(&inspection::text(&findings));
+        let answer = inspection::answer(&findings);
+        for format in [Sheet::Json, Sheet::Table] {
+            sound(&answer.write(format, Screen::default()).collect::<String>());
+        }
     }
     sized(&file);
     true

@@ -16,7 +16,7 @@ mod sizings;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::support::Folder;
+use crate::support::{Folder, press_text};
 
 /// A catalogue that is small enough to be read: two motors, two gearboxes, all that the built-in tables say of them.
 const MOTORS: [&str; 2] = ["sgmsh-15a", "sgmsh-30a"];
@@ -48,6 +48,9 @@ impl Desk {
 
     /// The text of one of the machine files that users start from.
     fn machine(name: &str) -> String {
+        if name == "press.toml" {
+            return press_text();
+        }
         let file = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../machines")
             .join(name);

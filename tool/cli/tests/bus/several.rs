@@ -85,7 +85,7 @@ fn three_axes() {
     assert_eq!(answer["worst"]["exhaustive"], Value::Bool(false));
     says(
         &bus(&four, &[]),
-        &["4. Servo press", "may miss a worse phase"],
+        &["axis 4 Servo press", "may miss a worse phase"],
     );
 }
 

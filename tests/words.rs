@@ -1,0 +1,87 @@
+//! The words of comments, documents and messages: what the glossary lists under "What we do not write" is counted, below ceilings that
+//! only fall.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A phrase (lower case), and how often it may be in comments, documents and messages: those of the snapshots, as a user reads them.
+const CEILINGS: [(&str, [usize; 3]); 14] = [
+    ("// what ", [300, 0, 0]),
+    ("no number", [20, 1, 0]),
+    ("is none", [20, 1, 0]),
+    ("are none", [20, 1, 0]),
+    ("for ever", [10, 1, 0]),
+    ("for want of", [0, 1, 0]),
+    ("looked at", [15, 1, 0]),
+    (" a hair", [6, 1, 0]),
+    ("of itself", [10, 1, 0]),
+    ("so many", [40, 1, 0]),
+    ("whichever", [15, 1, 0]),
+    ("sought", [10, 1, 0]),
+    ("mind: ", [0, 1, 0]),
+    ("stands beside", [2, 1, 0]),
+];
+
+/// A count may be this much below its ceiling; then the ceiling must fall.
+const SLACK: usize = 4;
+
+fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy();
+        if name.starts_with('.') || name == "target" || name == "vendor" {
+            continue;
+        }
+        if path.is_dir() {
+            files(&path, end, found);
+        } else if name.ends_with(end) && name != "words.rs" {
+            found.push(path);
+        }
+    }
+}
+
+/// The lines of all files with this ending that `keeps` accepts, in lower case.
+fn lines(root: &Path, end: &str, keeps: fn(&str) -> bool) -> Vec<String> {
+    let mut found = Vec::new();
+    files(root, end, &mut found);
+    let texts = found.iter().map(|path| fs::read_to_string(path).unwrap());
+    let lines = texts.flat_map(|text| {
+        let lines = text.lines().map(|line| line.trim_start().to_lowercase());
+        lines.filter(|line| keeps(line)).collect::<Vec<_>>()
+    });
+    lines.collect()
+}
+
+#[test]
+fn nobody_writes_the_dialect() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if !root.join("docs").is_dir() {
+        return; // in the published package, which has no documents
+    }
+    let comments = lines(root, ".rs", |line| line.starts_with("//"));
+    // `//! What`, `/// What` and `// What` are one.
+    let comments: Vec<String> = comments
+        .iter()
+        .map(|line| line.replace("//! ", "// ").replace("/// ", "// "))
+        .collect();
+    let documents = lines(root, ".md", |_| true);
+    let messages = lines(root, ".snap", |_| true);
+    assert!(comments.len() > 5000 && documents.len() > 2000 && messages.len() > 5000);
+    let mut wrong = Vec::new();
+    for (phrase, ceilings) in CEILINGS {
+        for (place, (lines, ceiling)) in ["comments", "documents", "messages"]
+            .iter()
+            .zip([&comments, &documents, &messages].into_iter().zip(ceilings))
+        {
+            let count = lines.iter().filter(|line| line.contains(phrase)).count();
+            if count > ceiling {
+                wrong.push(format!("{phrase:?} is in {count} lines of {place}, above {ceiling}: docs/glossary.md has better words"));
+            } else if count + SLACK < ceiling {
+                wrong.push(format!(
+                    "{phrase:?} is in {count} lines of {place} only: lower the ceiling of {ceiling}"
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
